@@ -1,0 +1,3 @@
+//! `vestimate`
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! `vextract`
+
+fn main() {}

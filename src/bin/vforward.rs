@@ -1,0 +1,3 @@
+//! `vforward`
+
+fn main() {}

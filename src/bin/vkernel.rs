@@ -1,0 +1,3 @@
+//! `vkernel`
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! `vscore`
+
+fn main() {}

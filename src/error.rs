@@ -1,0 +1,103 @@
+//! Every error of the five tools: where it is, what is wrong, what to do.
+
+use std::io;
+
+/// What can go wrong, in one line a user can act on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    // ---- command line (exit status 2) ----
+    /// A flag's value is outside what the tool can do.
+    #[error("{flag}: {problem}; {remedy}")]
+    Usage {
+        /// The flag, with its dashes.
+        flag: &'static str,
+        /// What is wrong with the value.
+        problem: String,
+        /// What to write instead.
+        remedy: String,
+    },
+
+    // ---- files ----
+    /// A file cannot be opened, read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file, `-` for standard input or output.
+        path: String,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// Standard output cannot be written.
+    #[error("standard output: {0}")]
+    Output(#[source] io::Error),
+
+    // ---- the stream ----
+    /// A line of the stream is not a record.
+    #[error("{path}:{line}: {problem}; {remedy}")]
+    Record {
+        /// The stream's file, `-` for standard input.
+        path: String,
+        /// Line number, from 1.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A record lacks a field, or the field does not hold what it should.
+    #[error("field '{field}': {problem}")]
+    Field {
+        /// The field's path in the record.
+        field: String,
+        /// What is wrong, and what to do.
+        problem: String,
+    },
+    /// An NPY array cannot be used.
+    #[error("{path}: {problem}")]
+    Array {
+        /// The NPY file.
+        path: String,
+        /// What is wrong, and what to do.
+        problem: String,
+    },
+
+    // ---- numbers ----
+    /// A computation cannot give a meaningful number.
+    #[error("{0}")]
+    Numeric(String),
+}
+
+impl Error {
+    /// The exit status that belongs to this error: 2 for wrong usage, 1 for bad data or I/O.
+    #[must_use]
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Usage { .. } => 2,
+            _ => 1,
+        }
+    }
+
+    /// Whether the reader of our output has gone, which is no failure of ours.
+    #[must_use]
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// An I/O error with the file it happened to.
+    pub fn file(path: impl std::fmt::Display, source: io::Error) -> Self {
+        Self::File { path: path.to_string(), source }
+    }
+
+    /// A record's field with what is wrong with it.
+    pub fn field(field: impl Into<String>, problem: impl std::fmt::Display) -> Self {
+        Self::Field { field: field.into(), problem: problem.to_string() }
+    }
+
+    /// A flag with what is wrong with its value and what to write instead.
+    pub fn usage(flag: &'static str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Usage { flag, problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
+/// A result whose error is the tools' own.
+pub type Result<T> = std::result::Result<T, Error>;
