@@ -1,0 +1,92 @@
+//! From the spectrum of light to the numbers of a camera.
+
+use crate::error::{Error, Result};
+use crate::spectrum::WavelengthGrid;
+
+/// What each channel of a camera makes of each waveband under one illuminant.
+///
+/// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, the trapezoid rule over the grid included, scaled so that a perfect white
+/// diffuser facing the light gives 1 in the reference channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraResponse {
+    weights: Vec<Vec<f64>>,
+    reference_channel: usize,
+}
+
+impl CameraResponse {
+    /// The response of `sensitivities` (channel by waveband) to `illuminant` (power a waveband) on `grid`; the reference
+    /// channel is the one that white drives most.
+    ///
+    /// # Source
+    /// Deeb et al., eqs. (17) and (18).
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if a channel sees nothing of the illuminant.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::camera::CameraResponse;
+    /// use vfold::spectrum::WavelengthGrid;
+    /// let grid = WavelengthGrid::uniform(400.0, 700.0, 100.0)?;
+    /// let response = CameraResponse::new(&grid, &[vec![1.0; 4], vec![0.5; 4]], &[1.0; 4])?;
+    /// assert_eq!(response.white(), [1.0, 0.5]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn new(grid: &WavelengthGrid, sensitivities: &[Vec<f64>], illuminant: &[f64]) -> Result<Self> {
+        let response = Self::unscaled(grid, sensitivities, illuminant);
+        let white = response.white();
+        if let Some(blind) = white.iter().position(|white| !(*white > 0.0 && white.is_finite())) {
+            return Err(Error::Numeric(format!(
+                "channel {blind} of the camera sees nothing of the illuminant on {grid}; check both spectra"
+            )));
+        }
+        let strongest = (0..white.len()).max_by(|a, b| white[*a].total_cmp(&white[*b])).unwrap_or(0);
+        Ok(response.with_reference(strongest))
+    }
+
+    /// The response to another light, scaled to give 1 in this response's reference channel.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if that channel sees nothing of it.
+    pub fn to_other_light(&self, grid: &WavelengthGrid, sensitivities: &[Vec<f64>], light: &[f64]) -> Result<Self> {
+        let other = Self::unscaled(grid, sensitivities, light).with_reference(self.reference_channel);
+        if other.white().iter().all(|white| white.is_finite()) {
+            Ok(other)
+        } else {
+            Err(Error::Numeric("the camera sees nothing of the sky's light; check --sky-illuminant".to_owned()))
+        }
+    }
+
+    fn unscaled(grid: &WavelengthGrid, sensitivities: &[Vec<f64>], light: &[f64]) -> Self {
+        let width = grid.trapezoid_weights_nm();
+        let channel = |sensitivity: &Vec<f64>| {
+            sensitivity.iter().zip(light).zip(&width).map(|((c, i), w)| c * i * w).collect()
+        };
+        Self { weights: sensitivities.iter().map(channel).collect(), reference_channel: 0 }
+    }
+
+    fn with_reference(mut self, channel: usize) -> Self {
+        let scale = self.white()[channel].recip();
+        self.weights.iter_mut().flatten().for_each(|weight| *weight *= scale);
+        self.reference_channel = channel;
+        self
+    }
+
+    /// Channel values of a perfect white diffuser facing the light.
+    #[must_use]
+    pub fn white(&self) -> Vec<f64> {
+        self.weights.iter().map(|channel| channel.iter().sum()).collect()
+    }
+
+    /// Number of channels.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.weights.len()
+    }
+
+    /// Weights of one channel, a number a waveband.
+    #[must_use]
+    pub fn channel(&self, channel: usize) -> &[f64] {
+        &self.weights[channel]
+    }
+}

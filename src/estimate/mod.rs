@@ -1,0 +1,36 @@
+//! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
+
+pub mod data;
+pub mod map;
+pub mod prior;
+pub mod smooth;
+
+use crate::solve::Termination;
+
+/// How the exposure of the picture enters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exposure {
+    /// Known: a perfect white diffuser facing the sun has this value in its strongest channel.
+    Known(f64),
+    /// Unknown: the exposure that fits best, for every spectrum tried (variable projection, Golub and Pereyra 1973).
+    Free,
+    /// Unknown: picture and model are divided by their sums, as the paper does (section 5D).
+    Sum,
+}
+
+/// An estimated spectrum and how it was reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Reflectance a waveband, in (0, 1].
+    pub reflectance: Vec<f64>,
+    /// Standard deviation of each; none from a method that has no model of its error.
+    pub reflectance_sd: Option<Vec<f64>>,
+    /// Exposure: as known, or as found.
+    pub exposure: f64,
+    /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
+    pub residual_rms: f64,
+    /// Iterations.
+    pub iterations: u32,
+    /// Why the solver stopped.
+    pub termination: Termination,
+}

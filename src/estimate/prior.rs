@@ -1,0 +1,86 @@
+//! What is known of reflectances before a picture is taken.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use crate::error::{Error, Result};
+
+/// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
+const MARGIN: f64 = 2e-3;
+/// Correlation length and standard deviation, in logit, of what spectra do that the training set does not.
+const MATERN_LENGTH_NM: f64 = 40.0;
+const MATERN_SD: f64 = 0.3;
+
+/// A Gaussian prior of the logit of reflectance, `z = ln(r/(1 − r))`: mean, and a factor of its covariance.
+///
+/// In logit every value is a legal reflectance, and the covariance of a set of paints or dyes spreads evenly.
+#[derive(Clone, Debug)]
+pub struct Prior {
+    mean: DVector<f64>,
+    /// Lower triangular; its product with its transpose is the covariance.
+    factor: DMatrix<f64>,
+}
+
+impl Prior {
+    /// Mean and covariance of a set of spectra on `wavelengths_nm`, and a short-range Matérn 5/2 term (40 nm, 0.3 in logit)
+    /// for what the set does not contain.
+    ///
+    /// # Source
+    /// Rasmussen and Williams, *Gaussian Processes for Machine Learning* (2006), eq. (4.17).
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] with fewer than two spectra, or one that is not as long as the grid.
+    pub fn from_spectra(wavelengths_nm: &[f64], spectra: &[Vec<f64>]) -> Result<Self> {
+        let bands = wavelengths_nm.len();
+        if spectra.len() < 2 || spectra.iter().any(|spectrum| spectrum.len() != bands) {
+            return Err(Error::Numeric(format!("a prior needs two spectra or more of {bands} wavebands each")));
+        }
+        let count = spectra.len() as f64;
+        let mut logits = DMatrix::from_fn(bands, spectra.len(), |band, n| logit(spectra[n][band]));
+        let mean = logits.column_mean();
+        logits.column_iter_mut().for_each(|mut column| column -= &mean);
+        let mut covariance = &logits * logits.transpose() / (count - 1.0);
+        for (i, a) in wavelengths_nm.iter().enumerate() {
+            for (j, b) in wavelengths_nm.iter().enumerate() {
+                covariance[(i, j)] += matern_5_2(a - b);
+            }
+        }
+        let factor = Cholesky::new(covariance)
+            .ok_or_else(|| Error::Numeric("the covariance of the prior's spectra is not positive".to_owned()))?;
+        Ok(Self { mean, factor: factor.unpack() })
+    }
+
+    /// Logit of reflectance at whitened coordinates `w`, each standard normal under the prior.
+    #[must_use]
+    pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
+        &self.mean + &self.factor * w
+    }
+
+    /// Factor of the covariance: derivative of the logits by the whitened coordinates.
+    #[must_use]
+    pub fn factor(&self) -> &DMatrix<f64> {
+        &self.factor
+    }
+
+    /// Number of wavebands.
+    #[must_use]
+    pub fn bands(&self) -> usize {
+        self.mean.len()
+    }
+}
+
+/// Logit of a reflectance, kept off the ends of its range.
+fn logit(r: f64) -> f64 {
+    let r = r.clamp(MARGIN, 1.0 - MARGIN);
+    (r / (1.0 - r)).ln()
+}
+
+/// Reflectance of a logit.
+#[must_use]
+pub fn logistic(z: f64) -> f64 {
+    1.0 / (1.0 + (-z).exp())
+}
+
+fn matern_5_2(distance_nm: f64) -> f64 {
+    let x = 5.0_f64.sqrt() * distance_nm.abs() / MATERN_LENGTH_NM;
+    MATERN_SD * MATERN_SD * (1.0 + x + x * x / 3.0) * (-x).exp()
+}

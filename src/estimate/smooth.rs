@@ -1,0 +1,94 @@
+//! The paper's estimator: least squares and smoothness within bounds.
+//!
+//! Deeb et al., eq. (36), minimised by an interior point method as in the paper's section 4B.
+
+use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessian, State, TerminationReason, TerminationStatus};
+use nalgebra::{DMatrix, DVector};
+
+use super::Estimate;
+use super::data::FacetData;
+use crate::error::{Error, Result};
+use crate::solve::Termination;
+use crate::solve::interior_point::InteriorPoint;
+
+const TOLERANCE: f64 = 1e-9;
+const ITERATION_LIMIT: u64 = 300;
+
+/// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the spectrum
+/// (step: one waveband), with every reflectance in (0, 1].
+///
+/// `start` is the reflectance, the same in every waveband, from which it sets out.
+///
+/// # Errors
+/// [`Error::Numeric`] if the solver fails.
+pub fn estimate(data: &FacetData, bands: usize, smoothness: f64, start: f64) -> Result<Estimate> {
+    let objective = Objective { data, penalty: smoothness * second_difference_gram(bands) };
+    let solver = InteriorPoint::new(0.0, 1.0, TOLERANCE);
+    let run = Executor::new(objective, solver)
+        .configure(|state| state.param(DVector::from_element(bands, start)).max_iters(ITERATION_LIMIT))
+        .timer(false)
+        .run()
+        .map_err(|e| Error::Numeric(format!("interior point: {e}")))?;
+    let gradient_norm = run.solver().violation();
+    let state = run.state();
+    let termination = match state.get_termination_status() {
+        TerminationStatus::Terminated(TerminationReason::SolverConverged) => Termination::Converged { gradient_norm },
+        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Termination::IterationLimit,
+        _ => Termination::NoProgress { gradient_norm },
+    };
+    let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
+    let at = data.residuals(&reflectance);
+    Ok(Estimate {
+        reflectance_sd: None,
+        exposure: at.exposure,
+        residual_rms: data.rms(&at.residuals),
+        iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
+        termination,
+        reflectance,
+    })
+}
+
+/// `DᵀD` of the second differences D.
+fn second_difference_gram(bands: usize) -> DMatrix<f64> {
+    let differences = DMatrix::from_fn(bands.saturating_sub(2), bands, |i, j| match j.wrapping_sub(i) {
+        0 | 2 => 1.0,
+        1 => -2.0,
+        _ => 0.0,
+    });
+    differences.tr_mul(&differences)
+}
+
+/// Eq. (36) with Gauss and Newton's curvature.
+struct Objective<'a> {
+    data: &'a FacetData<'a>,
+    penalty: DMatrix<f64>,
+}
+
+impl CostFunction for Objective<'_> {
+    type Param = DVector<f64>;
+    type Output = f64;
+
+    fn cost(&self, r: &DVector<f64>) -> std::result::Result<f64, SolverError> {
+        Ok(self.data.residuals(r.as_slice()).residuals.norm_squared() + r.dot(&(&self.penalty * r)))
+    }
+}
+
+impl Gradient for Objective<'_> {
+    type Param = DVector<f64>;
+    type Gradient = DVector<f64>;
+
+    fn gradient(&self, r: &DVector<f64>) -> std::result::Result<DVector<f64>, SolverError> {
+        let at = self.data.residuals(r.as_slice());
+        Ok(2.0 * (&self.penalty * r - at.jacobian.tr_mul(&at.residuals)))
+    }
+}
+
+impl Hessian for Objective<'_> {
+    type Param = DVector<f64>;
+    type Hessian = DMatrix<f64>;
+
+    fn hessian(&self, r: &DVector<f64>) -> std::result::Result<DMatrix<f64>, SolverError> {
+        let at = self.data.residuals(r.as_slice());
+        Ok(2.0 * (at.jacobian.tr_mul(&at.jacobian) + &self.penalty))
+    }
+}

@@ -1,0 +1,107 @@
+//! Collimated light on a fold, and a uniform sky.
+
+use crate::error::{Error, Result};
+use crate::geometry::Fold;
+
+/// The sun, square to the crease, and a uniform sky.
+///
+/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky` from the sky.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    tilt_deg: f64,
+    slant_deg: f64,
+    sky: f64,
+    panel_irradiance: [f64; 2],
+}
+
+impl Light {
+    /// Light on `fold` from `tilt_deg` off its bisecting plane (positive: the sun leans over panel 1 and lights panel 0
+    /// more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the sun's irradiance.
+    ///
+    /// # Errors
+    /// A tilt that leaves a panel unlit, a slant of 90° or more, or a negative sky.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::geometry::{FacetGrid, Fold, Light};
+    /// let fold = Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
+    /// let light = Light::new(&fold, 0.0, 0.0, 0.0)?;
+    /// assert!((light.panel_irradiance()[0] - 0.5_f64.sqrt()).abs() < 1e-15); // cos 45°
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn new(fold: &Fold, tilt_deg: f64, slant_deg: f64, sky: f64) -> Result<Self> {
+        let half = fold.angle_deg() / 2.0;
+        // Beyond half the opening one panel shades the other; at a slant no panel is shaded as long as both face the sun.
+        if !(tilt_deg.abs() < half) {
+            return Err(Error::usage(
+                "--tilt-deg",
+                format!("{tilt_deg} leaves a panel of a {}° fold in the shade", fold.angle_deg()),
+                format!("give degrees between {:?} and {half:?}", -half),
+            ));
+        }
+        if !(slant_deg.abs() < 90.0) {
+            return Err(Error::usage(
+                "--slant-deg",
+                format!("{slant_deg} puts the sun along the crease or below it"),
+                "give degrees between -90 and 90",
+            ));
+        }
+        if !(0.0..=1e6).contains(&sky) {
+            return Err(Error::usage(
+                "--sky",
+                format!("{sky} is not a share of the sun's irradiance"),
+                "give a number from 0 (no sky)",
+            ));
+        }
+        let slant = slant_deg.to_radians().cos();
+        let panel_irradiance = [tilt_deg, -tilt_deg].map(|tilt| slant * (half + tilt).to_radians().sin());
+        Ok(Self { tilt_deg, slant_deg, sky, panel_irradiance })
+    }
+
+    /// Angle of the sun off the bisecting plane, degrees.
+    #[must_use]
+    pub fn tilt_deg(&self) -> f64 {
+        self.tilt_deg
+    }
+
+    /// Angle of the sun along the crease, degrees.
+    #[must_use]
+    pub fn slant_deg(&self) -> f64 {
+        self.slant_deg
+    }
+
+    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's.
+    #[must_use]
+    pub fn sky(&self) -> f64 {
+        self.sky
+    }
+
+    /// Direct irradiance of the sun on each panel: the cosine of its incidence.
+    #[must_use]
+    pub fn panel_irradiance(&self) -> [f64; 2] {
+        self.panel_irradiance
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::FacetGrid;
+
+    #[test]
+    fn positive_tilt_lights_panel_0_more() {
+        let fold = Fold::new(55.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap();
+        let light = Light::new(&fold, 6.0, 0.0, 0.0).unwrap();
+        let [e0, e1] = light.panel_irradiance();
+        assert!((e0 - 33.5_f64.to_radians().sin()).abs() < 1e-15);
+        assert!((e1 - 21.5_f64.to_radians().sin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_shaded_panel_is_refused() {
+        let fold = Fold::new(40.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap();
+        assert!(Light::new(&fold, 20.0, 0.0, 0.0).is_err());
+        assert!(Light::new(&fold, f64::NAN, 0.0, 0.0).is_err());
+        assert!(Light::new(&fold, 0.0, 0.0, -0.1).is_err());
+    }
+}

@@ -1,0 +1,7 @@
+//! Shapes and the light that falls on them; nothing here knows about reflectance or colour.
+
+pub mod fold;
+pub mod light;
+
+pub use fold::{FacetGrid, Fold};
+pub use light::Light;

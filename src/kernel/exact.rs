@@ -1,0 +1,339 @@
+//! Form factors between the facets of a fold, exact to rounding.
+//!
+//! Eq. (10) with every facet averaged over its whole area; eq. (2) at facet centres, as printed, lets a fold hand on more
+//! light than it has. With s and t the distances from the crease and z the shift along it, the kernel of eq. (2) is
+//! `sin²θ·s·t / (π r⁴)`, `r² = q² + z²`, `q² = s² + t² − 2st·cosθ`, so an entry depends on the two rows and on the number
+//! of columns between the facets alone. Lengths are in units of the facet's width along the crease.
+//!
+//! Near pairs: the shift and one row direction are integrated in closed form, the other by Gauss–Legendre panels after
+//! `b = a·cosθ + a·sinθ·sinh u`, which moves every singularity to `Im u = ±π/2`. Far pairs: Gauss–Legendre in all three
+//! directions, with the order that the nearest singularity asks for.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::quadrature::Rule;
+use crate::geometry::Fold;
+
+/// Beyond this order of Gauss rule the near formula is the cheaper one.
+const FAR_ORDER_MAX: usize = 14;
+/// Points of a near panel, and the length of a panel that they integrate to rounding.
+const NEAR_ORDER: usize = 13;
+const NEAR_PANEL: f64 = 1.5;
+/// Truncation error asked of the far rules, relative.
+const FAR_TOLERANCE: f64 = 1e-15;
+
+/// The distinct form factors of a fold with equal panels.
+///
+/// Column shift, mirror image and reciprocity leave `rows (rows + 1)/2 · cols` numbers of the
+/// `(2 · rows · cols)²` of the full matrix.
+#[derive(Clone, Debug)]
+pub struct FoldKernel {
+    row_edges: Vec<f64>,
+    cols: usize,
+    /// `A·F` of facet pairs in units of the facet width squared, `[pair of rows][column shift]`.
+    exchange: Vec<f64>,
+}
+
+impl FoldKernel {
+    /// The exact form factors between the facets of `fold`, rows of equal depth.
+    ///
+    /// # Source
+    /// Deeb et al., eqs. (2) and (10), averaged over both facets.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::geometry::{FacetGrid, Fold};
+    /// use vfold::kernel::exact::FoldKernel;
+    /// // Two squares at a right angle exchange 0.20004 of their light (Howell, configuration C-14).
+    /// let kernel = FoldKernel::new(&Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?);
+    /// assert!((kernel.form_factor(0, 0, 0) - 0.20004377607540316).abs() < 1e-14);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn new(fold: &Fold) -> Self {
+        let grid = fold.facets();
+        let height = fold.depth() / grid.rows as f64 / (fold.width() / grid.cols as f64);
+        let row_edges = (0..=grid.rows).map(|i| i as f64 * height).collect();
+        Self::with_rows(fold.angle_rad(), row_edges, grid.cols)
+    }
+
+    /// The form factors of a fold whose rows end at `row_edges` (from 0, increasing, in facet widths).
+    fn with_rows(angle_rad: f64, row_edges: Vec<f64>, cols: usize) -> Self {
+        let wedge = Wedge::new(angle_rad);
+        let rows = row_edges.len() - 1;
+        let pairs: Vec<_> = (0..rows).flat_map(|i| (i..rows).map(move |j| (i, j))).collect();
+        let row = |i: usize| row_edges[i]..row_edges[i + 1];
+        let entry = |(i, j): (usize, usize)| (0..cols).map(move |k| (i, j, k));
+        let fill = |(i, j, k): (usize, usize, usize)| wedge.exchange(&row(i), &row(j), k as f64);
+        // Threads cost more to start than the few thousand entries of a small grid.
+        let exchange = if pairs.len() * cols < 4000 {
+            pairs.into_iter().flat_map(entry).map(fill).collect()
+        } else {
+            pairs.into_par_iter().flat_map_iter(entry).map(fill).collect()
+        };
+        Self { row_edges, cols, exchange }
+    }
+
+    /// Rows of facets on one panel.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.row_edges.len() - 1
+    }
+
+    /// Columns of facets on one panel.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Area times form factor between a facet of row `i` and one of row `j` on the other panel, `shift` columns apart,
+    /// in units of the facet width squared. Symmetric in `i` and `j`: reciprocity.
+    #[must_use]
+    pub fn exchange(&self, i: usize, j: usize, shift: usize) -> f64 {
+        self.shifts(i, j)[shift]
+    }
+
+    /// [`FoldKernel::exchange`] of two rows for every shift, 0 to `cols − 1`.
+    #[must_use]
+    pub fn shifts(&self, i: usize, j: usize) -> &[f64] {
+        let (i, j) = (i.min(j), i.max(j));
+        let pair = i * self.rows() - i * (i + 1) / 2 + j;
+        &self.exchange[pair * self.cols..][..self.cols]
+    }
+
+    /// Depth of row `i` in units of the facet width: the area of its facets.
+    #[must_use]
+    pub fn row_height(&self, i: usize) -> f64 {
+        self.row_edges[i + 1] - self.row_edges[i]
+    }
+
+    /// Fraction of the light leaving a facet of row `i` that reaches one of row `j` on the other panel, `shift` columns
+    /// apart: K of eq. (10), in [0, 1].
+    #[must_use]
+    pub fn form_factor(&self, i: usize, j: usize, shift: usize) -> f64 {
+        self.exchange(i, j, shift) / self.row_height(i)
+    }
+
+    /// Share of its light that the facet in row `i`, column `col` hands to the other panel, below 1.
+    #[must_use]
+    pub fn row_sum(&self, i: usize, col: usize) -> f64 {
+        (0..self.rows())
+            .flat_map(|j| (0..self.cols).map(move |other| (j, other)))
+            .map(|(j, other)| self.form_factor(i, j, col.abs_diff(other)))
+            .sum()
+    }
+
+    /// One row of the full matrix K of eq. (10), facet order panel, row, column: `2 · rows · cols` numbers.
+    #[must_use]
+    pub fn matrix_row(&self, facet: usize) -> Vec<f64> {
+        let panel_facets = self.rows() * self.cols;
+        let (panel, row, col) =
+            (facet / panel_facets, facet % panel_facets / self.cols, facet % self.cols);
+        let mut out = vec![0.0; 2 * panel_facets];
+        let other = (1 - panel) * panel_facets;
+        for j in 0..self.rows() {
+            for c in 0..self.cols {
+                out[other + j * self.cols + c] = self.form_factor(row, j, col.abs_diff(c));
+            }
+        }
+        out
+    }
+}
+
+/// The opening angle of a fold and the rules that integrate over it.
+struct Wedge {
+    sin: f64,
+    cos: f64,
+    /// `1 − cosθ`, which would lose digits as a difference when θ is small.
+    one_minus_cos: f64,
+    near: Rule,
+    far: Vec<Rule>,
+}
+
+impl Wedge {
+    fn new(angle_rad: f64) -> Self {
+        let half_sin = (angle_rad / 2.0).sin();
+        // A flat sheet exchanges nothing with itself: sin π would leave 1e-16 of nothing.
+        let flat = (PI - angle_rad).abs() < 1e-15;
+        Self {
+            sin: if flat { 0.0 } else { angle_rad.sin() },
+            cos: angle_rad.cos(),
+            one_minus_cos: 2.0 * half_sin * half_sin,
+            near: Rule::gauss_legendre(NEAR_ORDER),
+            far: (0..=FAR_ORDER_MAX).map(Rule::gauss_legendre).collect(),
+        }
+    }
+
+    /// Area times form factor of two facets of width 1, rows `s` and `t`, `k` columns apart.
+    fn exchange(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> f64 {
+        if self.sin == 0.0 {
+            return 0.0;
+        }
+        let scale = self.sin * self.sin / PI;
+        let product = match self.far_orders(s, t, k) {
+            Some(orders) => self.far(s, t, k, orders),
+            None => {
+                self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k) - self.side(t.start, s, k)
+            }
+        };
+        scale * product
+    }
+
+    /// `J(a) = a² ∫ b·W₂(q)/q⁴ db` over the other facet's row: what the side at distance `a` adds.
+    fn side(&self, a: f64, row: &Range<f64>, k: f64) -> f64 {
+        if a == 0.0 {
+            return 0.0;
+        }
+        let u = |b: f64| (((b - a) + a * self.one_minus_cos) / (a * self.sin)).asinh();
+        let (low, high) = (u(row.start), u(row.end));
+        let panels = ((high - low) / NEAR_PANEL).ceil().max(1.0);
+        let length = (high - low) / panels;
+        let mut sum = 0.0;
+        for panel in 0..panels as usize {
+            let start = low + panel as f64 * length;
+            for (u, weight) in self.near.on(start, start + length) {
+                let q = a * self.sin * u.cosh();
+                let b = a * (self.cos + self.sin * u.sinh());
+                sum += weight * b * shift_integral(q, k) / (q * q * q);
+            }
+        }
+        a * a * sum
+    }
+
+    /// Orders of the Gauss rules in s, t and along the crease that reach rounding, if all are moderate.
+    fn far_orders(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> Option<[usize; 3]> {
+        let gap = (k - 1.0).max(0.0);
+        let along_s = self.order_across(s, t, gap)?;
+        let along_t = self.order_across(t, s, gap)?;
+        let q = self.nearest(s, t);
+        // Each half of the hat 1 − |z| has its own rule; the nearer half decides.
+        let along_z = gauss_order(gap, gap + 1.0, q)?;
+        Some([along_s, along_t, along_z])
+    }
+
+    /// Order for integrating over `row` with the other distance anywhere in `other`.
+    ///
+    /// The singularities lie at `d·cosθ ± i·√(d² sin²θ + gap²)` for a point `d` of the other row.
+    fn order_across(&self, row: &Range<f64>, other: &Range<f64>, gap: f64) -> Option<usize> {
+        let abreast = [row.start, 0.5 * (row.start + row.end), row.end].map(|b| b / self.cos);
+        let mut worst = 0;
+        for d in [other.start, other.end].into_iter().chain(abreast.into_iter().filter(|d| other.contains(d))) {
+            let (re, im) = (d * self.cos, (d * self.sin).hypot(gap));
+            worst = worst.max(gauss_order(row.start - re, row.end - re, im)?);
+        }
+        Some(worst)
+    }
+
+    /// Least distance across the crease between points of two rows.
+    fn nearest(&self, s: &Range<f64>, t: &Range<f64>) -> f64 {
+        let q = |a: f64, b: f64| ((a - b).powi(2) + 2.0 * a * b * self.one_minus_cos).sqrt();
+        let clamp = |a: f64, row: &Range<f64>| (a * self.cos).clamp(row.start, row.end);
+        let from_s = [s.start, s.end].map(|a| q(a, clamp(a, t)));
+        let from_t = [t.start, t.end].map(|b| q(b, clamp(b, s)));
+        from_s.into_iter().chain(from_t).fold(f64::INFINITY, f64::min)
+    }
+
+    /// `∫∫∫ (1 − |z|) s t / r⁴ dz ds dt` by Gauss rules of the given orders.
+    fn far(&self, s: &Range<f64>, t: &Range<f64>, k: f64, orders: [usize; 3]) -> f64 {
+        let [rule_s, rule_t, rule_z] = orders.map(|order| &self.far[order]);
+        let hat: Vec<(f64, f64)> = [(-1.0, 0.0), (0.0, 1.0)]
+            .into_iter()
+            .flat_map(|(low, high)| rule_z.on(low, high))
+            .map(|(z, w)| ((k + z).powi(2), w * (1.0 - z.abs())))
+            .collect();
+        let mut sum = 0.0;
+        for (s, weight_s) in rule_s.on(s.start, s.end) {
+            for (t, weight_t) in rule_t.on(t.start, t.end) {
+                let q2 = (s - t).powi(2) + 2.0 * s * t * self.one_minus_cos;
+                let line: f64 = hat.iter().map(|(z2, w)| w / (q2 + z2).powi(2)).sum();
+                sum += weight_s * s * weight_t * t * line;
+            }
+        }
+        sum
+    }
+}
+
+/// Gauss order that integrates to [`FAR_TOLERANCE`] a function on `[low, high]` whose nearest singularities lie at `±i·im`;
+/// none if it exceeds [`FAR_ORDER_MAX`].
+///
+/// The error falls as ρ^(−2p), ρ the sum of the half axes of the Bernstein ellipse through the singularity
+/// (Trefethen, *Approximation Theory and Approximation Practice*, theorem 19.3).
+fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
+    let axis = (low.hypot(im) + high.hypot(im)) / (high - low);
+    let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
+    let order = (-FAR_TOLERANCE.ln() / (2.0 * rho.ln())).ceil() + 1.0;
+    (order <= FAR_ORDER_MAX as f64).then_some(order as usize)
+}
+
+/// Second difference over the shift `k` of `W(q, z) = ½[z·q·atan(z/q) + ½z²·ln(1 + q²/z²)]`, the kernel integrated along
+/// both facets' widths (times 2 q⁴ over the area element).
+///
+/// The parts of W that are linear or constant in z vanish in the difference. Each branch leaves out those that outweigh
+/// the rest: `πzq/4 − q²/4` where q is small, nothing where it is large.
+fn shift_integral(q: f64, k: f64) -> f64 {
+    let close = |z: f64| if z == 0.0 { 0.25 * q * q } else { 0.5 * z * z * small_shift(q / z) };
+    let distant = |z: f64| if z == 0.0 { 0.0 } else { 0.5 * z * (q * (z / q).atan() + 0.5 * z * (q / z).powi(2).ln_1p()) };
+    if k == 0.0 {
+        2.0 * distant(1.0)
+    } else if q < k + 1.0 {
+        (close(k + 1.0) - close(k)) - (close(k) - close(k - 1.0))
+    } else {
+        (distant(k + 1.0) - distant(k)) - (distant(k) - distant(k - 1.0))
+    }
+}
+
+/// `½ ln(1 + x²) − x·atan x + ½x²`, by its series where the terms would cancel.
+fn small_shift(x: f64) -> f64 {
+    let x2 = x * x;
+    if x2 > 0.04 {
+        return 0.5 * x2.ln_1p() - x * x.atan() + 0.5 * x2;
+    }
+    // Σ (−1)ⁿ x²ⁿ / (2n(2n−1)), n ≥ 2: twelve terms reach rounding at x² = 0.04.
+    let mut sum = 0.0;
+    for n in (2..=12).rev() {
+        let n = f64::from(n);
+        sum = 1.0 / (2.0 * n * (2.0 * n - 1.0)) - x2 * sum;
+    }
+    x2 * x2 * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::FacetGrid;
+
+    fn fold(angle_deg: f64, rows: usize, cols: usize) -> Fold {
+        Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows, cols }).unwrap()
+    }
+
+    #[test]
+    fn near_and_far_formulas_agree_where_both_hold() {
+        for angle_deg in [5.0_f64, 45.0, 120.0, 170.0] {
+            let wedge = Wedge::new(angle_deg.to_radians());
+            for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3.0), (2.0..3.0, 2.0..3.0, 4.0), (7.0..8.0, 3.0..4.0, 2.0)] {
+                let Some(orders) = wedge.far_orders(&s, &t, k) else { continue };
+                let far = wedge.far(&s, &t, k, orders);
+                let near = wedge.side(s.end, &t, k) - wedge.side(s.start, &t, k) + wedge.side(t.end, &s, k)
+                    - wedge.side(t.start, &s, k);
+                assert!((near - far).abs() < 1e-11 * far, "{angle_deg}° {s:?} {t:?} {k}: {near} {far}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_flat_sheet_exchanges_nothing() {
+        assert_eq!(FoldKernel::new(&fold(180.0, 3, 3)).row_sum(0, 0).to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn the_matrix_row_sums_to_the_row_sum() {
+        let kernel = FoldKernel::new(&fold(45.0, 4, 3));
+        for facet in 0..24 {
+            let sum: f64 = kernel.matrix_row(facet).iter().sum();
+            assert!((sum - kernel.row_sum(facet % 12 / 3, facet % 3)).abs() < 1e-14);
+        }
+    }
+}

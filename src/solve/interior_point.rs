@@ -1,0 +1,200 @@
+//! Minimisation within bounds by a primal-dual interior point method, as an argmin solver.
+//!
+//! Newton's method on the optimality conditions of the logarithmic barrier, whose weight falls with the gap between the
+//! variables and their multipliers; steps stop short of the bounds.
+//!
+//! ## Reference
+//! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 19.2 and 19.3.
+
+use argmin::core::{
+    CostFunction, Error, Gradient, Hessian, IterState, KV, Problem, Solver, TerminationReason, TerminationStatus,
+};
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// Share of the way to the bounds that a step may go.
+const TO_BOUNDARY: f64 = 0.995;
+/// How far below the mean gap the barrier aims.
+const CENTERING: f64 = 0.1;
+/// Share of the decrease that the slope promises which a step must bring.
+const SUFFICIENT: f64 = 1e-4;
+
+/// State of an argmin run of this solver.
+pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
+
+/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables.
+///
+/// # Example
+/// ```
+/// use argmin::core::{CostFunction, Error, Executor, Gradient, Hessian, State};
+/// use nalgebra::{DMatrix, DVector};
+/// use vfold::solve::interior_point::InteriorPoint;
+///
+/// /// (x − 2)² on [0, 1]: the minimum lies on the upper bound.
+/// struct Parabola;
+/// impl CostFunction for Parabola {
+///     type Param = DVector<f64>;
+///     type Output = f64;
+///     fn cost(&self, x: &DVector<f64>) -> Result<f64, Error> { Ok((x[0] - 2.0).powi(2)) }
+/// }
+/// impl Gradient for Parabola {
+///     type Param = DVector<f64>;
+///     type Gradient = DVector<f64>;
+///     fn gradient(&self, x: &DVector<f64>) -> Result<DVector<f64>, Error> { Ok(DVector::from_element(1, 2.0 * (x[0] - 2.0))) }
+/// }
+/// impl Hessian for Parabola {
+///     type Param = DVector<f64>;
+///     type Hessian = DMatrix<f64>;
+///     fn hessian(&self, _: &DVector<f64>) -> Result<DMatrix<f64>, Error> { Ok(DMatrix::from_element(1, 1, 2.0)) }
+/// }
+/// let solver = InteriorPoint::new(0.0, 1.0, 1e-10);
+/// let result = Executor::new(Parabola, solver).configure(|state| state.param(DVector::from_element(1, 0.5)).max_iters(50)).run()?;
+/// assert!((result.state().get_best_param().unwrap()[0] - 1.0).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct InteriorPoint {
+    low: f64,
+    high: f64,
+    tolerance: f64,
+    /// Multipliers of the lower and upper bounds, positive.
+    multipliers: [DVector<f64>; 2],
+    violation: f64,
+    stalled: bool,
+}
+
+impl InteriorPoint {
+    /// A solver between `low` and `high` that stops when no optimality condition is violated by more than `tolerance`.
+    #[must_use]
+    pub fn new(low: f64, high: f64, tolerance: f64) -> Self {
+        let none = DVector::zeros(0);
+        Self { low, high, tolerance, multipliers: [none.clone(), none], violation: f64::INFINITY, stalled: false }
+    }
+
+    /// Largest violation of the optimality conditions at the last iterate.
+    #[must_use]
+    pub fn violation(&self) -> f64 {
+        self.violation
+    }
+
+    /// Distances of `x` to the lower and upper bound.
+    fn gaps(&self, x: &DVector<f64>) -> [DVector<f64>; 2] {
+        [x.map(|x| x - self.low), x.map(|x| self.high - x)]
+    }
+
+    /// The barrier function: `f(x) − μ Σ ln gaps`.
+    fn barrier(&self, x: &DVector<f64>, cost: f64, mu: f64) -> f64 {
+        cost - mu * self.gaps(x).iter().map(|gap| gap.iter().map(|g| g.ln()).sum::<f64>()).sum::<f64>()
+    }
+
+    /// Weight of the barrier: a tenth of the mean complementarity gap.
+    fn barrier_weight(&self, gaps: &[DVector<f64>; 2]) -> f64 {
+        let gap: f64 = gaps.iter().zip(&self.multipliers).map(|(gap, multiplier)| gap.dot(multiplier)).sum();
+        CENTERING * gap / (2 * gaps[0].len()) as f64
+    }
+
+    /// Largest of the stationarity and complementarity violations.
+    fn violation_at(&self, gradient: &DVector<f64>, gaps: &[DVector<f64>; 2]) -> f64 {
+        let stationarity = (gradient - &self.multipliers[0] + &self.multipliers[1]).amax();
+        let complementarity = gaps.iter().zip(&self.multipliers).map(|(gap, z)| gap.component_mul(z).amax());
+        complementarity.fold(stationarity, f64::max)
+    }
+
+    /// Newton's step of x and of the multipliers.
+    fn step(&self, gradient: &DVector<f64>, mut hessian: DMatrix<f64>, gaps: &[DVector<f64>; 2], mu: f64) -> [DVector<f64>; 3] {
+        let [low, high] = gaps;
+        let [z_low, z_high] = &self.multipliers;
+        let right = -gradient + low.map(|g| mu / g) - high.map(|g| mu / g);
+        for i in 0..right.len() {
+            hessian[(i, i)] += z_low[i] / low[i] + z_high[i] / high[i];
+        }
+        let dx = positive_solve(hessian, &right);
+        let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&dx).component_div(low);
+        let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&dx).component_div(high);
+        [dx, dz_low, dz_high]
+    }
+}
+
+/// Solves with a symmetric matrix, made positive definite by a growing diagonal if it is not.
+fn positive_solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
+    let scale = matrix.diagonal().amax().max(f64::MIN_POSITIVE);
+    let mut shift = 0.0;
+    loop {
+        let shifted = &matrix + DMatrix::from_diagonal_element(right.len(), right.len(), shift);
+        if let Some(factor) = Cholesky::new(shifted) {
+            return factor.solve(right);
+        }
+        shift = (10.0 * shift).max(1e-12 * scale);
+    }
+}
+
+/// Largest step along `direction` that keeps `value` positive, with a margin.
+fn to_boundary(value: &DVector<f64>, direction: &DVector<f64>) -> f64 {
+    let steps = value.iter().zip(direction.iter()).filter(|(_, d)| **d < 0.0).map(|(v, d)| -TO_BOUNDARY * v / d);
+    steps.fold(1.0, f64::min)
+}
+
+impl<O> Solver<O, State> for InteriorPoint
+where
+    O: CostFunction<Param = DVector<f64>, Output = f64>
+        + Gradient<Param = DVector<f64>, Gradient = DVector<f64>>
+        + Hessian<Param = DVector<f64>, Hessian = DMatrix<f64>>,
+{
+    fn name(&self) -> &'static str {
+        "primal-dual interior point"
+    }
+
+    fn init(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
+        let x = state.take_param().ok_or_else(|| Error::msg("interior point: no start given"))?;
+        let inside = 1e-3 * (self.high - self.low);
+        let x = x.map(|x| x.clamp(self.low + inside, self.high - inside));
+        let gradient = problem.problem("gradient_count", |p| p.gradient(&x))?;
+        let cost = problem.problem("cost_count", |p| p.cost(&x))?;
+        // Multipliers of a central path that starts where the gradient and the barrier are of one size.
+        let mu = gradient.amax().max(self.tolerance) * 0.1 * (self.high - self.low);
+        self.multipliers = self.gaps(&x).map(|gap| gap.map(|g| mu / g));
+        Ok((state.param(x).gradient(gradient).cost(cost), None))
+    }
+
+    fn next_iter(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
+        let (Some(x), Some(gradient)) = (state.take_param(), state.take_gradient()) else {
+            return Err(Error::msg("interior point: the state lost its iterate"));
+        };
+        let cost = state.get_cost();
+        let gaps = self.gaps(&x);
+        let mu = self.barrier_weight(&gaps);
+        let hessian = problem.problem("hessian_count", |p| p.hessian(&x))?;
+        let [dx, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
+        let mut length = to_boundary(&gaps[0], &dx).min(to_boundary(&gaps[1], &-&dx));
+        let slope = (&gradient - gaps[0].map(|g| mu / g) + gaps[1].map(|g| mu / g)).dot(&dx);
+        let before = self.barrier(&x, cost, mu);
+        let (next, next_cost) = loop {
+            let next = &x + length * &dx;
+            let next_cost = problem.problem("cost_count", |p| p.cost(&next))?;
+            if self.barrier(&next, next_cost, mu) <= before + SUFFICIENT * length * slope {
+                break (next, next_cost);
+            }
+            length *= 0.5;
+            if length < 1e-12 {
+                self.stalled = true;
+                break (x.clone(), cost);
+            }
+        };
+        for (z, dz) in self.multipliers.iter_mut().zip([dz_low, dz_high]) {
+            let length = to_boundary(z, &dz);
+            *z += length * dz;
+        }
+        let gradient = problem.problem("gradient_count", |p| p.gradient(&next))?;
+        self.violation = self.violation_at(&gradient, &self.gaps(&next));
+        Ok((state.param(next).gradient(gradient).cost(next_cost), None))
+    }
+
+    fn terminate(&mut self, _: &State) -> TerminationStatus {
+        if self.violation <= self.tolerance {
+            TerminationStatus::Terminated(TerminationReason::SolverConverged)
+        } else if self.stalled {
+            TerminationStatus::Terminated(TerminationReason::SolverExit("no progress".to_owned()))
+        } else {
+            TerminationStatus::NotTerminated
+        }
+    }
+}

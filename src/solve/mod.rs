@@ -1,0 +1,21 @@
+//! Solvers for smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
+
+pub mod interior_point;
+pub mod whitened;
+
+/// Why a solver stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Termination {
+    /// The optimality conditions hold to the asked tolerance.
+    Converged {
+        /// What is left of them: the norm of the gradient, or the largest violation under bounds.
+        gradient_norm: f64,
+    },
+    /// The limit on iterations came first.
+    IterationLimit,
+    /// No step along the search direction lowered the cost any more: rounding is reached.
+    NoProgress {
+        /// What is left of the gradient.
+        gradient_norm: f64,
+    },
+}

@@ -1,0 +1,18 @@
+//! The stream between the tools: NDJSON records, and NPY arrays beside them.
+//!
+//! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
+//! through typed views and add their own.
+
+mod fields;
+mod npy;
+mod reader;
+mod sample;
+mod scene;
+mod writer;
+
+pub use fields::Fields;
+pub use npy::{ArrayStack, write_matrix};
+pub use reader::{Reader, Record, Transform, pipe};
+pub use sample::{Colours, Estimate, Sample, Truth};
+pub use scene::{CameraRecord, Scene, SpectrumRecord};
+pub use writer::{Output, Saved};

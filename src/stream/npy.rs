@@ -1,0 +1,93 @@
+//! Arrays as NPY files, for `--save FIELD=FILE`.
+
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use npyz::WriterBuilder;
+
+use super::Saved;
+use crate::error::{Error, Result};
+
+/// Arrays of one shape, stacked along a new first axis as samples pass, without keeping them in memory.
+pub struct ArrayStack {
+    saved: Saved,
+    data: std::fs::File,
+    shape: Option<Vec<u64>>,
+    count: u64,
+}
+
+impl ArrayStack {
+    /// A stack that will be written to `path`.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the folder cannot be written.
+    pub fn new(path: &Path) -> Result<Self> {
+        let data = tempfile::tempfile().map_err(|e| Error::file(path.display(), e))?;
+        Ok(Self { saved: Saved::new(path)?, data, shape: None, count: 0 })
+    }
+
+    /// Adds one array, values in C order.
+    ///
+    /// # Errors
+    /// [`Error::Array`] if its shape is not that of the arrays before it.
+    pub fn push(&mut self, shape: &[u64], values: &[f64]) -> Result<()> {
+        let first = self.shape.get_or_insert_with(|| shape.to_vec());
+        if first != shape {
+            let problem = format!("record {} has shape {shape:?}, those before it {first:?}", self.count);
+            return Err(Error::Array { path: self.saved.path().display().to_string(), problem });
+        }
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.data.write_all(&bytes).map_err(|e| Error::file(self.saved.path().display(), e))?;
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Writes the stack and gives the file its name.
+    ///
+    /// # Errors
+    /// [`Error::Array`] if nothing was pushed, [`Error::File`] if it cannot be written.
+    pub fn finish(mut self) -> Result<()> {
+        let path = self.saved.path().display().to_string();
+        let Some(shape) = self.shape else {
+            return Err(Error::Array { path, problem: "no record has the field to save; check --save FIELD".to_owned() });
+        };
+        let shape: Vec<u64> = std::iter::once(self.count).chain(shape).collect();
+        let failed = |e| Error::file(&path, e);
+        self.data.seek(SeekFrom::Start(0)).map_err(failed)?;
+        let mut bytes = Vec::new();
+        let mut out = BufWriter::new(self.saved.file_mut());
+        let mut writer = begin(&shape, &mut out).map_err(failed)?;
+        // In pieces, so that memory stays flat however many records there were.
+        while (&mut self.data).take(1 << 20).read_to_end(&mut bytes).map_err(failed)? > 0 {
+            let values = bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(std::array::from_fn(|i| chunk[i])));
+            writer.extend(values).map_err(failed)?;
+            bytes.clear();
+        }
+        writer.finish().map_err(failed)?;
+        out.flush().map_err(failed)?;
+        drop(out);
+        self.saved.keep()
+    }
+}
+
+/// Writes a matrix row by row, so that one row at a time is in memory.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be written.
+pub fn write_matrix(path: &Path, rows: usize, cols: usize, row: impl Fn(usize) -> Vec<f64>) -> Result<()> {
+    let mut saved = Saved::new(path)?;
+    let failed = |e| Error::file(path.display(), e);
+    let mut out = BufWriter::new(saved.file_mut());
+    let mut writer = begin(&[rows as u64, cols as u64], &mut out).map_err(failed)?;
+    for index in 0..rows {
+        writer.extend(row(index)).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    out.flush().map_err(failed)?;
+    drop(out);
+    saved.keep()
+}
+
+fn begin<W: Write>(shape: &[u64], out: W) -> std::io::Result<npyz::NpyWriter<f64, W>> {
+    npyz::WriteOptions::new().default_dtype().shape(shape).writer(out).begin_nd()
+}

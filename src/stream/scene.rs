@@ -1,0 +1,244 @@
+//! The scene record: geometry, light, response, and the camera and illuminant that look at it.
+
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::fields::{Fields, finite};
+use crate::camera::CameraResponse;
+use crate::error::{Error, Result};
+use crate::forward::Lighting;
+use crate::geometry::{FacetGrid, Fold, Light};
+use crate::kernel::mesh::Accuracy;
+use crate::response::Response;
+use crate::spectrum::WavelengthGrid;
+
+/// The stream's format, in every scene.
+const FORMAT: &str = "vfold/1";
+
+/// A scene record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its fields, those that the tools do not know included.
+    pub fields: Fields,
+}
+
+/// A named spectrum on the scene's wavelengths.
+#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+pub struct SpectrumRecord {
+    /// Built-in name or file.
+    pub name: String,
+    /// Relative power a waveband.
+    pub power: Vec<f64>,
+}
+
+/// A camera on the scene's wavelengths.
+#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+pub struct CameraRecord {
+    /// Built-in name or file.
+    pub name: String,
+    /// Names of the channels.
+    pub channels: Vec<String>,
+    /// Sensitivity, channel by waveband.
+    pub sensitivities: Vec<Vec<f64>>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct GeometryRecord {
+    shape: String,
+    angle_deg: f64,
+    panel: [f64; 2],
+}
+
+#[derive(Serialize, Deserialize)]
+struct FacetsRecord {
+    panels: usize,
+    rows: usize,
+    cols: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+struct LightRecord {
+    tilt_deg: f64,
+    slant_deg: f64,
+    sky: f64,
+    #[serde(skip_deserializing)]
+    panel_irradiance: [f64; 2],
+}
+
+#[derive(Serialize, Deserialize)]
+struct ResponseRecord {
+    poles: Vec<f64>,
+    residues: Vec<Vec<f64>>,
+}
+
+impl Scene {
+    /// The scene of a fold and its light, bounces solved.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn new(id: &str, fold: &Fold, light: &Light, response: &Response) -> Result<Self> {
+        let mut fields = Fields::of_kind("scene");
+        fields.set("format", FORMAT)?;
+        fields.set("id", id)?;
+        fields.set(
+            "geometry",
+            GeometryRecord { shape: "fold".to_owned(), angle_deg: fold.angle_deg(), panel: [fold.width(), fold.depth()] },
+        )?;
+        let FacetGrid { rows, cols } = fold.facets();
+        fields.set("facets", FacetsRecord { panels: 2, rows, cols })?;
+        let (tilt_deg, slant_deg, sky) = (light.tilt_deg(), light.slant_deg(), light.sky());
+        fields.set("light", LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() })?;
+        let residues: Vec<_> = (0..response.facets()).map(|facet| response.facet_residues(facet).to_vec()).collect();
+        finite("response", response.poles().iter().chain(residues.iter().flatten()))?;
+        fields.set("response", ResponseRecord { poles: response.poles().to_vec(), residues })?;
+        Ok(Self { fields })
+    }
+
+    /// A scene from its record.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if its format is not this version's.
+    pub fn from_fields(fields: Fields) -> Result<Self> {
+        match fields.get::<String>("format")? {
+            Some(format) if format == FORMAT => Ok(Self { fields }),
+            format => Err(Error::field(
+                "format",
+                format!("{} where this version reads {FORMAT}; make the scene again with vkernel", format.unwrap_or_default()),
+            )),
+        }
+    }
+
+    /// The scene's name.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it has none.
+    pub fn id(&self) -> Result<String> {
+        self.fields.require("id", "make the scene with vkernel")
+    }
+
+    /// The fold and its facets.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing or not those of a fold.
+    pub fn fold(&self) -> Result<Fold> {
+        let geometry: GeometryRecord = self.fields.require("geometry", "make the scene with vkernel")?;
+        if geometry.shape != "fold" {
+            return Err(Error::field("geometry.shape", format!("'{}' is not a shape this version knows", geometry.shape)));
+        }
+        let facets: FacetsRecord = self.fields.require("facets", "make the scene with vkernel")?;
+        let grid = FacetGrid { rows: facets.rows, cols: facets.cols };
+        Fold::new(geometry.angle_deg, geometry.panel[0], geometry.panel[1], grid).map_err(|e| Error::field("geometry", e))
+    }
+
+    /// The sun and the sky.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing or leave a panel unlit.
+    pub fn light(&self) -> Result<Light> {
+        let light: LightRecord = self.fields.require("light", "make the scene with vkernel")?;
+        Light::new(&self.fold()?, light.tilt_deg, light.slant_deg, light.sky).map_err(|e| Error::field("light", e))
+    }
+
+    /// Poles and residues of the bounces.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing or their shapes disagree.
+    pub fn response(&self) -> Result<Response> {
+        let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
+        let poles = record.poles.len();
+        if record.residues.len() != self.fold()?.facets().len() || record.residues.iter().any(|row| row.len() != poles) {
+            return Err(Error::field("response.residues", "needs one row a facet of a panel with one number a pole"));
+        }
+        Response::new(record.poles, record.residues.concat())
+    }
+
+    /// Says how good the response is and which mesh gave it.
+    ///
+    /// # Errors
+    /// As [`Fields::set`].
+    pub fn set_accuracy(&mut self, mesh: &str, tolerance: f64, accuracy: &Accuracy) -> Result<()> {
+        self.fields.set(
+            "accuracy",
+            json!({
+                "mesh": mesh,
+                "tolerance": tolerance,
+                "unknowns": accuracy.unknowns,
+                "facet_mean_error": accuracy.facet_mean_error,
+            }),
+        )
+    }
+
+    /// The wavelengths of the scene.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing or do not increase.
+    pub fn grid(&self) -> Result<WavelengthGrid> {
+        let wavelengths_nm: Vec<f64> = self.fields.require("wavelengths_nm", "vforward and vextract add them")?;
+        WavelengthGrid::new(wavelengths_nm).map_err(|e| Error::field("wavelengths_nm", e))
+    }
+
+    /// Sets what looks at the fold and in which light; all spectra lie on `grid`.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_optics(
+        &mut self,
+        grid: &WavelengthGrid,
+        camera: &CameraRecord,
+        illuminant: &SpectrumRecord,
+        sky: Option<&SpectrumRecord>,
+    ) -> Result<()> {
+        finite("camera", camera.sensitivities.iter().flatten())?;
+        finite("illuminants", &illuminant.power)?;
+        self.fields.set("wavelengths_nm", grid.wavelengths_nm())?;
+        self.fields.set("camera", camera)?;
+        self.fields.set("illuminants", [illuminant])?;
+        if let Some(sky) = sky {
+            finite("sky_illuminant", &sky.power)?;
+            self.fields.set("sky_illuminant", sky)?;
+        }
+        Ok(())
+    }
+
+    /// The camera.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is missing or not on the scene's wavelengths.
+    pub fn camera(&self) -> Result<CameraRecord> {
+        let camera: CameraRecord = self.fields.require("camera", "give --camera to vforward or vextract")?;
+        let bands = self.grid()?.len();
+        if camera.sensitivities.is_empty() || camera.sensitivities.iter().any(|channel| channel.len() != bands) {
+            return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers a channel")));
+        }
+        Ok(camera)
+    }
+
+    /// The lights as the camera responds to them.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths.
+    pub fn lighting(&self) -> Result<Lighting> {
+        let (grid, camera, light) = (self.grid()?, self.camera()?, self.light()?);
+        let on_grid = |name: &str, spectrum: &SpectrumRecord| {
+            if spectrum.power.len() == grid.len() {
+                return Ok(());
+            }
+            Err(Error::field(name, format!("{} numbers for {} wavebands", spectrum.power.len(), grid.len())))
+        };
+        let illuminants: Vec<SpectrumRecord> =
+            self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
+        let [illuminant] = illuminants.as_slice() else {
+            return Err(Error::field("illuminants", format!("{} where this version knows one", illuminants.len())));
+        };
+        on_grid("illuminants", illuminant)?;
+        let sun = CameraResponse::new(&grid, &camera.sensitivities, &illuminant.power)?;
+        let sky = match self.fields.get::<SpectrumRecord>("sky_illuminant")? {
+            Some(spectrum) => {
+                on_grid("sky_illuminant", &spectrum)?;
+                sun.to_other_light(&grid, &camera.sensitivities, &spectrum.power)?
+            }
+            None => sun.clone(),
+        };
+        Ok(Lighting { light, sun, sky })
+    }
+}
