@@ -61,6 +61,48 @@ pub enum Error {
         problem: String,
     },
 
+    // ---- spectra ----
+    /// Wavelengths do not make a grid.
+    #[error("wavelength grid: {problem}; {remedy}")]
+    Grid {
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A spectrum cannot be what it is used as.
+    #[error("spectrum '{name}': {problem}; {remedy}")]
+    Spectrum {
+        /// The spectrum's name.
+        name: String,
+        /// What is wrong, with the offending value.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A line of a table of spectra cannot be read.
+    #[error("{path}:{line}: {problem}; {remedy}")]
+    Table {
+        /// The table's file.
+        path: String,
+        /// Line number, from 1.
+        line: usize,
+        /// What is wrong, with the column.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A name is neither built in nor a file.
+    #[error("no {kind} is called '{name}'; {hint}")]
+    UnknownName {
+        /// Illuminant, reflectance or camera.
+        kind: &'static str,
+        /// What was asked for.
+        name: String,
+        /// The nearest names, and how to see all of them.
+        hint: String,
+    },
+
     // ---- numbers ----
     /// A computation cannot give a meaningful number.
     #[error("{0}")]

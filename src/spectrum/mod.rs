@@ -1,1 +1,210 @@
-//! Spectra.
+//! Spectra: reflectances, illuminants and camera sensitivities, tabulated on any wavelengths.
+//!
+//! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the files are
+//! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
+
+mod daylight;
+mod grid;
+pub mod library;
+mod munsell;
+mod nearest;
+pub mod spec;
+mod table;
+
+pub use grid::WavelengthGrid;
+pub use library::camera_by_exif;
+pub use spec::{Sensitivities, camera, illuminant, reflectances};
+
+use crate::error::{Error, Result};
+use std::sync::Arc;
+
+/// A quantity tabulated over wavelength, linear between its samples.
+///
+/// Reflectance: 0..1. Illuminant: relative power. Sensitivity: relative, 0 or more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    name: String,
+    /// Shared, because the columns of one table have the same wavelengths.
+    wavelengths_nm: Arc<[f64]>,
+    values: Vec<f64>,
+}
+
+/// What a spectrum is where its table ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// Nothing: right for sensitivities, which are measured as far as there is something to measure.
+    Zero,
+    /// Unknown, hence an error: right for reflectances and illuminants.
+    Refuse,
+}
+
+impl Spectrum {
+    /// A spectrum from its samples.
+    ///
+    /// # Arguments
+    /// - `wavelengths_nm`: nm, strictly increasing, at least two.
+    /// - `values`: finite, as many.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] or [`Error::Spectrum`] if the samples are not so.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
+    /// let ramp = Spectrum::new("ramp", vec![400.0, 700.0], vec![0.0, 1.0])?;
+    /// let on_grid = ramp.on(&WavelengthGrid::uniform(400.0, 700.0, 150.0)?, Outside::Refuse)?;
+    /// assert_eq!(on_grid, [0.0, 0.5, 1.0]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn new(name: impl Into<String>, wavelengths_nm: Vec<f64>, values: Vec<f64>) -> Result<Self> {
+        let (name, grid) = (name.into(), WavelengthGrid::new(wavelengths_nm)?);
+        if grid.len() != values.len() {
+            let problem = format!("{} values for {} wavelengths", values.len(), grid.len());
+            return Err(Error::Spectrum { name, problem, remedy: "give one value a wavelength".into() });
+        }
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            let problem = format!("{value} is not a number");
+            return Err(Error::Spectrum { name, problem, remedy: "give finite values".into() });
+        }
+        Ok(Self::from_table(name, grid.wavelengths_nm().into(), values))
+    }
+
+    /// The same `value` at every wavelength.
+    ///
+    /// Two samples that enclose every grid make it, so that nothing else has to know of flat spectra.
+    pub fn flat(name: impl Into<String>, value: f64) -> Self {
+        Self::from_table(name.into(), [0.0, f64::MAX].into(), vec![value; 2])
+    }
+
+    /// A column of a table whose wavelengths have been checked.
+    fn from_table(name: String, wavelengths_nm: Arc<[f64]>, values: Vec<f64>) -> Self {
+        Self { name, wavelengths_nm, values }
+    }
+
+    fn renamed(self, name: impl FnOnce(&str) -> String) -> Self {
+        Self { name: name(&self.name), ..self }
+    }
+
+    /// What the spectrum is called: `set:member` if built in, else after its file and column.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The wavelengths of the samples, nm, increasing.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelengths_nm
+    }
+
+    /// The samples.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// First and last wavelength of the samples, nm.
+    #[must_use]
+    pub fn range_nm(&self) -> (f64, f64) {
+        (self.wavelengths_nm[0], self.wavelengths_nm[self.wavelengths_nm.len() - 1])
+    }
+
+    /// The values at the grid's wavelengths, by linear interpolation.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] with both ranges if the grid reaches beyond the samples and `outside` is
+    /// [`Outside::Refuse`].
+    pub fn on(&self, grid: &WavelengthGrid, outside: Outside) -> Result<Vec<f64>> {
+        let ((first_nm, last_nm), (grid_first_nm, grid_last_nm)) = (self.range_nm(), grid.range_nm());
+        if outside == Outside::Refuse && (grid_first_nm < first_nm || grid_last_nm > last_nm) {
+            return Err(Error::Spectrum {
+                name: self.name.clone(),
+                problem: format!("its samples cover {first_nm}..{last_nm} nm, the grid is {grid}"),
+                remedy: "choose a grid within the samples or extend the table".into(),
+            });
+        }
+        // both run upwards: walking along is several times faster than a search for each wavelength
+        let (last, mut right) = (self.values.len() - 1, 1);
+        let value_at = |&nm: &f64| {
+            while right < last && self.wavelengths_nm[right] < nm {
+                right += 1;
+            }
+            self.between(right, nm)
+        };
+        Ok(grid.wavelengths_nm().iter().map(value_at).collect())
+    }
+
+    /// The value at `nm` on the line through the samples `right - 1` and `right`, 0 beyond them.
+    fn between(&self, right: usize, nm: f64) -> f64 {
+        let (a_nm, b_nm) = (self.wavelengths_nm[right - 1], self.wavelengths_nm[right]);
+        if nm < a_nm || nm > b_nm {
+            return 0.0;
+        }
+        let share = (nm - a_nm) / (b_nm - a_nm);
+        self.values[right - 1] * (1.0 - share) + self.values[right] * share
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn samples() -> impl Strategy<Value = Spectrum> {
+        prop::collection::vec((0.1_f64..40.0, 0.0_f64..1.0), 2..30).prop_map(|steps| {
+            let mut nm = 380.0;
+            let (wavelengths_nm, values) = steps
+                .into_iter()
+                .map(|(step_nm, value)| {
+                    nm += step_nm;
+                    (nm, value)
+                })
+                .unzip();
+            Spectrum::new("samples", wavelengths_nm, values).unwrap()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn interpolation_is_exact_at_the_samples(spectrum in samples()) {
+            let grid = WavelengthGrid::new(spectrum.wavelengths_nm().to_vec()).unwrap();
+            prop_assert_eq!(spectrum.on(&grid, Outside::Refuse).unwrap(), spectrum.values());
+        }
+
+        #[test]
+        fn interpolation_is_linear_between_the_samples(spectrum in samples(), share in 0.0_f64..1.0) {
+            let within = |pair: &[f64]| pair[0] + share * (pair[1] - pair[0]);
+            let grid_nm: Vec<f64> = spectrum.wavelengths_nm().windows(2).map(within).collect();
+            prop_assume!(grid_nm.len() > 1);
+            let got = spectrum.on(&WavelengthGrid::new(grid_nm).unwrap(), Outside::Refuse).unwrap();
+            for (got, want) in got.iter().zip(spectrum.values().windows(2).map(within)) {
+                prop_assert!((got - want).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_the_samples_is_zero_or_refused() {
+        let spectrum = Spectrum::new("sigma", vec![400.0, 680.0], vec![1.0, 1.0]).unwrap();
+        let grid = WavelengthGrid::new(vec![390.0, 400.0, 680.0, 690.0]).unwrap();
+        assert_eq!(spectrum.on(&grid, Outside::Zero).unwrap(), [0.0, 1.0, 1.0, 0.0]);
+        assert_eq!(
+            spectrum.on(&grid, Outside::Refuse).unwrap_err().to_string(),
+            "spectrum 'sigma': its samples cover 400..680 nm, the grid is 4 wavelengths in 390..690 nm; \
+             choose a grid within the samples or extend the table"
+        );
+    }
+
+    #[test]
+    fn a_flat_spectrum_covers_every_grid() {
+        let grid = WavelengthGrid::new(vec![1e-3, 550.0, 1e9]).unwrap();
+        assert_eq!(Spectrum::flat("0.3", 0.3).on(&grid, Outside::Refuse).unwrap(), [0.3; 3]);
+    }
+
+    #[test]
+    fn refuses_samples_that_do_not_fit() {
+        assert!(Spectrum::new("short", vec![400.0, 500.0], vec![1.0]).is_err());
+        assert!(Spectrum::new("nan", vec![400.0, 500.0], vec![1.0, f64::NAN]).is_err());
+        assert!(Spectrum::new("back", vec![500.0, 400.0], vec![1.0, 1.0]).is_err());
+    }
+}

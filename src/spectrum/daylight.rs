@@ -1,0 +1,94 @@
+//! CIE daylight of any colour temperature.
+//!
+//! CIE 15:2018, section 4.1.2: chromaticity from the temperature, then a mean and two characteristic vectors of
+//! measured daylight, S(λ) = S0(λ) + M1 S1(λ) + M2 S2(λ).
+
+use super::{Spectrum, table};
+use crate::error::{Error, Result};
+
+/// Daylight of the correlated colour temperature `cct_k`, in K, 100 at 560 nm, on 300..830 nm.
+///
+/// The temperature is the actual one: D65 is `daylight:6504`, D50 is `daylight:5003`, because the constant c2 of
+/// Planck's law changed by 1.4388/1.4380 after those illuminants were named.
+///
+/// # Errors
+/// [`Error::Spectrum`] outside 4000..25000 K, where the formulae are not defined.
+pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
+    let name = format!("daylight:{cct_k}");
+    if !(4000.0..=25000.0).contains(&cct_k) {
+        let remedy = "choose a temperature within it, or A for light bulbs".into();
+        return Err(Error::Spectrum {
+            name,
+            problem: "CIE daylight is defined for 4000..25000 K".into(),
+            remedy,
+        });
+    }
+    let (m1, m2) = weights(chromaticity(cct_k));
+    let basis = table::parse_csv("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    let [s0, s1, s2] = [0, 1, 2].map(|i| basis[i].values());
+    let values = s0.iter().zip(s1).zip(s2).map(|((s0, s1), s2)| s0 + m1 * s1 + m2 * s2).collect();
+    Ok(Spectrum::from_table(name, basis[0].wavelengths_nm.clone(), values))
+}
+
+/// CIE 1931 (x, y) of daylight.
+fn chromaticity(cct_k: f64) -> (f64, f64) {
+    let [c3, c2, c1, c0] = if cct_k <= 7000.0 {
+        [-4.6070e9, 2.9678e6, 0.09911e3, 0.244063]
+    } else {
+        [-2.0064e9, 1.9018e6, 0.24748e3, 0.237040]
+    };
+    let x = ((c3 / cct_k + c2) / cct_k + c1) / cct_k + c0;
+    (x, (-3.0 * x + 2.870) * x - 0.275)
+}
+
+/// M1 and M2, rounded to three decimals as CIE 15 asks.
+fn weights((x, y): (f64, f64)) -> (f64, f64) {
+    let m = 0.0241 + 0.2562 * x - 0.7341 * y;
+    let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / m;
+    let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / m;
+    ((m1 * 1e3).round() / 1e3, (m2 * 1e3).round() / 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::{Outside, WavelengthGrid, illuminant};
+
+    /// Frozen from colour-science 0.4.7: `sd_CIE_illuminant_D_series(CCT_to_xy_CIE_D(T))`.
+    #[test]
+    fn agrees_with_colour_science() {
+        let grid = WavelengthGrid::new(vec![400.0, 455.0, 560.0, 700.0]).unwrap();
+        for (cct_k, want) in [
+            (4000.0, [26.3733, 65.9468, 100.0, 121.4557]),
+            (5500.0, [60.9021, 99.18525, 100.0, 82.8818]),
+            (7000.0, [92.5947, 125.30995, 100.0, 67.9638]),
+            (7001.0, [92.6381, 125.3442, 100.0, 67.9505]),
+            (25000.0, [219.1433, 220.398, 100.0, 51.5249]),
+        ] {
+            let got = daylight(cct_k).unwrap().on(&grid, Outside::Refuse).unwrap();
+            for (got, want) in got.iter().zip(want) {
+                assert!((got - want).abs() < 1e-9, "{cct_k} K: {got} for {want}");
+            }
+        }
+    }
+
+    /// The standard illuminants were tabulated from the same formulae.
+    #[test]
+    fn meets_the_standard_illuminants() {
+        let grid = WavelengthGrid::uniform(380.0, 780.0, 5.0).unwrap();
+        for (cct_k, name) in [(5003.0, "D50"), (5503.0, "D55"), (6504.0, "D65"), (7504.0, "D75")] {
+            let ours = daylight(cct_k).unwrap().on(&grid, Outside::Refuse).unwrap();
+            let theirs = illuminant(name).unwrap().on(&grid, Outside::Refuse).unwrap();
+            for (a, b) in ours.iter().zip(&theirs) {
+                assert!((a - b).abs() < 0.06, "{name}: {a} for {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn refuses_temperatures_without_daylight() {
+        for cct_k in [3999.0, 25001.0, f64::NAN] {
+            assert!(daylight(cct_k).is_err());
+        }
+    }
+}

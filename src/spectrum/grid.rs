@@ -1,0 +1,194 @@
+//! The wavelength grid every computation of one scene shares.
+//!
+//! Paper section 3: the q wavebands of r(λ); section 5C takes 400..700 nm by 5 (q = 61), the default here.
+
+use crate::error::{Error, Result};
+use std::fmt;
+
+/// More wavelengths than any spectrometer gives: a mistyped step must not fill the memory.
+const MAX_WAVELENGTHS: usize = 100_000;
+
+/// Strictly increasing wavelengths in nm, at least two.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::WavelengthGrid;
+/// let grid = WavelengthGrid::default();
+/// assert_eq!(grid.len(), 61);
+/// assert_eq!(grid.to_string(), "400..700 nm by 5");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct WavelengthGrid {
+    wavelengths_nm: Vec<f64>,
+}
+
+impl WavelengthGrid {
+    /// A grid of any spacing, from `wavelengths_nm`.
+    ///
+    /// # Errors
+    /// Fewer than two wavelengths, or not finite, positive and strictly increasing.
+    pub fn new(wavelengths_nm: Vec<f64>) -> Result<Self> {
+        if wavelengths_nm.len() < 2 {
+            return Err(bad("fewer than two wavelengths".into(), "give at least two"));
+        }
+        if let Some(nm) = wavelengths_nm.iter().find(|nm| !nm.is_finite() || **nm <= 0.0) {
+            return Err(bad(format!("{nm} nm is not a wavelength"), "give finite wavelengths above 0 nm"));
+        }
+        if let Some(pair) = wavelengths_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let problem = format!("{} nm is followed by {} nm", pair[0], pair[1]);
+            return Err(bad(problem, "sort the wavelengths and drop repeated ones"));
+        }
+        Ok(Self { wavelengths_nm })
+    }
+
+    /// The grid `first_nm, first_nm + step_nm, …, last_nm`.
+    ///
+    /// # Errors
+    /// The step is not positive, or does not divide the range, or gives more than 100 000 wavelengths.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::spectrum::WavelengthGrid;
+    /// assert_eq!(WavelengthGrid::uniform(380.0, 780.0, 10.0)?.len(), 41);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn uniform(first_nm: f64, last_nm: f64, step_nm: f64) -> Result<Self> {
+        let steps = ((last_nm - first_nm) / step_nm).round();
+        let ends_at_last = (first_nm + steps * step_nm - last_nm).abs() < 1e-6 * step_nm;
+        if !(step_nm > 0.0 && steps >= 1.0 && ends_at_last) {
+            let problem = format!("steps of {step_nm} nm do not lead from {first_nm} to {last_nm} nm");
+            return Err(bad(
+                problem,
+                "choose a positive step that divides the range, such as 400 to 700 by 5",
+            ));
+        }
+        if steps >= MAX_WAVELENGTHS as f64 {
+            let problem = format!("{first_nm}..{last_nm} nm by {step_nm} has {} wavelengths", steps + 1.0);
+            return Err(bad(problem, "choose a larger step"));
+        }
+        Self::new((0..=steps as usize).map(|i| first_nm + i as f64 * step_nm).collect())
+    }
+
+    /// The wavelengths, nm, increasing.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelengths_nm
+    }
+
+    /// The number of wavebands, q in the paper.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> usize {
+        self.wavelengths_nm.len()
+    }
+
+    /// First and last wavelength, nm.
+    #[must_use]
+    pub fn range_nm(&self) -> (f64, f64) {
+        (self.wavelengths_nm[0], self.wavelengths_nm[self.len() - 1])
+    }
+
+    /// Weights w with ∫f dλ ≈ Σ wᵢ f(λᵢ) by the trapezoid rule over the grid's range; they sum to that range.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::spectrum::WavelengthGrid;
+    /// let grid = WavelengthGrid::new(vec![400.0, 500.0, 700.0])?;
+    /// assert_eq!(grid.trapezoid_weights_nm(), [50.0, 150.0, 100.0]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn trapezoid_weights_nm(&self) -> Vec<f64> {
+        let mut weights_nm = vec![0.0; self.len()];
+        for (i, pair) in self.wavelengths_nm.windows(2).enumerate() {
+            let half_nm = (pair[1] - pair[0]) / 2.0;
+            weights_nm[i] += half_nm;
+            weights_nm[i + 1] += half_nm;
+        }
+        weights_nm
+    }
+
+    fn uniform_step_nm(&self) -> Option<f64> {
+        let (first_nm, last_nm) = self.range_nm();
+        let step_nm = (last_nm - first_nm) / (self.len() - 1) as f64;
+        let even = |(i, nm): (usize, &f64)| (first_nm + i as f64 * step_nm - nm).abs() < 1e-6 * step_nm;
+        self.wavelengths_nm.iter().enumerate().all(even).then_some(step_nm)
+    }
+}
+
+fn bad(problem: String, remedy: &'static str) -> Error {
+    Error::Grid { problem, remedy }
+}
+
+/// 400..700 nm by 5, the paper's grid.
+impl Default for WavelengthGrid {
+    fn default() -> Self {
+        Self { wavelengths_nm: (0..61).map(|i| 400.0 + 5.0 * f64::from(i)).collect() }
+    }
+}
+
+impl fmt::Display for WavelengthGrid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (first_nm, last_nm) = self.range_nm();
+        match self.uniform_step_nm() {
+            Some(step_nm) => write!(f, "{first_nm}..{last_nm} nm by {step_nm}"),
+            None => write!(f, "{} wavelengths in {first_nm}..{last_nm} nm", self.len()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// The integral of 1 is the range, the integral of λ is half the difference of the squares.
+        #[test]
+        fn trapezoid_integrates_lines_exactly(steps_nm in prop::collection::vec(0.1..50.0, 1..40)) {
+            let mut nm = vec![380.0];
+            for step_nm in steps_nm {
+                nm.push(nm[nm.len() - 1] + step_nm);
+            }
+            let grid = WavelengthGrid::new(nm).unwrap();
+            let (a, b) = grid.range_nm();
+            let weights_nm = grid.trapezoid_weights_nm();
+            let area: f64 = weights_nm.iter().sum();
+            let moment: f64 = weights_nm.iter().zip(grid.wavelengths_nm()).map(|(w, nm)| w * nm).sum();
+            prop_assert!((area - (b - a)).abs() < 1e-9 * (b - a));
+            prop_assert!((moment - (b * b - a * a) / 2.0).abs() < 1e-9 * moment);
+        }
+    }
+
+    #[test]
+    fn default_is_the_papers_grid() {
+        assert_eq!(WavelengthGrid::default(), WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap());
+    }
+
+    #[test]
+    fn fractional_steps_reach_the_last_wavelength() {
+        let grid = WavelengthGrid::uniform(400.0, 401.0, 0.1).unwrap();
+        assert_eq!(grid.len(), 11);
+        assert_eq!(grid.to_string(), "400..401 nm by 0.1");
+    }
+
+    #[test]
+    fn refuses_what_is_no_grid() {
+        for nm in [vec![], vec![500.0], vec![500.0, 500.0], vec![600.0, 500.0], vec![400.0, f64::NAN]] {
+            assert!(WavelengthGrid::new(nm.clone()).is_err(), "{nm:?}");
+        }
+        for (first, last, step) in
+            [(400.0, 700.0, 7.0), (700.0, 400.0, 5.0), (400.0, 700.0, 0.0), (400.0, 700.0, f64::NAN)]
+        {
+            assert!(WavelengthGrid::uniform(first, last, step).is_err(), "{first} {last} {step}");
+        }
+        let message = WavelengthGrid::uniform(400.0, 700.0, 1e-6).unwrap_err().to_string();
+        assert!(message.contains("choose a larger step"), "{message}");
+    }
+
+    #[test]
+    fn uneven_grids_show_their_size() {
+        let grid = WavelengthGrid::new(vec![400.0, 410.0, 430.0]).unwrap();
+        assert_eq!(grid.to_string(), "3 wavelengths in 400..430 nm");
+    }
+}

@@ -1,0 +1,221 @@
+//! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
+
+use super::{Spectrum, daylight, munsell, spec, table};
+use crate::error::{Error, Result};
+
+/// The kinds of spectra.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// Camera sensitivities.
+    Cameras,
+    /// Illuminants.
+    Illuminants,
+    /// Reflectances.
+    Reflectances,
+}
+
+/// A table embedded in the program, with the file it was made from.
+macro_rules! shared {
+    ($file:literal) => {
+        table::parse_csv(concat!("share/", $file), include_str!(concat!("../../share/", $file)))
+    };
+}
+
+struct Camera {
+    name: &'static str,
+    about: &'static str,
+    exif_make: &'static str,
+    exif_model: &'static str,
+    channels: fn() -> Result<Vec<Spectrum>>,
+}
+
+const CAMERAS: [Camera; 3] = [
+    Camera {
+        name: "canon-5d-mark-ii",
+        about: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces)",
+        exif_make: "Canon",
+        exif_model: "Canon EOS 5D Mark II",
+        channels: || shared!("canon-5d-mark-ii.csv"),
+    },
+    Camera {
+        name: "nikon-d5100",
+        about: "Nikon D5100, 380..780 nm by 5 (National Physical Laboratory)",
+        exif_make: "NIKON CORPORATION",
+        exif_model: "NIKON D5100",
+        channels: || shared!("nikon-d5100.csv"),
+    },
+    Camera {
+        name: "sigma-sd-merrill",
+        about: "Sigma SD1 Merrill, layered Foveon X3 sensor, 400..680 nm by 10 (National Physical Laboratory)",
+        exif_make: "SIGMA",
+        exif_model: "SIGMA SD1 Merrill",
+        channels: || shared!("sigma-sd-merrill.csv"),
+    },
+];
+
+struct ReflectanceSet {
+    name: &'static str,
+    about: &'static str,
+    members: fn() -> Result<Vec<Spectrum>>,
+}
+
+const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
+    ReflectanceSet {
+        name: "cc24",
+        about: "24 ColorChecker patches, Ohta 1997 (cc24:dark-skin, cc24:red, cc24:neutral-6-5, ...)",
+        members: || members_of("cc24", shared!("cc24.csv")?),
+    },
+    ReflectanceSet {
+        name: "cc24-babelcolor",
+        about: "24 ColorChecker patches, mean of 30 charts, BabelColor 2012",
+        members: || members_of("cc24-babelcolor", shared!("cc24-babelcolor.csv")?),
+    },
+    ReflectanceSet {
+        name: "cc24-iso17321",
+        about: "24 ColorChecker patches, ISO 17321-1:2012 (the same values as cc24)",
+        members: || members_of("cc24-iso17321", shared!("cc24.csv")?),
+    },
+    ReflectanceSet {
+        name: "munsell",
+        about: "1269 matt Munsell chips by hue, value/chroma (munsell:5R6/12, ...)",
+        members: munsell::chips,
+    },
+];
+
+/// Names and one-line descriptions of what is built in.
+///
+/// # Errors
+/// Only if an embedded table is damaged.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::library::{What, list};
+/// let cameras = list(What::Cameras)?;
+/// assert!(cameras.iter().any(|(name, _)| name == "nikon-d5100"));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn list(what: What) -> Result<Vec<(String, &'static str)>> {
+    Ok(match what {
+        What::Cameras => CAMERAS.iter().map(|camera| (camera.name.to_owned(), camera.about)).collect(),
+        What::Reflectances => REFLECTANCE_SETS.iter().map(|set| (set.name.to_owned(), set.about)).collect(),
+        What::Illuminants => {
+            let cie = cie_illuminants()?;
+            let mut rows: Vec<_> = cie.iter().map(|cie| (cie.name().to_owned(), about(cie.name()))).collect();
+            rows.push(("daylight:CCT".into(), "CIE daylight of 4000..25000 K, such as daylight:5500"));
+            rows
+        }
+    })
+}
+
+fn about(illuminant: &str) -> &'static str {
+    match illuminant {
+        "A" => "CIE standard illuminant A, light bulb, 2856 K",
+        "E" => "equal energy at every wavelength",
+        name if name.starts_with("LED") => "CIE typical white LED lamp",
+        name if name.starts_with("FL") => "CIE typical fluorescent lamp",
+        _ => "CIE daylight, temperature in hundreds of K",
+    }
+}
+
+fn cie_illuminants() -> Result<Vec<Spectrum>> {
+    shared!("illuminants.csv")
+}
+
+fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
+    Ok(members.into_iter().map(|member| member.renamed(|patch| format!("{set}:{patch}"))).collect())
+}
+
+/// Upper and lower case are the same, and `5R 6/12` is `5R6/12`.
+fn same_name(a: &str, b: &str) -> bool {
+    plain(a).eq(plain(b))
+}
+
+fn plain(name: &str) -> impl Iterator<Item = u8> {
+    name.bytes().filter(|&letter| letter != b' ').map(|letter| letter.to_ascii_lowercase())
+}
+
+/// The built-in spectra called `name`: a set, a member, an illuminant, the channels of a camera; `None` if there are
+/// none.
+pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
+    match what {
+        What::Cameras => {
+            let camera = CAMERAS.iter().find(|camera| same_name(camera.name, name));
+            camera.map(|camera| (camera.channels)()).transpose()
+        }
+        What::Illuminants => Ok(illuminant(name)?.map(|illuminant| vec![illuminant])),
+        What::Reflectances => {
+            let set_name = name.split_once(':').map_or(name, |(set, _)| set);
+            let set = REFLECTANCE_SETS.iter().find(|set| same_name(set.name, set_name));
+            set.map(|set| members_called(name, (set.members)()?)).transpose()
+        }
+    }
+}
+
+/// All members if `name` is the set's, else the one member of that name.
+fn members_called(name: &str, mut members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
+    if !name.contains(':') {
+        return Ok(members);
+    }
+    match members.iter().position(|member| same_name(member.name(), name)) {
+        Some(at) => Ok(vec![members.swap_remove(at)]),
+        None => Err(spec::unknown(What::Reflectances, name, members.iter().map(Spectrum::name))),
+    }
+}
+
+fn illuminant(name: &str) -> Result<Option<Spectrum>> {
+    let Some(cct_k) = name.strip_prefix("daylight:") else {
+        return Ok(cie_illuminants()?.into_iter().find(|cie| same_name(cie.name(), name)));
+    };
+    let cct_k = cct_k.parse().map_err(|_| Error::Spectrum {
+        name: name.to_owned(),
+        problem: format!("'{cct_k}' is not a colour temperature"),
+        remedy: "write kelvins, such as daylight:5500".into(),
+    })?;
+    daylight::daylight(cct_k).map(Some)
+}
+
+/// The built-in camera that writes these EXIF fields Make and Model into its pictures.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::camera_by_exif;
+/// assert_eq!(camera_by_exif("Canon", "Canon EOS 5D Mark II"), Some("canon-5d-mark-ii"));
+/// assert_eq!(camera_by_exif("Canon", "Canon EOS 1000D"), None);
+/// ```
+#[must_use]
+pub fn camera_by_exif(make: &str, model: &str) -> Option<&'static str> {
+    let found = |camera: &&Camera| same_name(camera.exif_make, make) && same_name(camera.exif_model, model);
+    CAMERAS.iter().find(found).map(|camera| camera.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_listed_name_is_found() {
+        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 3), (What::Illuminants, 44)] {
+            let names = list(what).unwrap();
+            assert_eq!(names.len(), count);
+            for (name, _) in names {
+                assert!(find(what, &name.replace("CCT", "5500")).unwrap().is_some(), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_set_of_patches_has_the_same_names() {
+        let members = |set: &str| -> Vec<String> {
+            let members = find(What::Reflectances, set).unwrap().unwrap();
+            members.iter().map(|member| member.name().replace(set, "")).collect()
+        };
+        assert_eq!(members("cc24").len(), 24);
+        assert_eq!(members("cc24"), members("cc24-babelcolor"));
+        assert_eq!(members("cc24"), members("cc24-iso17321"));
+    }
+
+    #[test]
+    fn exif_may_be_padded_or_in_capitals() {
+        assert_eq!(camera_by_exif("SIGMA ", "Sigma SD1 MERRILL"), Some("sigma-sd-merrill"));
+    }
+}

@@ -1,0 +1,44 @@
+//! Names like a mistyped one, for errors.
+
+/// Up to three of `known`, nearest first, that could be meant by `name`: a few letters off, or `name` is part of them.
+pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut near: Vec<_> = known.map(|known| (edits(name, known), known)).collect();
+    near.retain(|&(edits, known)| edits <= 1 + name.len() / 3 || known.contains(&name.to_lowercase()));
+    near.sort_by_key(|&(edits, _)| edits);
+    near.iter().take(3).map(|&(_, known)| known).collect()
+}
+
+/// Levenshtein's distance, upper and lower case alike.
+fn edits(a: &str, b: &str) -> usize {
+    let (a, b) = (a.to_lowercase(), b.to_lowercase());
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, to) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(from != to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.chars().count()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn part_of_a_name_is_near() {
+        assert_eq!(nearest("Nikon", ["canon-5d-mark-ii", "nikon-d5100"].into_iter()), ["nikon-d5100"]);
+    }
+
+    /// The textbook distances.
+    #[test]
+    fn edits_are_levenshteins() {
+        for (a, b, want) in
+            [("kitten", "sitting", 3), ("Saturday", "sunday", 3), ("", "abc", 3), ("d65", "D65", 0)]
+        {
+            assert_eq!((edits(a, b), edits(b, a)), (want, want), "{a} {b}");
+        }
+    }
+}

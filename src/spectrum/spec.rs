@@ -1,0 +1,246 @@
+//! SPEC, the way the command line names spectra.
+//!
+//! In this order: a number (flat), a built-in name, `set:member` or `daylight:CCT`, a file, one column of a file as
+//! `file.csv:column`. A file called like a built-in name is reached as `./D65`.
+
+use super::library::{self, What};
+use super::nearest::nearest;
+use super::{Spectrum, table};
+use crate::error::{Error, Result};
+use std::path::Path;
+
+/// Negative sensitivities up to this fraction of the peak are measurement noise about zero.
+const NOISE_OF_PEAK: f64 = 1e-3;
+
+/// What the channels of a camera see of each wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivities {
+    /// The SPEC the camera was named by.
+    pub name: String,
+    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in ones.
+    pub channels: Vec<Spectrum>,
+}
+
+/// The reflectances that `spec` names: every member of a set, every column of a file.
+///
+/// # Errors
+/// Nothing of that name ([`Error::UnknownName`]), a file that cannot be read ([`Error::File`], [`Error::Table`]), or
+/// values outside 0..1 ([`Error::Spectrum`]).
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::reflectances;
+/// assert_eq!(reflectances("cc24")?.len(), 24);
+/// assert_eq!(reflectances("munsell:5R6/12")?[0].name(), "munsell:5R6/12");
+/// assert_eq!(reflectances("0.18")?[0].values(), [0.18, 0.18]);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
+    let spectra = find(What::Reflectances, spec)?;
+    spectra.iter().try_for_each(check_reflectance)?;
+    Ok(spectra)
+}
+
+/// The illuminant that `spec` names, relative power.
+///
+/// # Errors
+/// As for [`reflectances`]; a file with several columns; a power below 0 or zero throughout.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::{Outside, WavelengthGrid, illuminant};
+/// let grid = WavelengthGrid::uniform(555.0, 560.0, 5.0)?;
+/// assert_eq!(illuminant("D65")?.on(&grid, Outside::Refuse)?, [102.023, 100.0]);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn illuminant(spec: &str) -> Result<Spectrum> {
+    let mut columns = find(What::Illuminants, spec)?;
+    let illuminant = columns.swap_remove(0);
+    if !columns.is_empty() {
+        let problem = format!("{} columns, where one illuminant is wanted", columns.len() + 1);
+        return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
+    }
+    check_power(&illuminant, 0.0)?;
+    Ok(illuminant)
+}
+
+/// The camera that `spec` names; a number is one channel that sees all wavelengths alike.
+///
+/// # Errors
+/// As for [`reflectances`]; a sensitivity below 0 by more than a thousandth of the camera's peak, or zero throughout.
+///
+/// # Example
+/// ```
+/// let camera = vfold::spectrum::camera("canon-5d-mark-ii")?;
+/// assert_eq!(camera.channels[1].name(), "G");
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn camera(spec: &str) -> Result<Sensitivities> {
+    let mut channels = find(What::Cameras, spec)?;
+    let peak = channels.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
+    for channel in &mut channels {
+        check_power(channel, -NOISE_OF_PEAK * peak)?;
+        channel.values.iter_mut().for_each(|value| *value = value.max(0.0));
+    }
+    Ok(Sensitivities { name: spec.to_owned(), channels })
+}
+
+/// The spectra that `spec` names, at least one, not checked for what they are used as.
+fn find(what: What, spec: &str) -> Result<Vec<Spectrum>> {
+    if let Some(value) = spec.parse().ok().filter(|value: &f64| value.is_finite()) {
+        return Ok(vec![Spectrum::flat(spec, value)]);
+    }
+    if let Some(spectra) = library::find(what, spec)? {
+        return Ok(spectra);
+    }
+    let (path, column) = match spec.rsplit_once(':') {
+        Some((path, column)) if !Path::new(spec).exists() => (path, Some(column)),
+        _ => (spec, None),
+    };
+    if !Path::new(path).exists() && !path.contains('/') && !path.ends_with(".csv") {
+        return Err(unknown(what, spec, library::list(what)?.iter().map(|(name, _)| name.as_str())));
+    }
+    let spectra = column_called(path, column, table::read_csv(path)?)?;
+    Ok(if what == What::Cameras { spectra } else { called_after_file(path, column, spectra) })
+}
+
+/// The column asked for, or all of them.
+fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
+    let Some(column) = column else { return Ok(spectra) };
+    let Some(at) = spectra.iter().position(|spectrum| spectrum.name() == column) else {
+        let names: Vec<_> = spectra.iter().map(Spectrum::name).collect();
+        let hint = format!("the columns are {}", names[..names.len().min(12)].join(", "));
+        return Err(bad(path, format!("there is no column '{column}'"), hint));
+    };
+    Ok(vec![spectra.swap_remove(at)])
+}
+
+/// `red.csv` holds `red` if it has one column, else `red:COLUMN`.
+fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
+    let stem = Path::new(path).file_stem().map_or(path.into(), |stem| stem.to_string_lossy());
+    let alone = spectra.len() == 1 && column.is_none();
+    let name = |column: &str| if alone { stem.to_string() } else { format!("{stem}:{column}") };
+    spectra.into_iter().map(|spectrum| spectrum.renamed(name)).collect()
+}
+
+fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
+    let Some(&value) = spectrum.values().iter().find(|value| !(0.0..=1.0).contains(*value)) else {
+        return Ok(());
+    };
+    let remedy = match value {
+        ..0.0 => "set negative noise to 0",
+        2.0.. => "write fractions, not percent",
+        _ => "leave out fluorescent samples, rescale wrongly scaled ones",
+    };
+    Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
+}
+
+fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
+    if let Some(value) = spectrum.values().iter().find(|value| **value < least) {
+        return Err(bad(spectrum.name(), format!("{value} is below 0"), "give values of 0 or more"));
+    }
+    if !spectrum.values().iter().any(|value| *value > 0.0) {
+        return Err(bad(
+            spectrum.name(),
+            "it is zero at every wavelength",
+            "give a positive value somewhere",
+        ));
+    }
+    Ok(())
+}
+
+fn bad(name: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
+    Error::Spectrum { name: name.to_owned(), problem: problem.into(), remedy: remedy.into() }
+}
+
+/// The error for a name that is not among `known`, with the nearest of those.
+pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    let (kind, list) = match what {
+        What::Cameras => ("camera", "cameras"),
+        What::Illuminants => ("illuminant", "illuminants"),
+        What::Reflectances => ("reflectance", "reflectances"),
+    };
+    let near = nearest(name, known);
+    let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
+    let hint = format!("{meant}--list {list} shows what is built in, a file needs its .csv");
+    Error::UnknownName { kind, name: name.to_owned(), hint }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs::write;
+
+    /// Runs `test` with the path of a CSV file of that text.
+    fn with_csv(text: &str, test: impl FnOnce(&str)) {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("paint.csv");
+        write(&path, text).unwrap();
+        test(path.to_str().unwrap());
+    }
+
+    fn message<T: std::fmt::Debug>(result: Result<T>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn names_are_found_in_any_case() {
+        assert_eq!(illuminant("d65").unwrap().name(), "D65");
+        assert_eq!(reflectances("Munsell:5r 6/12").unwrap()[0].name(), "munsell:5R6/12");
+        assert_eq!(reflectances("munsell").unwrap().len(), 1269);
+        assert_eq!(camera("1").unwrap().channels.len(), 1);
+    }
+
+    #[test]
+    fn files_give_all_columns_or_one() {
+        with_csv("nm,red,blue\n400,0.1,0.2\n700,0.3,0.4\n", |path| {
+            let both = reflectances(path).unwrap();
+            assert_eq!([both[0].name(), both[1].name()], ["paint:red", "paint:blue"]);
+            let blue = reflectances(&format!("{path}:blue")).unwrap();
+            assert_eq!((blue.len(), &blue[0]), (1, &both[1]));
+            assert_eq!(camera(path).unwrap().channels[0].name(), "red");
+            assert!(
+                message(illuminant(path)).contains("2 columns, where one illuminant is wanted; name one")
+            );
+            assert!(message(reflectances(&format!("{path}:pink"))).contains("the columns are red, blue"));
+        });
+        with_csv("nm,r\n400,0.1\n700,0.3\n", |path| {
+            assert_eq!(reflectances(path).unwrap()[0].name(), "paint");
+        });
+    }
+
+    #[test]
+    fn values_that_cannot_be_are_refused() {
+        for (value, want) in [(-0.1, "set negative"), (1.44, "fluorescent"), (44.0, "not percent")] {
+            with_csv(&format!("nm,r\n400,0.1\n700,{value}\n"), |path| {
+                let message = message(reflectances(path));
+                assert!(message.contains(&format!("reflectance {value} is outside")), "{message}");
+                assert!(message.contains(want), "{message}");
+            });
+        }
+        assert!(message(illuminant("-1")).contains("below 0"));
+        assert!(message(camera("0")).contains("zero at every wavelength"));
+    }
+
+    #[test]
+    fn sensor_noise_below_zero_is_cut() {
+        with_csv("nm,R\n400,-0.0009\n700,1\n", |path| {
+            assert_eq!(camera(path).unwrap().channels[0].values(), [0.0, 1.0]);
+        });
+        with_csv("nm,R\n400,-0.0011\n700,1\n", |path| assert!(camera(path).is_err()));
+    }
+
+    #[test]
+    fn unknown_names_get_the_nearest_ones() {
+        assert_eq!(
+            message(illuminant("D56")),
+            "no illuminant is called 'D56'; did you mean D50 or D55 or D60? \
+             --list illuminants shows what is built in, a file needs its .csv"
+        );
+        assert!(message(reflectances("cc24:redd")).contains("did you mean cc24:red "));
+        assert!(message(camera("leica")).starts_with("no camera is called 'leica'; --list cameras shows"));
+        assert!(matches!(reflectances("no-such.csv"), Err(Error::File { .. })));
+        assert!(message(illuminant("daylight:3000")).contains("4000..25000 K"));
+        assert!(message(illuminant("nan")).starts_with("no illuminant"));
+    }
+}
