@@ -5,6 +5,7 @@ pub mod cli;
 pub mod colorimetry;
 pub mod error;
 pub mod estimate;
+pub mod files;
 pub mod forward;
 pub mod geometry;
 pub mod image;

@@ -52,6 +52,65 @@ fn norm(spectrum: &[f64]) -> f64 {
     spectrum.iter().map(|r| r * r).sum::<f64>().sqrt()
 }
 
+/// The scores of one sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Metrics {
+    /// Root mean square error, eq. (37).
+    pub rmse: f64,
+    /// CIEDE2000 colour difference.
+    pub ciede2000: f64,
+    /// The paper's "Pearson distance", eq. (38).
+    pub pd: f64,
+}
+
+/// The scores of a batch: 24 bytes a sample, so that the median is exact.
+#[derive(Clone, Debug, Default)]
+pub struct Summary {
+    samples: usize,
+    scores: [Vec<f64>; 3],
+}
+
+impl Summary {
+    /// Counts a sample, and its scores if it has any.
+    pub fn add(&mut self, metrics: Option<Metrics>) {
+        self.samples += 1;
+        if let Some(Metrics { rmse, ciede2000, pd }) = metrics {
+            self.scores.iter_mut().zip([rmse, ciede2000, pd]).for_each(|(scores, score)| scores.push(score));
+        }
+    }
+
+    /// Samples counted.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Samples with scores.
+    #[must_use]
+    pub fn scored(&self) -> usize {
+        self.scores[0].len()
+    }
+
+    /// Mean, median and worst of each score; none without a score.
+    #[must_use]
+    pub fn statistics(&self) -> Option<[Metrics; 3]> {
+        let count = self.scored();
+        if count == 0 {
+            return None;
+        }
+        let metrics = |[rmse, ciede2000, pd]: [f64; 3]| Metrics { rmse, ciede2000, pd };
+        let sorted = self.scores.each_ref().map(|scores| {
+            let mut scores = scores.clone();
+            scores.sort_by(f64::total_cmp);
+            scores
+        });
+        let mean = sorted.each_ref().map(|scores| scores.iter().sum::<f64>() / count as f64);
+        let median = sorted.each_ref().map(|scores| 0.5 * (scores[(count - 1) / 2] + scores[count / 2]));
+        let worst = sorted.each_ref().map(|scores| scores[count - 1]);
+        Some([mean, median, worst].map(metrics))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

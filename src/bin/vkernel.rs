@@ -1,3 +1,96 @@
-//! `vkernel`
+//! `vkernel`: the geometry of a fold and its light, as one scene record.
 
-fn main() {}
+use std::process::ExitCode;
+
+use clap::Parser;
+use vfold::cli::{self, Common, ToolArgs};
+use vfold::geometry::{FacetGrid, Fold, Light};
+use vfold::kernel::exact::FoldKernel;
+use vfold::kernel::mesh::{Mesh, respond};
+use vfold::stream::{Output, Scene, write_matrix};
+use vfold::{Error, Result};
+
+/// Solve the bounces of light in a V-shaped fold, for every reflectance at once
+#[derive(Parser)]
+#[command(
+    name = "vkernel",
+    version,
+    after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
+                  vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json"
+)]
+struct Args {
+    /// Angle between the two panels, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 45.0, allow_negative_numbers = true)]
+    angle_deg: f64,
+    /// Panel along the crease x away from it; only the ratio matters
+    #[arg(long, value_name = "WIDTHxDEPTH", default_value = "1x1", value_parser = cli::pair::<f64>)]
+    panel: (f64, f64),
+    /// Facets of a panel, rows away from the crease x columns along it: where colour is measured
+    #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
+    facets: (usize, usize),
+    /// Where the bounces are solved: as fine as needed, one flat patch a facet (the paper's model), or given patches
+    #[arg(long, value_name = "auto|facets|ROWSxCOLS", default_value = "auto", value_parser = mesh)]
+    mesh: Mesh,
+    /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1
+    #[arg(long, value_name = "X", default_value_t = 1e-5, allow_negative_numbers = true)]
+    tolerance: f64,
+    /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    tilt_deg: f64,
+    /// Angle of the sun along the crease, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    slant_deg: f64,
+    /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's
+    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true)]
+    sky: f64,
+    /// Name of the scene
+    #[arg(long, default_value = "fold")]
+    id: String,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+}
+
+fn main() -> ExitCode {
+    cli::run(tool)
+}
+
+fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    if !(1e-12..=0.1).contains(&args.tolerance) {
+        return Err(Error::usage("--tolerance", format!("{} is out of range", args.tolerance), "give 1e-12 to 0.1"));
+    }
+    let grid = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
+    let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, grid)?;
+    let light = Light::new(&fold, args.tilt_deg, args.slant_deg, args.sky)?;
+    let (response, accuracy) = respond(&fold, args.mesh, args.tolerance)?;
+    let mut scene = Scene::new(&args.id, &fold, &light, &response)?;
+    scene.set_accuracy(&args.mesh.to_string(), args.tolerance, &accuracy)?;
+    if args.common.verbose {
+        let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
+        let poles = response.poles().len();
+        cli::say("vkernel", &format!("{} unknowns, {poles} poles, facet means' error {error}", accuracy.unknowns));
+    }
+    if let Some(path) = out.saves.take("kernel") {
+        let (kernel, facets) = (FoldKernel::new(&fold), 2 * grid.len());
+        write_matrix(&path, facets, facets, |facet| kernel.matrix_row(facet))?;
+    }
+    if !args.common.no_history {
+        scene.fields.add_history("vkernel")?;
+    }
+    out.scene(&scene)
+}
+
+fn mesh(text: &str) -> std::result::Result<Mesh, String> {
+    match text {
+        "auto" => Ok(Mesh::Auto),
+        "facets" => Ok(Mesh::Facets),
+        _ => cli::pair(text)
+            .map(|(rows, cols)| Mesh::Patches(FacetGrid { rows, cols }))
+            .map_err(|_| "write auto, facets, or patches such as 40x40".to_owned()),
+    }
+}

@@ -1,5 +1,7 @@
 //! How finely the bounces are solved, which is not how finely colour is measured.
 
+use std::fmt;
+
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::continuum::{Continuum, Resolution};
@@ -23,6 +25,16 @@ pub enum Mesh {
     Facets,
     /// Flat patches finer than the facets, then averaged.
     Patches(FacetGrid),
+}
+
+impl fmt::Display for Mesh {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Facets => f.write_str("facets"),
+            Self::Patches(grid) => write!(f, "{}x{}", grid.rows, grid.cols),
+        }
+    }
 }
 
 /// What the solution of a scene's bounces is worth.

@@ -7,12 +7,14 @@ mod fields;
 mod npy;
 mod reader;
 mod sample;
+mod saves;
 mod scene;
 mod writer;
 
-pub use fields::Fields;
+pub use fields::{Fields, finite};
 pub use npy::{ArrayStack, write_matrix};
 pub use reader::{Reader, Record, Transform, pipe};
-pub use sample::{Colours, Estimate, Sample, Truth};
-pub use scene::{CameraRecord, Scene, SpectrumRecord};
-pub use writer::{Output, Saved};
+pub use sample::{Colours, ReflectanceRecord, Sample, summary};
+pub use saves::Saves;
+pub use scene::{CameraRecord, ReferencePanel, Scene, SpectrumRecord};
+pub use writer::Output;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use npyz::WriterBuilder;
 
-use super::Saved;
 use crate::error::{Error, Result};
+use crate::files::Saved;
 
 /// Arrays of one shape, stacked along a new first axis as samples pass, without keeping them in memory.
 pub struct ArrayStack {

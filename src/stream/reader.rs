@@ -154,7 +154,7 @@ fn flush<T: Transform + Sync>(
     let finished: Vec<Result<Sample>> = batch
         .par_drain(..)
         .map(|(_, mut sample)| {
-            if !sample.has_error()?
+            if sample.error()?.is_none()
                 && let Err(error) = transform.sample(context, &mut sample)
             {
                 sample.set_error(&error)?;

@@ -6,6 +6,7 @@ use serde_json::json;
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
+use crate::score::{Metrics, Summary};
 use crate::solve::Termination;
 
 /// Facet by channel; null for a facet that was not measured.
@@ -18,9 +19,9 @@ pub struct Sample {
     pub fields: Fields,
 }
 
-/// The true reflectance of a sample, on its own wavelengths.
+/// A true or estimated reflectance, on its own wavelengths.
 #[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
-pub struct Truth {
+pub struct ReflectanceRecord {
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
     /// Reflectance a wavelength.
@@ -105,7 +106,7 @@ impl Sample {
     ///
     /// # Errors
     /// [`Error::Field`] if it is not a spectrum.
-    pub fn estimated(&self) -> Result<Option<Truth>> {
+    pub fn estimated(&self) -> Result<Option<ReflectanceRecord>> {
         self.fields.get("estimate")
     }
 
@@ -121,11 +122,20 @@ impl Sample {
         Ok(self.fields.get::<Deviation>("estimate")?.and_then(|estimate| estimate.reflectance_sd))
     }
 
+    /// Sets the true spectrum.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
+        finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
+        self.fields.set("truth", truth)
+    }
+
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
     /// [`Error::Field`] if it is not a spectrum.
-    pub fn truth(&self) -> Result<Option<Truth>> {
+    pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
         self.fields.get("truth")
     }
 
@@ -137,12 +147,52 @@ impl Sample {
         self.fields.set("error", error.to_string())
     }
 
-    /// Whether an earlier tool failed on this sample.
+    /// What went wrong with this sample in an earlier tool, if anything did.
     ///
     /// # Errors
     /// [`Error::Field`] if `error` is not text.
-    pub fn has_error(&self) -> Result<bool> {
-        Ok(self.fields.get::<String>("error")?.is_some())
+    pub fn error(&self) -> Result<Option<String>> {
+        self.fields.get("error")
+    }
+
+    /// The exposure at which the facets were computed or calibrated, if it is known.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not a number.
+    pub fn exposure(&self) -> Result<Option<f64>> {
+        self.fields.get("exposure")
+    }
+
+    /// Whether the facets come from a photograph.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if `image` is not an object.
+    pub fn is_photograph(&self) -> Result<bool> {
+        Ok(self.fields.get::<serde::de::IgnoredAny>("image")?.is_some())
+    }
+
+    /// Adds scores.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_metrics(&mut self, metrics: &Metrics) -> Result<()> {
+        finite("metrics", [&metrics.rmse, &metrics.ciede2000, &metrics.pd])?;
+        self.fields.set("metrics", json!({ "rmse": metrics.rmse, "ciede2000": metrics.ciede2000, "pd": metrics.pd }))
+    }
+
+    /// The sample's scores, if it has any.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are not numbers.
+    pub fn metrics(&self) -> Result<Option<Metrics>> {
+        #[derive(Deserialize)]
+        struct MetricsRecord {
+            rmse: f64,
+            ciede2000: f64,
+            pd: f64,
+        }
+        let record: Option<MetricsRecord> = self.fields.get("metrics")?;
+        Ok(record.map(|MetricsRecord { rmse, ciede2000, pd }| Metrics { rmse, ciede2000, pd }))
     }
 }
 
@@ -152,4 +202,25 @@ fn termination(termination: &Termination) -> serde_json::Value {
         Termination::IterationLimit => json!({ "reason": "iteration limit" }),
         Termination::NoProgress { gradient_norm } => json!({ "reason": "no progress", "gradient_norm": gradient_norm }),
     }
+}
+
+/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score.
+///
+/// # Errors
+/// As [`Fields::set`].
+pub fn summary(summary: &Summary) -> Result<Fields> {
+    let mut fields = Fields::of_kind("summary");
+    fields.set("samples", summary.samples())?;
+    fields.set("scored", summary.scored())?;
+    if let Some(statistics) = summary.statistics() {
+        for (name, pick) in [
+            ("rmse", (|m: &Metrics| m.rmse) as fn(&Metrics) -> f64),
+            ("ciede2000", |m| m.ciede2000),
+            ("pd", |m| m.pd),
+        ] {
+            let [mean, median, worst] = statistics.each_ref().map(pick);
+            fields.set(name, json!({ "mean": mean, "median": median, "worst": worst }))?;
+        }
+    }
+    Ok(fields)
 }

@@ -6,14 +6,16 @@ use serde_json::json;
 use super::fields::{Fields, finite};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::forward::Lighting;
+use crate::forward::{FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Fold, Light};
-use crate::kernel::mesh::Accuracy;
+use crate::kernel::mesh::{Accuracy, Mesh, respond};
 use crate::response::Response;
 use crate::spectrum::WavelengthGrid;
 
 /// The stream's format, in every scene.
 const FORMAT: &str = "vfold/1";
+/// Relative error of the light in a picture: below its noise.
+const PICTURE_TOLERANCE: f64 = 1e-4;
 
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +42,15 @@ pub struct CameraRecord {
     pub channels: Vec<String>,
     /// Sensitivity, channel by waveband.
     pub sensitivities: Vec<Vec<f64>>,
+}
+
+/// A card of known reflectance in the place of panel 1, on the scene's wavelengths.
+#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+pub struct ReferencePanel {
+    /// Built-in name or file.
+    pub name: String,
+    /// Reflectance a waveband.
+    pub reflectance: Vec<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -211,6 +222,43 @@ impl Scene {
             return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers a channel")));
         }
         Ok(camera)
+    }
+
+    /// Says that panel 1 is a card of known reflectance.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_reference_panel(&mut self, card: &ReferencePanel) -> Result<()> {
+        finite("reference_panel", &card.reflectance)?;
+        self.fields.set("reference_panel", card)
+    }
+
+    /// The model of facet RGB: of one sheet, or of a sheet and a card.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a part of the scene is missing or does not fit the others.
+    pub fn model(&self) -> Result<FacetModel> {
+        self.model_with(&self.response()?)
+    }
+
+    /// The same with other facets, finer than those of the scene, for pictures.
+    ///
+    /// # Errors
+    /// As [`Scene::model`].
+    pub fn fine_model(&self, grid: FacetGrid) -> Result<FacetModel> {
+        let (response, _) = respond(&self.fold()?.with_facets(grid)?, Mesh::Auto, PICTURE_TOLERANCE)?;
+        self.model_with(&response)
+    }
+
+    fn model_with(&self, response: &Response) -> Result<FacetModel> {
+        let lighting = self.lighting()?;
+        let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else {
+            return Ok(FacetModel::one_sheet(response, &lighting));
+        };
+        if card.reflectance.len() != self.grid()?.len() || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r)) {
+            return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
+        }
+        Ok(FacetModel::with_card(response, &lighting, card.reflectance))
     }
 
     /// The lights as the camera responds to them.

@@ -1,17 +1,17 @@
 //! Writing records: whole files or none.
 
-use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
-use super::{Fields, Sample, Scene};
+use super::{Fields, Sample, Saves, Scene};
 use crate::error::{Error, Result};
+use crate::files::Saved;
 
 /// Where a tool's records go: standard output, or a file that appears when it is whole.
 pub struct Output {
     sink: Sink,
+    /// Fields that are also written as arrays.
+    pub saves: Saves,
     failed: usize,
 }
 
@@ -21,16 +21,16 @@ enum Sink {
 }
 
 impl Output {
-    /// Standard output for `-` or nothing, else the file.
+    /// Standard output for `-` or nothing, else the file; `saves` names fields to write as arrays.
     ///
     /// # Errors
     /// [`Error::File`] if its folder cannot be written.
-    pub fn to(path: Option<&Path>) -> Result<Self> {
+    pub fn to(path: Option<&Path>, saves: &[(String, PathBuf)]) -> Result<Self> {
         let sink = match path {
             Some(path) if path != Path::new("-") => Sink::File(BufWriter::new(Saved::new(path)?)),
             _ => Sink::Stdout(BufWriter::new(io::stdout())),
         };
-        Ok(Self { sink, failed: 0 })
+        Ok(Self { sink, saves: Saves::new(saves), failed: 0 })
     }
 
     /// Writes a scene.
@@ -46,7 +46,7 @@ impl Output {
     /// # Errors
     /// As [`Output::fields`].
     pub fn sample(&mut self, sample: &Sample) -> Result<()> {
-        self.failed += usize::from(sample.has_error()?);
+        self.failed += usize::from(sample.error()?.is_some());
         self.fields(&sample.fields)
     }
 
@@ -55,6 +55,7 @@ impl Output {
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if it cannot be written.
     pub fn fields(&mut self, fields: &Fields) -> Result<()> {
+        self.saves.record(fields)?;
         let mut line = serde_json::to_vec(&fields.0).map_err(|e| Error::field(fields.kind(), e))?;
         line.push(b'\n');
         self.bytes(&line)
@@ -68,10 +69,19 @@ impl Output {
         self.bytes(format!("{line}\n").as_bytes())
     }
 
+    /// Writes a line of plain text about a sample that failed.
+    ///
+    /// # Errors
+    /// As [`Output::fields`].
+    pub fn failed_text(&mut self, line: &str) -> Result<()> {
+        self.failed += 1;
+        self.text(line)
+    }
+
     fn bytes(&mut self, bytes: &[u8]) -> Result<()> {
         match &mut self.sink {
             Sink::Stdout(out) => out.write_all(bytes).map_err(Error::Output),
-            Sink::File(out) => out.write_all(bytes).map_err(|e| Error::file(out.get_ref().path.display(), e)),
+            Sink::File(out) => out.write_all(bytes).map_err(|e| Error::file(out.get_ref().path().display(), e)),
         }
     }
 
@@ -80,6 +90,7 @@ impl Output {
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.
     pub fn finish(self) -> Result<usize> {
+        self.saves.finish()?;
         match self.sink {
             Sink::Stdout(mut out) => out.flush().map_err(Error::Output)?,
             Sink::File(out) => {
@@ -87,61 +98,5 @@ impl Output {
             }
         }
         Ok(self.failed)
-    }
-}
-
-/// A file under a temporary name in its own folder, which takes its name when it is whole.
-pub struct Saved {
-    file: NamedTempFile,
-    path: PathBuf,
-}
-
-impl Saved {
-    /// Opens the temporary file.
-    ///
-    /// # Errors
-    /// [`Error::File`] if the folder cannot be written.
-    pub fn new(path: &Path) -> Result<Self> {
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".vfold-");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let file = builder.tempfile_in(folder).map_err(|e| Error::file(path.display(), e))?;
-        Ok(Self { file, path: path.to_owned() })
-    }
-
-    /// The open file.
-    pub fn file_mut(&mut self) -> &mut File {
-        self.file.as_file_mut()
-    }
-
-    /// The name it will have.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Gives the file its name.
-    ///
-    /// # Errors
-    /// [`Error::File`] if it cannot be renamed.
-    pub fn keep(self) -> Result<()> {
-        let path = self.path;
-        // Devices such as /dev/null take bytes, not a new name.
-        self.file.persist(&path).map(drop).map_err(|e| Error::file(path.display(), e.error))
-    }
-}
-
-impl Write for Saved {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
     }
 }

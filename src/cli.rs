@@ -1,0 +1,205 @@
+//! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, CommandFactory, Parser, ValueEnum};
+
+use crate::error::{Error, Result};
+use crate::spectrum::library::{What, list};
+use crate::spectrum::{self, Outside, WavelengthGrid};
+use crate::stream::{CameraRecord, Output, SpectrumRecord};
+
+/// Flags that all tools have.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Common options")]
+pub struct Common {
+    /// Write here instead of standard output; the file appears when it is whole
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Threads to use [default: all cores]
+    #[arg(short = 'j', long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Say what was decided, measured and skipped
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub verbose: bool,
+    /// Also write a field of the records as an NPY array, samples stacked
+    #[arg(long, value_name = "FIELD=FILE", value_parser = field_and_file)]
+    pub save: Vec<(String, PathBuf)>,
+    /// Do not record this tool's arguments in the stream
+    #[arg(long)]
+    pub no_history: bool,
+    /// Print the man page or a shell's completions
+    #[arg(long, value_name = "WHAT")]
+    pub generate: Option<Generate>,
+    /// Print the built-in spectra of a kind
+    #[arg(long, value_name = "WHAT")]
+    pub list: Option<ListWhat>,
+}
+
+/// What `--generate` prints.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Generate {
+    /// The man page.
+    Man,
+    /// Completions for bash.
+    Bash,
+    /// Completions for zsh.
+    Zsh,
+    /// Completions for fish.
+    Fish,
+}
+
+/// What `--list` prints.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ListWhat {
+    /// Camera sensitivities.
+    Cameras,
+    /// Illuminants.
+    Illuminants,
+    /// Reflectances and sets of them.
+    Reflectances,
+}
+
+/// A tool's arguments.
+pub trait ToolArgs: Parser {
+    /// The flags that all tools have.
+    fn common(&self) -> &Common;
+}
+
+/// Runs one tool and turns its outcome into an exit status.
+///
+/// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
+/// carry an `error`.
+pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
+    let args = A::parse();
+    match frame(&args, tool) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(3),
+        Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(e) => {
+            say(A::command().get_name(), &e.to_string());
+            ExitCode::from(e.exit_status())
+        }
+    }
+}
+
+/// The tool between opening and finishing its output; how many records carry an error.
+fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<usize> {
+    let common = args.common();
+    if let Some(threads) = common.threads {
+        // Fails only if a pool exists already, which no tool makes before this.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    }
+    let mut out = Output::to(common.output.as_deref(), &common.save)?;
+    match (common.generate, common.list) {
+        (Some(what), _) => generate::<A>(what, &mut out)?,
+        (None, Some(what)) => print_list(what, &mut out)?,
+        (None, None) => tool(args, &mut out)?,
+    }
+    out.finish()
+}
+
+/// Writes a line to standard error; unlike `eprintln!` it survives a closed one.
+pub fn say(tool: &str, message: &str) {
+    let _ = writeln!(io::stderr(), "{tool}: {message}");
+}
+
+fn generate<A: ToolArgs>(what: Generate, out: &mut Output) -> Result<()> {
+    let mut command = A::command();
+    let name = command.get_name().to_owned();
+    let mut text = Vec::new();
+    let shell = match what {
+        Generate::Man => {
+            clap_mangen::Man::new(command).render(&mut text).map_err(Error::Output)?;
+            return out.text(&String::from_utf8_lossy(&text));
+        }
+        Generate::Bash => clap_complete::Shell::Bash,
+        Generate::Zsh => clap_complete::Shell::Zsh,
+        Generate::Fish => clap_complete::Shell::Fish,
+    };
+    clap_complete::generate(shell, &mut command, name, &mut text);
+    out.text(&String::from_utf8_lossy(&text))
+}
+
+fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
+    let what = match what {
+        ListWhat::Cameras => What::Cameras,
+        ListWhat::Illuminants => What::Illuminants,
+        ListWhat::Reflectances => What::Reflectances,
+    };
+    list(what)?.into_iter().try_for_each(|(name, about)| out.text(&format!("{name:<20} {about}")))
+}
+
+fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((field, file)) if !field.is_empty() && !file.is_empty() => Ok((field.to_owned(), file.into())),
+        _ => Err("write FIELD=FILE.npy".to_owned()),
+    }
+}
+
+/// Parses two numbers around an `x`, such as `10x10` or `1.5x1`.
+///
+/// # Errors
+/// A message for the command line.
+pub fn pair<T: std::str::FromStr>(text: &str) -> std::result::Result<(T, T), String> {
+    let parse = |part: &str| part.trim().parse().ok();
+    text.split_once(['x', 'X'])
+        .and_then(|(a, b)| Some((parse(a)?, parse(b)?)))
+        .ok_or_else(|| "write two numbers around an x, such as 10x10".to_owned())
+}
+
+/// Camera, illuminants and wavelengths: what looks at a fold.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Camera and light")]
+pub struct OpticsArgs {
+    /// Illuminant: built-in name, daylight:CCT, or a CSV file
+    #[arg(long, value_name = "SPEC", default_value = "D65")]
+    pub illuminant: String,
+    /// Illuminant of the sky [default: that of the sun]
+    #[arg(long, value_name = "SPEC")]
+    pub sky_illuminant: Option<String>,
+    /// Wavelengths, nm
+    #[arg(long, value_name = "FIRST:LAST:STEP", default_value = "400:700:5", value_parser = wavelengths)]
+    pub wavelengths_nm: WavelengthGrid,
+}
+
+fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {
+    let numbers: Option<Vec<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([first, last, step]) => WavelengthGrid::uniform(*first, *last, *step).map_err(|e| e.to_string()),
+        _ => Err("write FIRST:LAST:STEP, such as 400:700:5".to_owned()),
+    }
+}
+
+impl OpticsArgs {
+    /// The camera of this name or file on the wavelengths; it sees nothing where it was not measured.
+    ///
+    /// # Errors
+    /// As [`spectrum::camera`].
+    pub fn camera(&self, spec: &str) -> Result<CameraRecord> {
+        let camera = spectrum::camera(spec)?;
+        let on_grid = |channel: &spectrum::Spectrum| channel.on(&self.wavelengths_nm, Outside::Zero);
+        Ok(CameraRecord {
+            name: camera.name.clone(),
+            channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
+            sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
+        })
+    }
+
+    /// The sun's spectrum, and the sky's if it has one of its own.
+    ///
+    /// # Errors
+    /// As [`spectrum::illuminant`], or if a spectrum does not cover the wavelengths.
+    pub fn illuminants(&self) -> Result<(SpectrumRecord, Option<SpectrumRecord>)> {
+        let record = |spec: &String| {
+            let spectrum = spectrum::illuminant(spec)?;
+            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power: spectrum.on(&self.wavelengths_nm, Outside::Refuse)? })
+        };
+        Ok((record(&self.illuminant)?, self.sky_illuminant.as_ref().map(record).transpose()?))
+    }
+}

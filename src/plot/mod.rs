@@ -1,0 +1,3 @@
+//! Drawings for people.
+
+pub mod spectra;
