@@ -65,7 +65,7 @@ pub fn measure(
 ) -> Result<Vec<FacetMeasurement>> {
     for (k, panel) in panels.iter().enumerate() {
         let (width, height) = (photograph.width(), photograph.height());
-        check_inside(&format!("panel {k}"), &panel.corners(), &PANEL_CORNERS, width, height)?;
+        check_inside(&format!("panel {k}"), panel.corners(), &PANEL_CORNERS, width, height)?;
     }
     // one task a facet: each is summed in one order whatever the threads
     let facet = |k: usize| {
@@ -87,7 +87,7 @@ struct Facet<'a> {
 impl Facet<'_> {
     fn measure(&self, photograph: &Photograph, margin_px: f64) -> FacetMeasurement {
         let mut tally = Tally::default();
-        let panel = Quadrilateral::new(&self.panel.corners(), margin_px);
+        let panel = Quadrilateral::new(self.panel.corners(), margin_px);
         let facet =
             Quadrilateral::new(&self.panel.facet_corners(self.row, self.col, self.rows, self.cols), 0.0);
         let (width, height) = (photograph.width(), photograph.height());

@@ -36,6 +36,7 @@ type Matrix = [[f64; 3]; 3];
 /// The projective map between a panel, (u, v) in the unit square, and the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homography {
+    corners: [Point; 4],
     to_image: Matrix,
     to_panel: Matrix,
 }
@@ -62,7 +63,7 @@ impl Homography {
     pub fn from_unit_square(corners: [Point; 4]) -> Result<Self> {
         check_quadrilateral(&corners)?;
         let to_image = square_to_quadrilateral(&corners);
-        Ok(Self { to_image, to_panel: inverse(&to_image) })
+        Ok(Self { corners, to_image, to_panel: inverse(&to_image) })
     }
 
     /// The picture's point, px, of the panel's point (u, v).
@@ -79,10 +80,10 @@ impl Homography {
         (u, v)
     }
 
-    /// The images of the panel's corners, in the order of [`Homography::from_unit_square`].
+    /// The corners given to [`Homography::from_unit_square`].
     #[must_use]
-    pub fn corners(&self) -> [Point; 4] {
-        self.facet_corners(0, 0, 1, 1)
+    pub fn corners(&self) -> &[Point; 4] {
+        &self.corners
     }
 
     /// The images of a facet's corners, in the same order, on a panel divided into `rows` (from the crease outwards)
@@ -230,7 +231,7 @@ mod tests {
             let panel = Homography::from_unit_square(corners).unwrap();
             let (u2, v2) = panel.to_panel(panel.to_image(u, v));
             prop_assert!((u - u2).abs() < 1e-10 && (v - v2).abs() < 1e-10, "({u}, {v}) became ({u2}, {v2})");
-            for (got, want) in panel.corners().iter().zip(&corners) {
+            for (got, want) in panel.facet_corners(0, 0, 1, 1).iter().zip(&corners) {
                 prop_assert!(got.distance(*want) < 1e-9 * want.x.abs().max(want.y.abs()));
             }
         }
