@@ -88,6 +88,13 @@ pub enum Error {
         /// Line number, from 1.
         line: usize,
         /// What is wrong, with the column.
+    // ---- photographs ----
+    /// A picture file cannot be used.
+    #[error("{path}: {problem}; {remedy}")]
+    Picture {
+        /// The picture file.
+        path: String,
+        /// What is wrong with it.
         problem: String,
         /// What to do.
         remedy: String,
@@ -101,6 +108,13 @@ pub enum Error {
         name: String,
         /// The nearest names, and how to see all of them.
         hint: String,
+    /// Four corners do not bound a panel in the picture.
+    #[error("{problem}; {remedy}")]
+    Corners {
+        /// Which corner, and what is wrong with it.
+        problem: String,
+        /// What to give instead.
+        remedy: String,
     },
 
     // ---- numbers ----
@@ -128,6 +142,19 @@ impl Error {
     /// An I/O error with the file it happened to.
     pub fn file(path: impl std::fmt::Display, source: io::Error) -> Self {
         Self::File { path: path.to_string(), source }
+    }
+
+    /// A picture file with what is wrong with it and what to do.
+    pub fn picture(
+        path: &std::path::Path,
+        problem: impl std::fmt::Display,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Picture {
+            path: path.display().to_string(),
+            problem: problem.to_string(),
+            remedy: remedy.into(),
+        }
     }
 
     /// A record's field with what is wrong with it.

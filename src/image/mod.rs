@@ -1,1 +1,30 @@
-//! Reading photographs and measuring facets.
+//! From a picture file to the mean colour of every facet of a folded sheet.
+//!
+//! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
+//! [`measure`] averages the light over each facet. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! Nothing here knows about reflectance, cameras or the command line.
+//!
+//! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
+//! pixel (i, j) covers [i, i+1) x [j, j+1). Panel coordinates run from 0 to 1: u along the crease, v outwards from it.
+
+mod corners;
+mod decode;
+mod exif;
+mod facets;
+mod homography;
+mod orientation;
+mod photograph;
+mod pixel_area;
+mod plane_fit;
+mod scale;
+mod transfer;
+mod write;
+
+pub use corners::{PANEL_CORNERS, check_inside, parse_corners};
+pub use facets::{FacetMeasurement, measure};
+pub use homography::{Homography, Point};
+pub use orientation::Orientation;
+pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use scale::ReadOptions;
+pub use transfer::{Transfer, srgb_to_linear};
+pub use write::{write_linear, write_srgb_png};

@@ -1,0 +1,123 @@
+//! From the bytes of a picture file to stored samples, whatever the file turns out to be.
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+
+use super::exif::{self, CameraNotes};
+use crate::{Error, Result};
+
+/// A picture as it is stored, not yet turned upright, with what the camera wrote beside it.
+pub(super) struct Decoded {
+    pub format: ImageFormat,
+    pub picture: DynamicImage,
+    pub camera: CameraNotes,
+}
+
+/// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
+const MAX_BYTES: u64 = 2 << 30;
+/// Largest width and height, px.
+const MAX_SIDE: u32 = 1 << 16;
+
+const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
+
+/// Reads and decodes a picture file; the content, not the name, says which format it is.
+pub(super) fn decode(path: &Path) -> Result<Decoded> {
+    let bytes = read_file(path)?;
+    let format = image::guess_format(&bytes).ok().filter(is_supported);
+    let format =
+        format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
+    let (picture, block) = decode_bytes(path, &bytes, format)?;
+    if format == ImageFormat::Jpeg && !jpeg_is_complete(&bytes) {
+        return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
+    }
+    let block = if format == ImageFormat::Tiff { Some(bytes) } else { block };
+    Ok(Decoded { format, picture, camera: exif::read(block) })
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| {
+            bytes.reserve(file.metadata()?.len().min(MAX_BYTES) as usize);
+            file.take(MAX_BYTES + 1).read_to_end(&mut bytes)
+        })
+        .map_err(|source| Error::file(path.display(), source))?;
+    match bytes.len() as u64 {
+        0 => Err(Error::picture(path, "the file is empty", "copy it again")),
+        1..=MAX_BYTES => Ok(bytes),
+        _ => Err(Error::picture(path, "the file is larger than 2 GiB", "crop the picture to the sheet")),
+    }
+}
+
+fn is_supported(format: &ImageFormat) -> bool {
+    matches!(format, ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg | ImageFormat::OpenExr)
+}
+
+/// The picture and, for PNG and JPEG, its EXIF block.
+fn decode_bytes(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<(DynamicImage, Option<Vec<u8>>)> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits());
+    let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
+    let (width, height) = decoder.dimensions();
+    if width == 0 || height == 0 {
+        return Err(Error::picture(
+            path,
+            format!("the picture is {width} x {height} px"),
+            "copy the file again",
+        ));
+    }
+    if decoder.total_bytes() > MAX_BYTES {
+        let problem = format!("{width} x {height} px would take more than 2 GiB");
+        return Err(Error::picture(path, problem, "crop the picture to the sheet"));
+    }
+    let block = decoder.exif_metadata().ok().flatten();
+    let picture = DynamicImage::from_decoder(decoder).map_err(|error| undecodable(path, error))?;
+    Ok((picture, block))
+}
+
+fn limits() -> Limits {
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    // a decoder's own buffers besides the picture
+    limits.max_alloc = Some(2 * MAX_BYTES);
+    limits
+}
+
+fn undecodable(path: &Path, error: ImageError) -> Error {
+    let remedy = match &error {
+        ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
+        ImageError::Unsupported(_) => RESAVE,
+        _ => "the file is damaged or cut short: copy it again",
+    };
+    // the decoders' messages may have several lines
+    let problem = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    Error::picture(path, problem, remedy)
+}
+
+/// Whether a JPEG reaches its end marker; the decoder paints what is missing grey and does not say so.
+fn jpeg_is_complete(bytes: &[u8]) -> bool {
+    const END: u8 = 0xd9;
+    let mut at = 2;
+    while let Some([0xff, marker]) = bytes.get(at..at + 2) {
+        at += match marker {
+            &END => return true,
+            0x00 | 0x01 | 0xd0..=0xd7 => 2,
+            0xff => 1,
+            _ => {
+                2 + bytes
+                    .get(at + 2..at + 4)
+                    .map_or(0, |length| usize::from(length[0]) << 8 | usize::from(length[1]))
+            }
+        };
+        // after a scan's header come its data, up to the next marker
+        at += bytes
+            .get(at..)
+            .and_then(|rest| rest.iter().position(|byte| *byte == 0xff))
+            .unwrap_or(bytes.len());
+    }
+    false
+}

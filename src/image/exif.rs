@@ -1,0 +1,118 @@
+//! What a camera wrote beside the picture: make, exposure, how it was held.
+//!
+//! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and what is
+//! broken becomes a note.
+
+use exif::{Exif, In, Reader, Tag, Value};
+
+use super::orientation::Orientation;
+
+/// The few EXIF fields that matter to a measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct CameraNotes {
+    pub make: Option<String>,
+    pub model: Option<String>,
+    pub exposure_s: Option<f64>,
+    pub f_number: Option<f64>,
+    pub iso: Option<u32>,
+    pub orientation: Orientation,
+    pub notes: Vec<String>,
+}
+
+/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block.
+pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
+    let mut notes = Vec::new();
+    let exif = block.and_then(|block| parse(block, &mut notes));
+    let field =
+        |tag| exif.as_ref().and_then(|exif| exif.get_field(tag, In::PRIMARY)).map(|field| &field.value);
+    CameraNotes {
+        make: field(Tag::Make).and_then(text),
+        model: field(Tag::Model).and_then(text),
+        exposure_s: field(Tag::ExposureTime).and_then(positive),
+        f_number: field(Tag::FNumber).and_then(positive),
+        iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
+        orientation: field(Tag::Orientation)
+            .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
+        notes,
+    }
+}
+
+fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
+    Reader::new()
+        .continue_on_error(true)
+        .read_raw(block)
+        .or_else(|error| {
+            error.distill_partial_result(|errors| {
+                notes.extend(errors.iter().map(|error| format!("EXIF: {error}; the field is ignored")));
+            })
+        })
+        .map_err(|error| notes.push(format!("EXIF: {error}; all of it is ignored")))
+        .ok()
+}
+
+fn orientation(value: &Value, notes: &mut Vec<String>) -> Orientation {
+    value.get_uint(0).and_then(Orientation::from_exif).unwrap_or_else(|| {
+        notes.push("EXIF: the orientation is not one of 1 to 8; the picture is taken as upright".to_owned());
+        Orientation::UPRIGHT
+    })
+}
+
+fn text(value: &Value) -> Option<String> {
+    let Value::Ascii(lines) = value else { return None };
+    let line = String::from_utf8_lossy(lines.first()?).trim().to_owned();
+    (!line.is_empty()).then_some(line)
+}
+
+fn positive(value: &Value) -> Option<f64> {
+    let Value::Rational(ratios) = value else { return None };
+    ratios.first().map(exif::Rational::to_f64).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A little-endian block with the given entries: tag, type, count, value.
+    fn block(entries: &[(u16, u16, u32, u32)]) -> Vec<u8> {
+        let mut bytes = b"II*\0\x08\0\0\0".to_vec();
+        bytes.extend((entries.len() as u16).to_le_bytes());
+        for (tag, kind, count, value) in entries {
+            bytes.extend(tag.to_le_bytes());
+            bytes.extend(kind.to_le_bytes());
+            bytes.extend(count.to_le_bytes());
+            bytes.extend(value.to_le_bytes());
+        }
+        bytes.extend([0; 4]);
+        bytes
+    }
+
+    #[test]
+    fn no_exif_is_no_fault() {
+        let camera = read(None);
+        assert_eq!((camera.orientation, camera.notes), (Orientation::UPRIGHT, vec![]));
+    }
+
+    #[test]
+    fn broken_exif_becomes_a_note() {
+        for broken in [b"nonsense".to_vec(), b"II*\0".to_vec(), b"II*\0\xff\xff\xff\xff".to_vec()] {
+            let camera = read(Some(broken));
+            assert_eq!(camera.orientation, Orientation::UPRIGHT);
+            assert!(camera.notes[0].ends_with("is ignored"), "{:?}", camera.notes);
+        }
+    }
+
+    #[test]
+    fn good_fields_survive_a_bad_one() {
+        let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6)); // the make lies outside the block
+        let camera = read(Some(block(&[make, orientation])));
+        assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
+        assert_eq!(camera.notes.len(), 1);
+    }
+
+    #[test]
+    fn an_impossible_orientation_is_noted() {
+        let camera = read(Some(block(&[(0x112, 3, 1, 9)])));
+        assert_eq!(camera.orientation, Orientation::UPRIGHT);
+        assert!(camera.notes[0].contains("orientation"));
+    }
+}

@@ -1,0 +1,149 @@
+//! The mean colour of every facet of a photographed sheet.
+//!
+//! A facet's value is the mean over the sheet's surface, which is what a form-factor model predicts: a pixel counts by
+//! the panel area it shows. Pixels that straddle a panel's edge see something else as well and are left out; the mean
+//! is then that of a plane fitted to the others, taken over the whole facet (see [`super::plane_fit`]).
+
+use rayon::prelude::*;
+
+use super::corners::{PANEL_CORNERS, check_inside};
+use super::homography::{Homography, Point};
+use super::photograph::{Photograph, Pixel};
+use super::pixel_area::Quadrilateral;
+use super::plane_fit::{Estimate, PixelSums};
+use crate::Result;
+
+/// What a photograph says about one facet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FacetMeasurement {
+    /// Mean linear light per channel, 1 at the white level; none if no pixel is usable.
+    pub mean: Option<Vec<f64>>,
+    /// Standard error of the mean per channel, from the spread about a plane; none if there are too few pixels to
+    /// tell. Noise that neighbouring pixels share, as in a JPEG, makes it too small.
+    pub standard_error: Option<Vec<f64>>,
+    /// Usable pixels; a pixel shared among facets counts by the part of its area that lies in this one.
+    pub pixels: f64,
+    /// Pixels left out because a channel is clipped.
+    pub clipped: usize,
+    /// Pixels left out because a channel is not finite or the pixel is transparent.
+    pub not_finite: usize,
+}
+
+/// Measures every facet of one panel or more.
+///
+/// # Arguments
+/// - `panels`: where each panel lies, by the order of [`PANEL_CORNERS`]; the crease is v = 0.
+/// - `rows`, `cols`: facets from the crease outwards, and along it.
+/// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a little off
+///   ask for one or two.
+///
+/// # Returns
+/// Facets by panel, then row (0 at the crease), then column (0 at crease end 0). The same for any number of threads.
+///
+/// # Errors
+/// [`Error::Corners`](crate::Error::Corners) if a corner lies more than a pixel outside the picture.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Homography, Photograph, Point, ReadOptions, measure, write_linear};
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("ramp.exr");
+/// let ramp: Vec<f64> = (0..300).map(|k| (k / 3 % 10) as f64 / 16.0).collect(); // 10 x 10 px, brighter to the right
+/// write_linear(&path, 10, 10, &ramp)?;
+/// let panel = Homography::from_unit_square([(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y)))?;
+/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[panel], 1, 2, 0.0)?;
+/// let means: Vec<f64> = facets.iter().map(|facet| facet.mean.as_ref().unwrap()[0]).collect();
+/// assert!((means[0] - 2.0 / 16.0).abs() < 1e-12 && (means[1] - 7.0 / 16.0).abs() < 1e-12);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn measure(
+    photograph: &Photograph,
+    panels: &[Homography],
+    rows: usize,
+    cols: usize,
+    margin_px: f64,
+) -> Result<Vec<FacetMeasurement>> {
+    for (k, panel) in panels.iter().enumerate() {
+        let (width, height) = (photograph.width(), photograph.height());
+        check_inside(&format!("panel {k}"), panel.corners(), &PANEL_CORNERS, width, height)?;
+    }
+    // one task a facet: each is summed in one order whatever the threads
+    let facet = |k: usize| {
+        let (panel, row, col) = (&panels[k / (rows * cols)], k / cols % rows, k % cols);
+        Facet { panel, row, col, rows, cols }.measure(photograph, margin_px)
+    };
+    Ok((0..panels.len() * rows * cols).into_par_iter().map(facet).collect())
+}
+
+/// One facet of a panel divided into `rows` x `cols`.
+struct Facet<'a> {
+    panel: &'a Homography,
+    row: usize,
+    col: usize,
+    rows: usize,
+    cols: usize,
+}
+
+impl Facet<'_> {
+    fn measure(&self, photograph: &Photograph, margin_px: f64) -> FacetMeasurement {
+        let mut tally = Tally::default();
+        let panel = Quadrilateral::new(self.panel.corners(), margin_px);
+        let facet =
+            Quadrilateral::new(&self.panel.facet_corners(self.row, self.col, self.rows, self.cols), 0.0);
+        let (width, height) = (photograph.width(), photograph.height());
+        for y in facet.rows(height) {
+            let usable = panel.whole_columns(y, width);
+            let (whole, touched) = (facet.whole_columns(y, width), facet.touched_columns(y, width));
+            for x in touched.start.max(usable.start)..touched.end.min(usable.end) {
+                let overlap = if whole.contains(&x) { 1.0 } else { facet.overlap(x, y) };
+                if overlap > NO_OVERLAP {
+                    self.add(&mut tally, photograph.pixel(x, y), overlap, x, y);
+                }
+            }
+        }
+        tally.finish(photograph.channels())
+    }
+
+    #[inline]
+    fn add(&self, tally: &mut Tally, pixel: Pixel, overlap: f64, x: usize, y: usize) {
+        match pixel {
+            Pixel::Clipped => tally.clipped += 1,
+            Pixel::NotFinite => tally.not_finite += 1,
+            Pixel::Light(light) => {
+                let centre = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+                let (u, v, area) = self.panel.to_panel_with_area(centre);
+                let u_from_centre = u * self.cols as f64 - self.col as f64 - 0.5;
+                let v_from_centre = v * self.rows as f64 - self.row as f64 - 0.5;
+                tally.pixels += overlap;
+                tally.sums.add(overlap * area, u_from_centre, v_from_centre, light);
+            }
+        }
+    }
+}
+
+/// An overlap this small, px², is rounding.
+const NO_OVERLAP: f64 = 1e-9;
+
+#[derive(Default)]
+struct Tally {
+    sums: PixelSums,
+    pixels: f64,
+    clipped: usize,
+    not_finite: usize,
+}
+
+impl Tally {
+    fn finish(self, channels: usize) -> FacetMeasurement {
+        let estimates: Option<Vec<Estimate>> =
+            (0..channels).map(|channel| self.sums.estimate(channel)).collect();
+        let each = estimates.as_ref();
+        FacetMeasurement {
+            mean: each.map(|each| each.iter().map(|estimate| estimate.mean).collect()),
+            standard_error: each
+                .and_then(|each| each.iter().map(|estimate| estimate.standard_error).collect()),
+            pixels: self.pixels,
+            clipped: self.clipped,
+            not_finite: self.not_finite,
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Where a point of a panel lies in the picture: a plane seen in perspective.
+//!
+//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners.
+//! Closed form: P. Heckbert, *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
+
+use crate::{Error, Result};
+
+/// A point of the picture, px; the origin is the top left corner, x to the right, y down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// To the right, px.
+    pub x: f64,
+    /// Down, px.
+    pub y: f64,
+}
+
+impl Point {
+    /// The point at (x, y).
+    #[must_use]
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    fn distance(self, other: Self) -> f64 {
+        (self.x - other.x).hypot(self.y - other.y)
+    }
+}
+
+/// Twice the signed area of the triangle a, b, c.
+pub(super) fn cross(a: Point, b: Point, c: Point) -> f64 {
+    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+}
+
+type Matrix = [[f64; 3]; 3];
+
+/// The projective map between a panel, (u, v) in the unit square, and the picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Homography {
+    corners: [Point; 4],
+    to_image: Matrix,
+    to_panel: Matrix,
+}
+
+impl Homography {
+    /// The map that takes the unit square to a quadrilateral of the picture.
+    ///
+    /// # Arguments
+    /// - `corners`: the images of (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): crease end 0, crease end 1, outer end 1,
+    ///   outer end 0. Either sense of rotation will do; the two panels of a fold have opposite ones.
+    ///
+    /// # Errors
+    /// Corners that are not finite, coincide, lie on a line, or are not those of a convex quadrilateral in order.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Homography, Point};
+    /// let corners = [(10.0, 20.0), (110.0, 20.0), (110.0, 70.0), (10.0, 70.0)].map(|(x, y)| Point::new(x, y));
+    /// let panel = Homography::from_unit_square(corners)?;
+    /// assert_eq!(panel.to_image(0.5, 0.5), Point::new(60.0, 45.0));
+    /// assert_eq!(panel.jacobian_determinant(0.5, 0.5), 5000.0); // 100 x 50 px
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn from_unit_square(corners: [Point; 4]) -> Result<Self> {
+        check_quadrilateral(&corners)?;
+        let to_image = square_to_quadrilateral(&corners);
+        Ok(Self { corners, to_image, to_panel: inverse(&to_image) })
+    }
+
+    /// The picture's point, px, of the panel's point (u, v).
+    #[must_use]
+    pub fn to_image(&self, u: f64, v: f64) -> Point {
+        let [x, y, scale] = multiply(&self.to_image, [u, v, 1.0]);
+        Point::new(x / scale, y / scale)
+    }
+
+    /// The panel's point (u, v) of a point of the picture.
+    #[must_use]
+    pub fn to_panel(&self, p: Point) -> (f64, f64) {
+        let (u, v, _) = self.to_panel_with_area(p);
+        (u, v)
+    }
+
+    /// The corners given to [`Homography::from_unit_square`].
+    #[must_use]
+    pub fn corners(&self) -> &[Point; 4] {
+        &self.corners
+    }
+
+    /// The images of a facet's corners, in the same order, on a panel divided into `rows` (from the crease outwards)
+    /// times `cols` (along it).
+    #[must_use]
+    pub fn facet_corners(&self, row: usize, col: usize, rows: usize, cols: usize) -> [Point; 4] {
+        [(col, row), (col + 1, row), (col + 1, row + 1), (col, row + 1)]
+            .map(|(col, row)| self.to_image(col as f64 / cols as f64, row as f64 / rows as f64))
+    }
+
+    /// Area in the picture, px², of a unit of panel area at (u, v); negative where the map mirrors.
+    #[must_use]
+    pub fn jacobian_determinant(&self, u: f64, v: f64) -> f64 {
+        let [_, _, scale] = multiply(&self.to_image, [u, v, 1.0]);
+        determinant(&self.to_image) / scale.powi(3)
+    }
+
+    /// The panel's point (u, v) and the panel's area in a pixel there, the inverse of the Jacobian's size.
+    pub(super) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
+        let [u, v, scale] = multiply(&self.to_panel, [p.x, p.y, 1.0]);
+        let inverse_scale = 1.0 / scale;
+        let area = determinant(&self.to_panel).abs() * inverse_scale * inverse_scale * inverse_scale;
+        (u * inverse_scale, v * inverse_scale, area)
+    }
+}
+
+fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix {
+    let (ax, ay) = (p1.x - p2.x, p1.y - p2.y);
+    let (bx, by) = (p3.x - p2.x, p3.y - p2.y);
+    let (cx, cy) = (p0.x - p1.x + p2.x - p3.x, p0.y - p1.y + p2.y - p3.y);
+    let det = ax * by - bx * ay;
+    let (g, h) = ((cx * by - bx * cy) / det, (ax * cy - cx * ay) / det);
+    [
+        [p1.x - p0.x + g * p1.x, p3.x - p0.x + h * p3.x, p0.x],
+        [p1.y - p0.y + g * p1.y, p3.y - p0.y + h * p3.y, p0.y],
+        [g, h, 1.0],
+    ]
+}
+
+fn multiply(m: &Matrix, p: [f64; 3]) -> [f64; 3] {
+    m.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2])
+}
+
+fn cofactor(m: &Matrix, row: usize, col: usize) -> f64 {
+    let (r1, r2, c1, c2) = ((row + 1) % 3, (row + 2) % 3, (col + 1) % 3, (col + 2) % 3);
+    m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]
+}
+
+fn determinant(m: &Matrix) -> f64 {
+    (0..3).map(|col| m[0][col] * cofactor(m, 0, col)).sum()
+}
+
+fn inverse(m: &Matrix) -> Matrix {
+    let det = determinant(m);
+    std::array::from_fn(|i| std::array::from_fn(|j| cofactor(m, j, i) / det))
+}
+
+/// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a line.
+const DEGENERATE: f64 = 1e-6;
+
+fn check_quadrilateral(corners: &[Point; 4]) -> Result<()> {
+    if let Some(k) = corners.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        return Err(bad_corners(format!("corner {} is not a finite number", k + 1)));
+    }
+    let size = corners.iter().map(|p| p.distance(corners[0])).fold(0.0, f64::max);
+    for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+        if corners[i].distance(corners[j]) <= DEGENERATE * size {
+            return Err(bad_corners(format!("corners {} and {} are the same point", i + 1, j + 1)));
+        }
+    }
+    let turns = [0, 1, 2, 3].map(|k| cross(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]));
+    if let Some(k) = turns.iter().position(|turn| turn.abs() <= DEGENERATE * size * size) {
+        let [i, j, l] = [k, k + 1, k + 2].map(|n| n % 4 + 1);
+        return Err(bad_corners(format!("corners {i}, {j} and {l} lie on a line")));
+    }
+    if turns.iter().any(|turn| turn.signum() != turns[0].signum()) {
+        return Err(bad_corners("the sides cross or a corner points inwards".to_owned()));
+    }
+    Ok(())
+}
+
+fn bad_corners(problem: String) -> Error {
+    Error::Corners {
+        problem,
+        remedy: "give the four corners of the panel in order round its edge".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn points(corners: [(f64, f64); 4]) -> [Point; 4] {
+        corners.map(|(x, y)| Point::new(x, y))
+    }
+
+    fn message(corners: [(f64, f64); 4]) -> String {
+        Homography::from_unit_square(points(corners)).unwrap_err().to_string()
+    }
+
+    /// Heckbert's own construction inverted by hand: a trapezoid whose far side is half as long as its near side,
+    /// so that the middle of the square is seen at two thirds of the height, where the diagonals meet.
+    #[test]
+    fn the_middle_of_a_square_is_seen_where_the_diagonals_meet() {
+        let panel =
+            Homography::from_unit_square(points([(0.0, 0.0), (4.0, 0.0), (3.0, 3.0), (1.0, 3.0)])).unwrap();
+        let middle = panel.to_image(0.5, 0.5);
+        assert!(middle.distance(Point::new(2.0, 2.0)) < 1e-14, "{middle:?}");
+    }
+
+    #[test]
+    fn bad_corners_are_named() {
+        let nan = f64::NAN;
+        assert!(message([(0.0, 0.0), (1.0, nan), (1.0, 1.0), (0.0, 1.0)]).contains("corner 2"));
+        assert!(
+            message([(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (9.0, 9.0)])
+                .contains("corners 3 and 4 are the same")
+        );
+        assert!(
+            message([(0.0, 0.0), (5.0, 0.0), (9.0, 0.0), (0.0, 9.0)])
+                .contains("corners 1, 2 and 3 lie on a line")
+        );
+        assert!(message([(0.0, 0.0), (9.0, 9.0), (9.0, 0.0), (0.0, 9.0)]).contains("cross"));
+        assert!(message([(0.0, 0.0), (9.0, 0.0), (2.0, 2.0), (0.0, 9.0)]).contains("inwards"));
+    }
+
+    /// A convex quadrilateral of any size and sense: one point near each corner of a square, mirrored or not.
+    fn quadrilateral() -> impl Strategy<Value = [Point; 4]> {
+        (prop::array::uniform8(-0.24..0.24), 1.0..5000.0, any::<bool>()).prop_map(|(d, size, mirrored)| {
+            let mut corners = points([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+            for (k, p) in corners.iter_mut().enumerate() {
+                *p = Point::new((p.x + d[2 * k] + 1.0) * size, (p.y + d[2 * k + 1] + 1.0) * size);
+            }
+            if mirrored {
+                corners.reverse();
+            }
+            corners
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn there_and_back(corners in quadrilateral(), u in 0.0..1.0, v in 0.0..1.0) {
+            let panel = Homography::from_unit_square(corners).unwrap();
+            let (u2, v2) = panel.to_panel(panel.to_image(u, v));
+            prop_assert!((u - u2).abs() < 1e-10 && (v - v2).abs() < 1e-10, "({u}, {v}) became ({u2}, {v2})");
+            for (got, want) in panel.facet_corners(0, 0, 1, 1).iter().zip(&corners) {
+                prop_assert!(got.distance(*want) < 1e-9 * want.x.abs().max(want.y.abs()));
+            }
+        }
+
+        /// Against central differences of the map itself; the panel's area in a pixel is the inverse.
+        #[test]
+        fn jacobian_is_the_derivative(corners in quadrilateral(), u in 0.1..0.9, v in 0.1..0.9) {
+            let panel = Homography::from_unit_square(corners).unwrap();
+            let step = 1e-5;
+            let (left, right) = (panel.to_image(u - step, v), panel.to_image(u + step, v));
+            let (low, high) = (panel.to_image(u, v - step), panel.to_image(u, v + step));
+            let numeric = ((right.x - left.x) * (high.y - low.y) - (right.y - left.y) * (high.x - low.x)) / (4.0 * step * step);
+            let exact = panel.jacobian_determinant(u, v);
+            prop_assert!((exact / numeric - 1.0).abs() < 1e-5, "{exact} {numeric}");
+            let (_, _, area) = panel.to_panel_with_area(panel.to_image(u, v));
+            prop_assert!((area * exact.abs() - 1.0).abs() < 1e-9);
+        }
+    }
+}

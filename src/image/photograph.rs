@@ -1,0 +1,212 @@
+//! A photograph as linear light, pixel by pixel.
+//!
+//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large picture
+//! costs little more than decoding it.
+
+use std::path::Path;
+
+use image::{DynamicImage, ImageFormat};
+
+use super::decode::{Decoded, decode};
+use super::orientation::Orientation;
+use super::scale::{ReadOptions, Scale};
+use super::transfer::Transfer;
+use crate::Result;
+
+/// What is known about a photograph besides its pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhotographInfo {
+    /// The camera's maker.
+    pub make: Option<String>,
+    /// The camera.
+    pub model: Option<String>,
+    /// Exposure time, s.
+    pub exposure_s: Option<f64>,
+    /// Focal length over aperture.
+    pub f_number: Option<f64>,
+    /// ISO sensitivity.
+    pub iso: Option<u32>,
+    /// How the picture was stored; coordinates are those of the upright picture.
+    pub orientation: Orientation,
+    /// Width of the upright picture, px.
+    pub width: usize,
+    /// Height of the upright picture, px.
+    pub height: usize,
+    /// File format, depth and colours as stored: `TIFF, 16-bit, RGB`.
+    pub format: String,
+    /// The curve that was undone, [`Transfer::Linear`] or [`Transfer::Srgb`].
+    pub transfer_used: Transfer,
+    /// The stored number taken as no light.
+    pub black_level: f64,
+    /// The stored number taken as 1.
+    pub white_level: f64,
+    /// What was wrong but did no harm.
+    pub notes: Vec<String>,
+}
+
+/// What a pixel says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pixel {
+    /// Linear light, 1 at the white level; a grey picture gives three equal numbers.
+    Light([f64; 3]),
+    /// A channel is at or above the white level: the light may have been anything brighter.
+    Clipped,
+    /// A channel is NaN or infinite, or the pixel is fully transparent.
+    NotFinite,
+}
+
+/// A decoded photograph, seen upright.
+#[derive(Debug, Clone)]
+pub struct Photograph {
+    samples: Samples,
+    stored_size: (usize, usize),
+    /// Colours a pixel, 1 or 3.
+    channels: usize,
+    /// Samples a pixel: one more than its colours if there is an alpha channel.
+    stride: usize,
+    scale: Scale,
+    /// Linear light of every integer; empty for floats.
+    table: Vec<f64>,
+    info: PhotographInfo,
+}
+
+/// Samples as stored, row by row.
+#[derive(Debug, Clone)]
+enum Samples {
+    U8(Vec<u8>),
+    U16(Vec<u16>),
+    F32(Vec<f32>),
+}
+
+impl Photograph {
+    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha.
+    ///
+    /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
+    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB decoded and 65536 px a side.
+    ///
+    /// # Errors
+    /// [`Error::File`](crate::Error::File) if the file cannot be read, [`Error::Picture`](crate::Error::Picture) if it
+    /// is no picture, damaged, cut short, empty or too large, [`Error::Usage`](crate::Error::Usage) if the white level
+    /// is not above the black level.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel, ReadOptions, write_linear};
+    /// let folder = tempfile::tempdir().unwrap();
+    /// let path = folder.path().join("pixel.exr");
+    /// write_linear(&path, 1, 1, &[0.25, 0.5, 2.0])?;
+    /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+    /// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.25, 0.5, 2.0]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn open(path: &Path, options: &ReadOptions) -> Result<Self> {
+        let Decoded { format, picture, camera } = decode(path)?;
+        let color = picture.color();
+        let stride = usize::from(color.channel_count());
+        let bits = u32::from(color.bits_per_pixel() / u16::from(color.channel_count()));
+        let scale = Scale::new(options, bits)?;
+        let stored_size = (picture.width() as usize, picture.height() as usize);
+        let (width, height) = camera.orientation.upright_size(stored_size);
+        let info = PhotographInfo {
+            make: camera.make,
+            model: camera.model,
+            exposure_s: camera.exposure_s,
+            f_number: camera.f_number,
+            iso: camera.iso,
+            orientation: camera.orientation,
+            width,
+            height,
+            format: describe(format, bits, color.has_color()),
+            transfer_used: scale.transfer,
+            black_level: scale.black,
+            white_level: scale.white,
+            notes: camera.notes,
+        };
+        Ok(Self {
+            samples: Samples::from(picture),
+            stored_size,
+            channels: stride - usize::from(color.has_alpha()),
+            stride,
+            table: scale.table(bits),
+            scale,
+            info,
+        })
+    }
+
+    /// Width of the upright picture, px.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.info.width
+    }
+
+    /// Height of the upright picture, px.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.info.height
+    }
+
+    /// Colours of a pixel: 3, or 1 for a grey picture.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// What is known about the photograph besides its pixels.
+    #[must_use]
+    pub fn info(&self) -> &PhotographInfo {
+        &self.info
+    }
+
+    /// The pixel in column `x` and row `y` of the upright picture, both below its size.
+    #[must_use]
+    pub fn pixel(&self, x: usize, y: usize) -> Pixel {
+        let (column, row) = self.info.orientation.stored(x, y, self.stored_size);
+        let first = (row * self.stored_size.0 + column) * self.stride;
+        let range = first..first + self.stride;
+        match &self.samples {
+            Samples::U8(stored) => self.read(&stored[range], |v| self.table[usize::from(v)]),
+            Samples::U16(stored) => self.read(&stored[range], |v| self.table[usize::from(v)]),
+            Samples::F32(stored) => self.read(&stored[range], |v| self.scale.linear(v.into())),
+        }
+    }
+
+    #[inline]
+    fn read<T: Copy + Into<f64>>(&self, stored: &[T], linear: impl Fn(T) -> f64) -> Pixel {
+        let (colours, alpha) = stored.split_at(self.channels);
+        if alpha.iter().any(|&a| a.into() <= 0.0) || colours.iter().any(|&v| !v.into().is_finite()) {
+            Pixel::NotFinite
+        } else if colours.iter().any(|&v| v.into() >= self.scale.clipped_from) {
+            Pixel::Clipped
+        } else {
+            Pixel::Light([0, 1, 2].map(|channel| linear(colours[channel.min(self.channels - 1)])))
+        }
+    }
+}
+
+impl From<DynamicImage> for Samples {
+    fn from(picture: DynamicImage) -> Self {
+        match picture {
+            DynamicImage::ImageLuma8(buffer) => Self::U8(buffer.into_raw()),
+            DynamicImage::ImageLumaA8(buffer) => Self::U8(buffer.into_raw()),
+            DynamicImage::ImageRgb8(buffer) => Self::U8(buffer.into_raw()),
+            DynamicImage::ImageRgba8(buffer) => Self::U8(buffer.into_raw()),
+            DynamicImage::ImageLuma16(buffer) => Self::U16(buffer.into_raw()),
+            DynamicImage::ImageLumaA16(buffer) => Self::U16(buffer.into_raw()),
+            DynamicImage::ImageRgb16(buffer) => Self::U16(buffer.into_raw()),
+            DynamicImage::ImageRgba16(buffer) => Self::U16(buffer.into_raw()),
+            DynamicImage::ImageRgba32F(buffer) => Self::F32(buffer.into_raw()),
+            other => Self::F32(other.into_rgb32f().into_raw()),
+        }
+    }
+}
+
+fn describe(format: ImageFormat, bits: u32, colour: bool) -> String {
+    let name = match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Jpeg => "JPEG",
+        _ => "OpenEXR",
+    };
+    let samples = if bits == 32 { "float".to_owned() } else { format!("{bits}-bit") };
+    format!("{name}, {samples}, {}", if colour { "RGB" } else { "grey" })
+}

@@ -1,0 +1,117 @@
+//! Pictures out: linear light for simulated photographs, 8 bits for the eye.
+//!
+//! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
+//! old file or none.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
+use tempfile::NamedTempFile;
+
+use crate::{Error, Result};
+
+/// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
+///
+/// # Arguments
+/// - `rgb`: row by row from the top, three numbers a pixel; integer formats store `round(65535 * value)`, clipped to
+///   [0, 1].
+///
+/// # Errors
+/// [`Error::Picture`] for another ending, a number that is not finite, or if there are not width x height x 3 numbers;
+/// [`Error::File`] if the file cannot be written.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Photograph, Pixel, ReadOptions, write_linear};
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("pixel.tif");
+/// write_linear(&path, 1, 1, &[-0.1, 0.2, 0.6])?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.0, 0.2, 0.6])); // 65535 is a multiple of 5
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("exr") => {
+            let buffer = buffer(path, width, height, rgb, |value| value as f32)?;
+            save(path, &DynamicImage::ImageRgb32F(buffer), ImageFormat::OpenExr)
+        }
+        Some("tif" | "tiff") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Tiff),
+        Some("png") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Png),
+        _ => {
+            Err(Error::picture(path, "no picture format by this name", "end the name in .exr, .tif or .png"))
+        }
+    }
+}
+
+/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG; other values are clipped.
+///
+/// # Errors
+/// As [`write_linear`], whatever the name's ending.
+///
+/// # Example
+/// ```
+/// use vfold::image::write_srgb_png;
+/// let folder = tempfile::tempdir().unwrap();
+/// write_srgb_png(&folder.path().join("grey.png"), 1, 1, &[0.5, 0.5, 0.5])?;
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
+    // `as` cuts to the integer's range
+    let buffer = buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8)?;
+    save(path, &DynamicImage::ImageRgb8(buffer), ImageFormat::Png)
+}
+
+fn sixteen_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
+    buffer(path, width, height, rgb, |value| (value * 65535.0).round() as u16).map(DynamicImage::ImageRgb16)
+}
+
+fn buffer<T: image::Primitive>(
+    path: &Path,
+    width: usize,
+    height: usize,
+    rgb: &[f64],
+    store: impl Fn(f64) -> T,
+) -> Result<ImageBuffer<Rgb<T>, Vec<T>>>
+where
+    Rgb<T>: image::Pixel<Subpixel = T>,
+{
+    if let Some(k) = rgb.iter().position(|value| !value.is_finite()) {
+        let problem = format!("number {k} of the picture's RGB is {}", rgb[k]);
+        return Err(Error::picture(path, problem, "look for zero or infinite input"));
+    }
+    let size = (u32::try_from(width).ok().zip(u32::try_from(height).ok()))
+        .filter(|_| width * height * 3 == rgb.len());
+    size.filter(|_| !rgb.is_empty())
+        .and_then(|(width, height)| {
+            ImageBuffer::from_vec(width, height, rgb.iter().map(|&value| store(value)).collect())
+        })
+        .ok_or_else(|| {
+            let problem = format!("{} numbers do not fill {width} x {height} RGB pixels", rgb.len());
+            Error::picture(path, problem, "give a picture of at least one pixel")
+        })
+}
+
+fn save(path: &Path, picture: &DynamicImage, format: ImageFormat) -> Result<()> {
+    let failed = |source: std::io::Error| Error::file(path.display(), source);
+    let mut file = temporary_beside(path).map_err(failed)?;
+    let mut out = BufWriter::new(file.as_file_mut());
+    picture.write_to(&mut out, format).map_err(|error| match error {
+        image::ImageError::IoError(source) => failed(source),
+        other => Error::picture(path, other, "write another format"),
+    })?;
+    out.flush().map_err(failed)?; // a full disk would go unnoticed when dropped
+    drop(out);
+    file.persist(path).map_err(|error| failed(error.error)).map(drop)
+}
+
+fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    // temporary files are private by default; a picture is for whom the umask allows
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
