@@ -88,13 +88,6 @@ pub enum Error {
         /// Line number, from 1.
         line: usize,
         /// What is wrong, with the column.
-    // ---- photographs ----
-    /// A picture file cannot be used.
-    #[error("{path}: {problem}; {remedy}")]
-    Picture {
-        /// The picture file.
-        path: String,
-        /// What is wrong with it.
         problem: String,
         /// What to do.
         remedy: String,
@@ -108,6 +101,19 @@ pub enum Error {
         name: String,
         /// The nearest names, and how to see all of them.
         hint: String,
+    },
+
+    // ---- photographs ----
+    /// A picture file cannot be used.
+    #[error("{path}: {problem}; {remedy}")]
+    Picture {
+        /// The picture file.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
     /// Four corners do not bound a panel in the picture.
     #[error("{problem}; {remedy}")]
     Corners {

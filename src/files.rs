@@ -26,8 +26,9 @@ impl Saved {
         };
         let mut builder = tempfile::Builder::new();
         builder.prefix(".vfold-");
+        // Temporary files are private by default; a result is for whom the umask allows.
         #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder).map_err(|e| Error::file(path.display(), e))?;
         Ok(Self { file, path: path.to_owned() })
     }

@@ -55,7 +55,7 @@ impl View {
     /// Corners of both panels in the picture: crease end 0, crease end 1, outer end 1, outer end 0.
     #[must_use]
     pub fn corners(&self) -> [[Point; 4]; 2] {
-        self.panels.each_ref().map(Homography::corners)
+        self.panels.each_ref().map(|panel| panel.corners().to_owned())
     }
 
     /// Cells of a panel whose light a picture needs.

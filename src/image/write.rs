@@ -7,8 +7,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
-use tempfile::NamedTempFile;
-
+use crate::files::Saved;
 use crate::{Error, Result};
 
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
@@ -96,22 +95,13 @@ where
 
 fn save(path: &Path, picture: &DynamicImage, format: ImageFormat) -> Result<()> {
     let failed = |source: std::io::Error| Error::file(path.display(), source);
-    let mut file = temporary_beside(path).map_err(failed)?;
-    let mut out = BufWriter::new(file.as_file_mut());
+    let mut saved = Saved::new(path)?;
+    let mut out = BufWriter::new(saved.file_mut());
     picture.write_to(&mut out, format).map_err(|error| match error {
         image::ImageError::IoError(source) => failed(source),
         other => Error::picture(path, other, "write another format"),
     })?;
     out.flush().map_err(failed)?; // a full disk would go unnoticed when dropped
     drop(out);
-    file.persist(path).map_err(|error| failed(error.error)).map(drop)
-}
-
-fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    // temporary files are private by default; a picture is for whom the umask allows
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    saved.keep()
 }

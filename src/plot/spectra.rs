@@ -78,8 +78,8 @@ fn render(svg: &mut String, curves: &[Curve]) -> Drawn {
             chart.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.22))))?;
         }
         if let Some((wavelengths_nm, reflectance)) = &curve.truth {
-            let line = points(wavelengths_nm, reflectance.iter().copied());
-            chart.draw_series(DashedLineSeries::new(line, 6, 4, BLACK.stroke_width(2)))?;
+            let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
+            chart.draw_series(DashedLineSeries::new(line.into_iter(), 6, 4, BLACK.stroke_width(2)))?;
         }
         let style = colour.stroke_width(2);
         chart

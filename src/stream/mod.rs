@@ -5,6 +5,7 @@
 
 mod fields;
 mod npy;
+mod photograph;
 mod reader;
 mod sample;
 mod saves;
@@ -13,6 +14,7 @@ mod writer;
 
 pub use fields::{Fields, finite};
 pub use npy::{ArrayStack, write_matrix};
+pub use photograph::ImageRecord;
 pub use reader::{Reader, Record, Transform, pipe};
 pub use sample::{Colours, ReflectanceRecord, Sample, summary};
 pub use saves::Saves;

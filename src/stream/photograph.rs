@@ -1,0 +1,81 @@
+//! What a sample records of the photograph it was measured in.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::{Colours, Sample};
+use crate::error::Result;
+use crate::image::{FacetMeasurement, Homography, PhotographInfo};
+
+/// The photograph, how its numbers were understood, and where the panels lie in it.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImageRecord {
+    file: String,
+    width: usize,
+    height: usize,
+    stored_as: String,
+    transfer: &'static str,
+    black_level: f64,
+    white_level: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exposure_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    f_number: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    iso: Option<u32>,
+    orientation: u32,
+    panels: Vec<[[f64; 2]; 4]>,
+    margin_px: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<String>,
+}
+
+impl ImageRecord {
+    /// The record of a photograph with its panels.
+    #[must_use]
+    pub fn new(path: &Path, info: &PhotographInfo, panels: &[Homography], margin_px: f64) -> Self {
+        let corners = |panel: &Homography| panel.corners().map(|corner| [corner.x, corner.y]);
+        Self {
+            file: path.display().to_string(),
+            width: info.width,
+            height: info.height,
+            stored_as: info.format.clone(),
+            transfer: info.transfer_used.name(),
+            black_level: info.black_level,
+            white_level: info.white_level,
+            make: info.make.clone(),
+            model: info.model.clone(),
+            exposure_s: info.exposure_s,
+            f_number: info.f_number,
+            iso: info.iso,
+            orientation: info.orientation.exif(),
+            panels: panels.iter().map(corners).collect(),
+            margin_px,
+            notes: info.notes.clone(),
+        }
+    }
+}
+
+impl Sample {
+    /// Sets the facets as measured in a photograph; those of a panel that was not marked are null up to `count`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement], count: usize) -> Result<()> {
+        let column = |pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
+            let mut rows: Colours = facets.iter().map(pick).collect();
+            rows.resize(count, None);
+            rows
+        };
+        self.fields.set("image", image)?;
+        self.set_facets(&column(|facet| facet.mean.clone()), Some(&column(|facet| facet.standard_error.clone())))?;
+        self.fields.set("facet_pixels", facets.iter().map(|facet| facet.pixels).collect::<Vec<_>>())?;
+        self.fields.set("facet_clipped", facets.iter().map(|facet| facet.clipped).collect::<Vec<_>>())?;
+        self.fields.set("facet_not_finite", facets.iter().map(|facet| facet.not_finite).collect::<Vec<_>>())
+    }
+}
