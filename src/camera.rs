@@ -48,12 +48,19 @@ impl CameraResponse {
     ///
     /// # Errors
     /// [`Error::Numeric`] if that channel sees nothing of it.
-    pub fn to_other_light(&self, grid: &WavelengthGrid, sensitivities: &[Vec<f64>], light: &[f64]) -> Result<Self> {
+    pub fn to_other_light(
+        &self,
+        grid: &WavelengthGrid,
+        sensitivities: &[Vec<f64>],
+        light: &[f64],
+    ) -> Result<Self> {
         let other = Self::unscaled(grid, sensitivities, light).with_reference(self.reference_channel);
         if other.white().iter().all(|white| white.is_finite()) {
             Ok(other)
         } else {
-            Err(Error::Numeric("the camera sees nothing of the sky's light; check --sky-illuminant".to_owned()))
+            Err(Error::Numeric(
+                "the camera sees nothing of the sky's light; check --sky-illuminant".to_owned(),
+            ))
         }
     }
 

@@ -198,7 +198,10 @@ impl OpticsArgs {
     pub fn illuminants(&self) -> Result<(SpectrumRecord, Option<SpectrumRecord>)> {
         let record = |spec: &String| {
             let spectrum = spectrum::illuminant(spec)?;
-            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power: spectrum.on(&self.wavelengths_nm, Outside::Refuse)? })
+            Ok(SpectrumRecord {
+                name: spectrum.name().to_owned(),
+                power: spectrum.on(&self.wavelengths_nm, Outside::Refuse)?,
+            })
         };
         Ok((record(&self.illuminant)?, self.sky_illuminant.as_ref().map(record).transpose()?))
     }

@@ -47,7 +47,9 @@ impl Response {
             let length = dot(&next, &next).sqrt();
             let (residual, worst) = residual_at_one(&diagonal, &beside, length);
             if !(worst < 1.0) {
-                return Err(Error::Numeric("the fold hands on more light than it receives: refine the mesh".to_owned()));
+                return Err(Error::Numeric(
+                    "the fold hands on more light than it receives: refine the mesh".to_owned(),
+                ));
             }
             if residual <= tolerance || basis.len() == start.len() || basis.len() == STEPS_MAX {
                 break;

@@ -12,7 +12,7 @@ use vfold::estimate::{Estimate, Exposure, map, smooth};
 use vfold::forward::FacetModel;
 use vfold::plot::spectra::{Curve, draw};
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Colours, Output, Reader, Record, Sample, Scene, ReferencePanel, Transform, pipe};
+use vfold::stream::{Colours, Output, Reader, Record, ReferencePanel, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
 
 /// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
@@ -117,7 +117,11 @@ fn method(args: &Args) -> Result<Method> {
         return Err(Error::usage("--smoothness", format!("{smoothness} is not a weight"), "give 0 or more"));
     }
     if !(args.start > 0.0 && args.start < 1.0) {
-        return Err(Error::usage("--start", format!("{} is not inside (0, 1)", args.start), "give a reflectance"));
+        return Err(Error::usage(
+            "--start",
+            format!("{} is not inside (0, 1)", args.start),
+            "give a reflectance",
+        ));
     }
     Ok(match args.prior.as_str() {
         "smooth" => Method::Smooth(smoothness),
@@ -134,14 +138,19 @@ impl Transform for Estimator<'_> {
         if let Some(spec) = &self.args.reference_panel {
             let card = spectrum::reflectances(spec)?;
             let [card] = card.as_slice() else {
-                return Err(Error::usage("--reference-panel", format!("'{spec}' is a set"), "name one member"));
+                return Err(Error::usage(
+                    "--reference-panel",
+                    format!("'{spec}' is a set"),
+                    "name one member",
+                ));
             };
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
         }
         let prior = match &self.method {
             Method::Map(spectra) => {
-                let on_grid: Vec<_> = spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
+                let on_grid: Vec<_> =
+                    spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
                 Some(Arc::new(Prior::from_spectra(grid.wavelengths_nm(), &on_grid)?))
             }
             Method::Smooth(_) => None,
@@ -165,7 +174,9 @@ impl Transform for Estimator<'_> {
                 map::estimate(&FacetData::new(&context.model, &measured, exposure, CUTOFF)?, prior)
             }
             (Method::Smooth(smoothness), _) => self.smooth(context, &rgb, exposure, *smoothness)?,
-            (Method::Map(_), None) => return Err(Error::Numeric("no prior was made for the scene".to_owned())),
+            (Method::Map(_), None) => {
+                return Err(Error::Numeric("no prior was made for the scene".to_owned()));
+            }
         };
         sample.set_estimate("interreflection", &self.args.prior, context.grid.wavelengths_nm(), &estimate)
     }
@@ -173,8 +184,15 @@ impl Transform for Estimator<'_> {
 
 impl Estimator<'_> {
     /// The paper's objective weighs all facets alike, white being 1.
-    fn smooth(&self, context: &Context, rgb: &Colours, exposure: Exposure, smoothness: f64) -> Result<Estimate> {
-        let sd: Colours = rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
+    fn smooth(
+        &self,
+        context: &Context,
+        rgb: &Colours,
+        exposure: Exposure,
+        smoothness: f64,
+    ) -> Result<Estimate> {
+        let sd: Colours =
+            rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
         let measured = Measured { rgb, sd: &sd };
         let data = FacetData::new(&context.model, &measured, exposure, NOISE_FLOOR * CUTOFF)?;
         smooth::estimate(&data, context.grid.len(), smoothness, self.args.start)
@@ -192,13 +210,17 @@ impl Estimator<'_> {
         let deviation = |facet: usize, channel: usize, value: f64| {
             let noise = match (self.args.noise_sd, &said) {
                 (NoiseSd::All(sd), _) => sd,
-                (NoiseSd::Auto, Some(said)) => said.get(facet).and_then(|sd| sd.as_ref()?.get(channel)).copied().unwrap_or(0.0),
+                (NoiseSd::Auto, Some(said)) => {
+                    said.get(facet).and_then(|sd| sd.as_ref()?.get(channel)).copied().unwrap_or(0.0)
+                }
                 (NoiseSd::Auto, None) => 0.0,
             };
             noise.hypot(model_error * value).hypot(floor)
         };
         let facet = |(facet, values): (usize, &Option<Vec<f64>>)| {
-            values.as_ref().map(|values| values.iter().enumerate().map(|(c, value)| deviation(facet, c, *value)).collect())
+            values.as_ref().map(|values| {
+                values.iter().enumerate().map(|(c, value)| deviation(facet, c, *value)).collect()
+            })
         };
         Ok(rgb.iter().enumerate().map(facet).collect())
     }

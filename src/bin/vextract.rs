@@ -89,11 +89,14 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         });
     };
     let first = open(args, &args.images[0]);
-    equip(args, &mut scene, first.as_ref().ok()).map_err(|e| if args.images.len() == 1 { e } else { reader.at(&e) })?;
+    equip(args, &mut scene, first.as_ref().ok())
+        .map_err(|e| if args.images.len() == 1 { e } else { reader.at(&e) })?;
     let grid = scene.fold()?.facets();
     let id = scene.id()?;
     let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| open(args, path)));
-    let mut made = samples.zip(&args.images).map(|(photograph, path)| sample(args, &id, grid, &panels, path, photograph));
+    let mut made = samples
+        .zip(&args.images)
+        .map(|(photograph, path)| sample(args, &id, grid, &panels, path, photograph));
     if let [_] = args.images.as_slice()
         && let Some(only) = made.next()
     {
@@ -124,7 +127,11 @@ fn panels(args: &Args) -> Result<Vec<Homography>> {
 
 fn check(args: &Args) -> Result<()> {
     if !(args.margin >= 0.0 && args.margin.is_finite()) {
-        return Err(Error::usage("--margin", format!("{} is not a distance", args.margin), "give pixels, 0 or more"));
+        return Err(Error::usage(
+            "--margin",
+            format!("{} is not a distance", args.margin),
+            "give pixels, 0 or more",
+        ));
     }
     match args.exposure {
         Some(x) if !(x > 0.0 && x.is_finite()) => {
@@ -140,7 +147,10 @@ fn open(args: &Args, path: &Path) -> Result<Photograph> {
         TransferArg::Linear => Transfer::Linear,
         TransferArg::Srgb => Transfer::Srgb,
     };
-    Photograph::open(path, &ReadOptions { transfer, black_level: args.black_level, white_level: args.white_level })
+    Photograph::open(
+        path,
+        &ReadOptions { transfer, black_level: args.black_level, white_level: args.white_level },
+    )
 }
 
 /// Adds camera and light to the scene: the camera that was named, or the one that the first photograph names.
@@ -152,7 +162,12 @@ fn equip(args: &Args, scene: &mut Scene, first: Option<&Photograph>) -> Result<(
     match args.camera.as_deref().or_else(by_exif) {
         Some(camera) => {
             let (illuminant, sky) = args.optics.illuminants()?;
-            scene.set_optics(&args.optics.wavelengths_nm, &args.optics.camera(camera)?, &illuminant, sky.as_ref())?;
+            scene.set_optics(
+                &args.optics.wavelengths_nm,
+                &args.optics.camera(camera)?,
+                &illuminant,
+                sky.as_ref(),
+            )?;
         }
         None if first.is_none() => {}
         None => {
@@ -184,7 +199,11 @@ fn sample(
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
     let mut sample = Sample::new(scene, &name(path))?;
-    sample.set_photograph(&ImageRecord::new(path, photograph.info(), panels, args.margin), &facets, 2 * grid.len())?;
+    sample.set_photograph(
+        &ImageRecord::new(path, photograph.info(), panels, args.margin),
+        &facets,
+        2 * grid.len(),
+    )?;
     if let Some(exposure) = args.exposure {
         sample.fields.set("exposure", exposure)?;
     }

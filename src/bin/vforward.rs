@@ -11,7 +11,7 @@ use vfold::forward::FacetModel;
 use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
 use vfold::spectrum::{self, Outside, Spectrum};
-use vfold::stream::{Output, Reader, Record, Sample, Scene, ReferencePanel, ReflectanceRecord};
+use vfold::stream::{Output, Reader, Record, ReferencePanel, ReflectanceRecord, Sample, Scene};
 use vfold::{Error, Result};
 
 /// Samples computed before any is written.
@@ -74,8 +74,12 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
-    let sheets: Vec<Spectrum> =
-        args.reflectance.iter().map(|spec| spectrum::reflectances(spec)).collect::<Result<Vec<_>>>()?.concat();
+    let sheets: Vec<Spectrum> = args
+        .reflectance
+        .iter()
+        .map(|spec| spectrum::reflectances(spec))
+        .collect::<Result<Vec<_>>>()?
+        .concat();
     let mut reader = Reader::open(&args.scene)?;
     while let Some(record) = reader.next()? {
         match record {
@@ -98,7 +102,11 @@ fn noise(args: &Args) -> Result<Noise> {
         }
     }
     if !(args.exposure > 0.0 && args.exposure.is_finite()) {
-        return Err(Error::usage("--exposure", format!("{} gives no picture", args.exposure), "give a number above 0"));
+        return Err(Error::usage(
+            "--exposure",
+            format!("{} gives no picture", args.exposure),
+            "give a number above 0",
+        ));
     }
     Ok(Noise { sd: args.noise_sd, photon: args.photon_noise })
 }
@@ -106,7 +114,12 @@ fn noise(args: &Args) -> Result<Noise> {
 /// Adds camera, light and card to the scene.
 fn equip(args: &Args, scene: &mut Scene) -> Result<()> {
     let (illuminant, sky) = args.optics.illuminants()?;
-    scene.set_optics(&args.optics.wavelengths_nm, &args.optics.camera(&args.camera)?, &illuminant, sky.as_ref())?;
+    scene.set_optics(
+        &args.optics.wavelengths_nm,
+        &args.optics.camera(&args.camera)?,
+        &illuminant,
+        sky.as_ref(),
+    )?;
     if let Some(spec) = &args.reference_panel {
         let card = single(spec)?;
         let reflectance = card.on(&args.optics.wavelengths_nm, Outside::Refuse)?;
@@ -119,7 +132,11 @@ fn single(spec: &str) -> Result<Spectrum> {
     let mut spectra = spectrum::reflectances(spec)?;
     match (spectra.pop(), spectra.is_empty()) {
         (Some(spectrum), true) => Ok(spectrum),
-        _ => Err(Error::usage("--reference-panel", format!("'{spec}' is a set"), "name one member, as in cc24:white")),
+        _ => Err(Error::usage(
+            "--reference-panel",
+            format!("'{spec}' is a set"),
+            "name one member, as in cc24:white",
+        )),
     }
 }
 
@@ -136,7 +153,14 @@ fn samples(args: &Args, scene: &Scene, sheets: &[Spectrum], noise: Noise, out: &
     Ok(())
 }
 
-fn sample(args: &Args, model: &FacetModel, scene: &str, sheet: &Spectrum, noise: Noise, stream: u64) -> Result<Sample> {
+fn sample(
+    args: &Args,
+    model: &FacetModel,
+    scene: &str,
+    sheet: &Spectrum,
+    noise: Noise,
+    stream: u64,
+) -> Result<Sample> {
     let grid = &args.optics.wavelengths_nm;
     let reflectance = sheet.on(grid, Outside::Refuse)?;
     let clean = args.exposure * model.facet_rgb(&reflectance);
@@ -161,10 +185,13 @@ fn photograph(args: &Args, scene: &Scene, sheets: &[Spectrum], noise: Noise) -> 
     noise.add(picture.pixels_mut(), args.seed, u64::MAX);
     picture.save(path)?;
     if !args.common.quiet {
-        let [panel0, panel1] = view.corners().map(|corners| {
-            corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" ")
-        });
-        cli::say("vforward", &format!("{} has its corners at --panel0 \"{panel0}\" --panel1 \"{panel1}\"", path.display()));
+        let [panel0, panel1] = view
+            .corners()
+            .map(|corners| corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" "));
+        cli::say(
+            "vforward",
+            &format!("{} has its corners at --panel0 \"{panel0}\" --panel1 \"{panel1}\"", path.display()),
+        );
     }
     Ok(())
 }

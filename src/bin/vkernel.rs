@@ -62,7 +62,11 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !(1e-12..=0.1).contains(&args.tolerance) {
-        return Err(Error::usage("--tolerance", format!("{} is out of range", args.tolerance), "give 1e-12 to 0.1"));
+        return Err(Error::usage(
+            "--tolerance",
+            format!("{} is out of range", args.tolerance),
+            "give 1e-12 to 0.1",
+        ));
     }
     let grid = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
     let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, grid)?;
@@ -71,9 +75,13 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut scene = Scene::new(&args.id, &fold, &light, &response)?;
     scene.set_accuracy(&args.mesh.to_string(), args.tolerance, &accuracy)?;
     if args.common.verbose {
-        let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
+        let error =
+            accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
         let poles = response.poles().len();
-        cli::say("vkernel", &format!("{} unknowns, {poles} poles, facet means' error {error}", accuracy.unknowns));
+        cli::say(
+            "vkernel",
+            &format!("{} unknowns, {poles} poles, facet means' error {error}", accuracy.unknowns),
+        );
     }
     if let Some(path) = out.saves.take("kernel") {
         let (kernel, facets) = (FoldKernel::new(&fold), 2 * grid.len());

@@ -96,7 +96,9 @@ impl Transform for Scorer<'_> {
         let Some(estimate) = sample.estimated()? else {
             return Err(Error::field("estimate", "missing; run the samples through vestimate first"));
         };
-        if estimate.reflectance.len() != context.grid.len() || estimate.wavelengths_nm != context.grid.wavelengths_nm() {
+        if estimate.reflectance.len() != context.grid.len()
+            || estimate.wavelengths_nm != context.grid.wavelengths_nm()
+        {
             return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
         }
         let truth = self.truth_of(sample)?.on(&context.grid, Outside::Refuse)?;

@@ -65,14 +65,18 @@ impl<'a> FacetData<'a> {
         let samples = sample_terms(model);
         let (mut values, mut models, mut outside) = (Vec::new(), Vec::new(), 0.0);
         for channel in 0..channels {
-            let column = |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
+            let column = |of: &[Option<Vec<f64>>], facet: usize| {
+                of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel])
+            };
             let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
             let data = DVector::from_iterator(
                 usable.len(),
                 usable.iter().zip(&weight).map(|(facet, w)| w * column(measured.rgb, *facet)),
             );
             let sources = model.sources().iter().map(|source| {
-                DMatrix::from_fn(usable.len(), model.terms(), |row, term| weight[row] * source.facets[(usable[row], term)])
+                DMatrix::from_fn(usable.len(), model.terms(), |row, term| {
+                    weight[row] * source.facets[(usable[row], term)]
+                })
             });
             let (kept, compressed) = compress(&data, sources.collect(), &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
@@ -84,7 +88,15 @@ impl<'a> FacetData<'a> {
             sources: model.sources().iter().map(|source| sum_of_rows(&source.facets, &usable)).collect(),
         };
         let count = usable.len() * channels;
-        Ok(Self { model, exposure, values: DVector::from_vec(values), channels: models, outside, count, sums })
+        Ok(Self {
+            model,
+            exposure,
+            values: DVector::from_vec(values),
+            channels: models,
+            outside,
+            count,
+            sums,
+        })
     }
 
     /// Compressed data left of all facet values.
@@ -161,7 +173,10 @@ impl<'a> FacetData<'a> {
                     let weight = source.camera.channel(channel)[band];
                     let rows = compressed.nrows();
                     at.values.rows_mut(row, rows).gemv(weight, compressed, &value, 1.0);
-                    at.slopes.view_mut((row, band), (rows, 1)).column_mut(0).gemv(weight, compressed, &slope, 1.0);
+                    at.slopes
+                        .view_mut((row, band), (rows, 1))
+                        .column_mut(0)
+                        .gemv(weight, compressed, &slope, 1.0);
                     at.sum += weight * sums.dot(&value);
                     at.sum_slopes[band] += weight * sums.dot(&slope);
                 }
@@ -188,10 +203,14 @@ fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> 
             return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
         }
         if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
-            return Err(Error::field(name, format!("{} channels, but the scene's camera has {channels}", odd.len())));
+            return Err(Error::field(
+                name,
+                format!("{} channels, but the scene's camera has {channels}", odd.len()),
+            ));
         }
     }
-    let usable: Vec<usize> = (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
+    let usable: Vec<usize> =
+        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
     if usable.is_empty() {
         return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
     }
@@ -229,7 +248,8 @@ fn compress(
     let q = DMatrix::from_columns(&columns).qr().q();
     let sources: Vec<_> = sources.iter().map(|source| q.tr_mul(source)).collect();
     let reach: Vec<_> = sources.iter().map(|source| source * samples).collect();
-    let reach = DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
+    let reach =
+        DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
     let directions = nalgebra::SymmetricEigen::new(&reach * reach.transpose());
     let kept: Vec<_> = directions
         .eigenvalues

@@ -6,9 +6,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Estimate;
 use super::data::FacetData;
 use super::prior::{Prior, logistic};
-use super::Estimate;
 use crate::solve::whitened::{Linearised, WhitenedModel, data_factor, minimise};
 
 /// Norm of the gradient in whitened coordinates at which the maximum counts as found.
@@ -44,7 +44,9 @@ pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
 /// Factors by which the noise starts larger: from a tenth of the signal down by tens to its true size.
 fn inflations(signal_to_noise: f64) -> Vec<f64> {
     let first = 0.1 * signal_to_noise;
-    std::iter::successors(Some(first), |inflation| Some(inflation / 10.0)).take_while(|inflation| *inflation > 1.0).collect()
+    std::iter::successors(Some(first), |inflation| Some(inflation / 10.0))
+        .take_while(|inflation| *inflation > 1.0)
+        .collect()
 }
 
 struct Posterior<'a> {
@@ -61,7 +63,8 @@ impl Posterior<'_> {
     fn standard_deviation(&self, reflectance: &[f64], jacobian: &DMatrix<f64>) -> Vec<f64> {
         let factor = self.prior.factor();
         // (I + JᵀJ)⁻¹ = I − Jᵀ(I + JJᵀ)⁻¹J: what the data take from the prior's variance.
-        let known = data_factor(jacobian).and_then(|data| data.l().solve_lower_triangular(&(jacobian * factor.transpose())));
+        let known = data_factor(jacobian)
+            .and_then(|data| data.l().solve_lower_triangular(&(jacobian * factor.transpose())));
         reflectance
             .iter()
             .enumerate()

@@ -32,7 +32,9 @@ impl Prior {
     pub fn from_spectra(wavelengths_nm: &[f64], spectra: &[Vec<f64>]) -> Result<Self> {
         let bands = wavelengths_nm.len();
         if spectra.len() < 2 || spectra.iter().any(|spectrum| spectrum.len() != bands) {
-            return Err(Error::Numeric(format!("a prior needs two spectra or more of {bands} wavebands each")));
+            return Err(Error::Numeric(format!(
+                "a prior needs two spectra or more of {bands} wavebands each"
+            )));
         }
         let count = spectra.len() as f64;
         let mut logits = DMatrix::from_fn(bands, spectra.len(), |band, n| logit(spectra[n][band]));
@@ -44,8 +46,9 @@ impl Prior {
                 covariance[(i, j)] += matern_5_2(a - b);
             }
         }
-        let factor = Cholesky::new(covariance)
-            .ok_or_else(|| Error::Numeric("the covariance of the prior's spectra is not positive".to_owned()))?;
+        let factor = Cholesky::new(covariance).ok_or_else(|| {
+            Error::Numeric("the covariance of the prior's spectra is not positive".to_owned())
+        })?;
         Ok(Self { mean, factor: factor.unpack() })
     }
 

@@ -2,7 +2,10 @@
 //!
 //! Deeb et al., eq. (36), minimised by an interior point method as in the paper's section 4B.
 
-use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessian, State, TerminationReason, TerminationStatus};
+use argmin::core::{
+    CostFunction, Error as SolverError, Executor, Gradient, Hessian, State, TerminationReason,
+    TerminationStatus,
+};
 use nalgebra::{DMatrix, DVector};
 
 use super::Estimate;
@@ -32,7 +35,9 @@ pub fn estimate(data: &FacetData, bands: usize, smoothness: f64, start: f64) -> 
     let gradient_norm = run.solver().violation();
     let state = run.state();
     let termination = match state.get_termination_status() {
-        TerminationStatus::Terminated(TerminationReason::SolverConverged) => Termination::Converged { gradient_norm },
+        TerminationStatus::Terminated(TerminationReason::SolverConverged) => {
+            Termination::Converged { gradient_norm }
+        }
         TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Termination::IterationLimit,
         _ => Termination::NoProgress { gradient_norm },
     };

@@ -73,7 +73,12 @@ impl FacetModel {
         model
     }
 
-    fn add_source(&mut self, response: &Response, camera: &CameraResponse, on_mode: impl Fn(f64) -> [f64; 2]) {
+    fn add_source(
+        &mut self,
+        response: &Response,
+        camera: &CameraResponse,
+        on_mode: impl Fn(f64) -> [f64; 2],
+    ) {
         let count = response.facets();
         let mut facets = DMatrix::zeros(2 * count, self.terms());
         let poles = self.poles.len();
@@ -129,7 +134,9 @@ impl FacetModel {
     pub fn terms_at(&self, r: f64, band: usize, values: &mut [f64], slopes: &mut [f64]) {
         let count = self.poles.len();
         for (k, g) in self.poles.iter().enumerate() {
-            let mut put = |n: usize, value: f64, slope: f64| (values[n * count + k], slopes[n * count + k]) = (value, slope);
+            let mut put = |n: usize, value: f64, slope: f64| {
+                (values[n * count + k], slopes[n * count + k]) = (value, slope)
+            };
             match &self.panels {
                 Panels::One { odd } => {
                     let (even_rest, odd_rest) = (1.0 / (1.0 - r * g), 1.0 / (1.0 + r * g));

@@ -42,7 +42,11 @@ impl View {
     /// ```
     pub fn of(fold: &Fold, width: usize, height: usize) -> Result<Self> {
         if width == 0 || height == 0 || width.saturating_mul(height) > 1 << 28 {
-            return Err(Error::usage("--render-size", format!("{width}x{height} is no picture"), "give 640x480 or so"));
+            return Err(Error::usage(
+                "--render-size",
+                format!("{width}x{height} is no picture"),
+                "give 640x480 or so",
+            ));
         }
         let world = panel_corners(fold);
         let pinhole = Pinhole::facing(fold, &world);
@@ -137,7 +141,12 @@ fn panel_corners(fold: &Fold) -> [[Point3<f64>; 4]; 2] {
     let (half_width, depth) = (fold.width() / 2.0, fold.depth());
     [-1.0, 1.0].map(|side| {
         let outer = |y: f64| Point3::new(side * depth * half.sin(), y, depth * half.cos());
-        [Point3::new(0.0, -half_width, 0.0), Point3::new(0.0, half_width, 0.0), outer(half_width), outer(-half_width)]
+        [
+            Point3::new(0.0, -half_width, 0.0),
+            Point3::new(0.0, half_width, 0.0),
+            outer(half_width),
+            outer(-half_width),
+        ]
     })
 }
 
@@ -173,10 +182,14 @@ impl Pinhole {
 fn centred(panels: [[Point; 4]; 2], width: f64, height: f64) -> [[Point; 4]; 2] {
     let range = |pick: fn(&Point) -> f64| {
         let values = panels.iter().flatten().map(pick);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
     };
     let ((left, right), (top, bottom)) = (range(|p| p.x), range(|p| p.y));
     let scale = FILL * (width / (right - left)).min(height / (bottom - top));
-    let place = |value: f64, low: f64, high: f64, size: f64| 0.5 * size + scale * (value - 0.5 * (low + high));
-    panels.map(|corners| corners.map(|p| Point { x: place(p.x, left, right, width), y: place(p.y, top, bottom, height) }))
+    let place =
+        |value: f64, low: f64, high: f64, size: f64| 0.5 * size + scale * (value - 0.5 * (low + high));
+    panels.map(|corners| {
+        corners.map(|p| Point { x: place(p.x, left, right, width), y: place(p.y, top, bottom, height) })
+    })
 }

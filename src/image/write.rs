@@ -6,9 +6,9 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 use crate::files::Saved;
 use crate::{Error, Result};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
 ///

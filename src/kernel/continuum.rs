@@ -174,7 +174,8 @@ impl Rows {
     /// What the rule misses of an endlessly long fold's exchange: entries with the crease strip, and the diagonal.
     fn missed(&self) -> (Vec<f64>, Vec<f64>) {
         let strip = self.weight[0];
-        let found = |i: usize, j: usize| self.angle.long_kernel(self.distance[i], self.distance[j]) * self.weight[j];
+        let found =
+            |i: usize, j: usize| self.angle.long_kernel(self.distance[i], self.distance[j]) * self.weight[j];
         let with_strip = |i: usize| self.angle.long_share(self.distance[i], strip);
         let strip_missed = (0..self.len())
             .map(|i| match i {
@@ -247,14 +248,17 @@ struct Lagrange<'a> {
 impl<'a> Lagrange<'a> {
     fn new(nodes: &'a [f64]) -> Self {
         let others = |k: usize| nodes.iter().enumerate().filter(move |(m, _)| *m != k);
-        let scale = (0..nodes.len()).map(|k| others(k).map(|(_, x)| nodes[k] - x).product::<f64>().recip()).collect();
+        let scale =
+            (0..nodes.len()).map(|k| others(k).map(|(_, x)| nodes[k] - x).product::<f64>().recip()).collect();
         Self { nodes, scale }
     }
 
     /// Values of the basis polynomials at `x`.
     fn at(&self, x: f64) -> Vec<f64> {
         let others = |k: usize| self.nodes.iter().enumerate().filter(move |(m, _)| *m != k);
-        (0..self.nodes.len()).map(|k| others(k).map(|(_, node)| x - node).product::<f64>() * self.scale[k]).collect()
+        (0..self.nodes.len())
+            .map(|k| others(k).map(|(_, node)| x - node).product::<f64>() * self.scale[k])
+            .collect()
     }
 }
 
@@ -278,7 +282,9 @@ impl Crease {
 
     /// Coordinates of the function 1 in the normalised polynomials of all strips.
     fn uniform(&self) -> impl Iterator<Item = f64> + '_ {
-        let one = |[low, high]: [f64; 2]| (0..self.order).map(move |b| if b == 0 { (high - low).sqrt() } else { 0.0 });
+        let one = |[low, high]: [f64; 2]| {
+            (0..self.order).map(move |b| if b == 0 { (high - low).sqrt() } else { 0.0 })
+        };
         self.strips.iter().copied().flat_map(one)
     }
 
@@ -420,8 +426,10 @@ fn assemble(rows: &Rows, crease: &Crease) -> DMatrix<f64> {
     let (count, order) = (rows.len(), crease.order);
     let block = crease.strips.len() * order;
     let peak = rows.angle.half_sin * rows.distance[0];
-    let pairs: Vec<_> = (0..crease.strips.len()).flat_map(|e| (e..crease.strips.len()).map(move |f| (e, f))).collect();
-    let correlations: Vec<_> = pairs.into_par_iter().map(|(e, f)| (e, f, crease.correlation(e, f, peak))).collect();
+    let pairs: Vec<_> =
+        (0..crease.strips.len()).flat_map(|e| (e..crease.strips.len()).map(move |f| (e, f))).collect();
+    let correlations: Vec<_> =
+        pairs.into_par_iter().map(|(e, f)| (e, f, crease.correlation(e, f, peak))).collect();
     let mut matrix = DMatrix::zeros(count * block, count * block);
     // Column blocks of one row node each: the upper half first, mirrored below.
     matrix.as_mut_slice().par_chunks_exact_mut(block * count * block).enumerate().for_each(|(j, columns)| {

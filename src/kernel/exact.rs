@@ -130,8 +130,7 @@ impl FoldKernel {
     #[must_use]
     pub fn matrix_row(&self, facet: usize) -> Vec<f64> {
         let panel_facets = self.rows() * self.cols;
-        let (panel, row, col) =
-            (facet / panel_facets, facet % panel_facets / self.cols, facet % self.cols);
+        let (panel, row, col) = (facet / panel_facets, facet % panel_facets / self.cols, facet % self.cols);
         let mut out = vec![0.0; 2 * panel_facets];
         let other = (1 - panel) * panel_facets;
         for j in 0..self.rows() {
@@ -176,7 +175,8 @@ impl Wedge {
         let product = match self.far_orders(s, t, k) {
             Some(orders) => self.far(s, t, k, orders),
             None => {
-                self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k) - self.side(t.start, s, k)
+                self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k)
+                    - self.side(t.start, s, k)
             }
         };
         scale * product
@@ -220,7 +220,8 @@ impl Wedge {
     fn order_across(&self, row: &Range<f64>, other: &Range<f64>, gap: f64) -> Option<usize> {
         let abreast = [row.start, 0.5 * (row.start + row.end), row.end].map(|b| b / self.cos);
         let mut worst = 0;
-        for d in [other.start, other.end].into_iter().chain(abreast.into_iter().filter(|d| other.contains(d))) {
+        for d in [other.start, other.end].into_iter().chain(abreast.into_iter().filter(|d| other.contains(d)))
+        {
             let (re, im) = (d * self.cos, (d * self.sin).hypot(gap));
             worst = worst.max(gauss_order(row.start - re, row.end - re, im)?);
         }
@@ -275,7 +276,9 @@ fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
 /// the rest: `πzq/4 − q²/4` where q is small, nothing where it is large.
 fn shift_integral(q: f64, k: f64) -> f64 {
     let close = |z: f64| if z == 0.0 { 0.25 * q * q } else { 0.5 * z * z * small_shift(q / z) };
-    let distant = |z: f64| if z == 0.0 { 0.0 } else { 0.5 * z * (q * (z / q).atan() + 0.5 * z * (q / z).powi(2).ln_1p()) };
+    let distant = |z: f64| {
+        if z == 0.0 { 0.0 } else { 0.5 * z * (q * (z / q).atan() + 0.5 * z * (q / z).powi(2).ln_1p()) }
+    };
     if k == 0.0 {
         2.0 * distant(1.0)
     } else if q < k + 1.0 {
@@ -313,7 +316,8 @@ mod tests {
     fn near_and_far_formulas_agree_where_both_hold() {
         for angle_deg in [5.0_f64, 45.0, 120.0, 170.0] {
             let wedge = Wedge::new(angle_deg.to_radians());
-            for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3.0), (2.0..3.0, 2.0..3.0, 4.0), (7.0..8.0, 3.0..4.0, 2.0)] {
+            for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3.0), (2.0..3.0, 2.0..3.0, 4.0), (7.0..8.0, 3.0..4.0, 2.0)]
+            {
                 let Some(orders) = wedge.far_orders(&s, &t, k) else { continue };
                 let far = wedge.far(&s, &t, k, orders);
                 let near = wedge.side(s.end, &t, k) - wedge.side(s.start, &t, k) + wedge.side(t.end, &s, k)

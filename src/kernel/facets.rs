@@ -54,7 +54,9 @@ impl PanelOperator for FacetOperator<'_> {
     fn apply(&self, x: &[f64], out: &mut [f64]) {
         let rows_of = out.par_chunks_exact_mut(self.half_cols).enumerate();
         // Small grids are done before a second thread has woken up.
-        rows_of.with_min_len(if x.len() < 1000 { x.len() } else { 1 }).for_each(|(i, out)| self.apply_row(i, x, out));
+        rows_of
+            .with_min_len(if x.len() < 1000 { x.len() } else { 1 })
+            .for_each(|(i, out)| self.apply_row(i, x, out));
     }
 
     fn facet_means(&self, x: &[f64]) -> Vec<f64> {

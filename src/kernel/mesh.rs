@@ -75,7 +75,10 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
     if patches.rows % facets.rows != 0 || patches.cols % facets.cols != 0 {
         return Err(Error::usage(
             "--mesh",
-            format!("{}x{} patches do not divide into {}x{} facets", patches.rows, patches.cols, facets.rows, facets.cols),
+            format!(
+                "{}x{} patches do not divide into {}x{} facets",
+                patches.rows, patches.cols, facets.rows, facets.cols
+            ),
             "give multiples of the facets, or auto",
         ));
     }
@@ -119,7 +122,10 @@ fn solve(fold: &Fold, aim: f64, tolerance: f64) -> Result<(Response, usize)> {
     if unknowns > UNKNOWNS_MAX {
         return Err(Error::usage(
             "--tolerance",
-            format!("{tolerance:e} takes {unknowns} unknowns at {}°, more than {UNKNOWNS_MAX}", fold.angle_deg()),
+            format!(
+                "{tolerance:e} takes {unknowns} unknowns at {}°, more than {UNKNOWNS_MAX}",
+                fold.angle_deg()
+            ),
             "give a larger tolerance or --mesh facets",
         ));
     }
@@ -143,6 +149,8 @@ fn resolution(aim: f64) -> Resolution {
 /// Largest relative difference of the facets' irradiances between two responses, over [`PROBES`].
 fn difference(a: &Response, b: &Response) -> f64 {
     let even = ModeLight::Sun([1.0, 1.0]);
-    let relative = |facet: usize, r: f64| (a.irradiance(facet, even, r, r) / b.irradiance(facet, even, r, r) - 1.0).abs();
+    let relative = |facet: usize, r: f64| {
+        (a.irradiance(facet, even, r, r) / b.irradiance(facet, even, r, r) - 1.0).abs()
+    };
     (0..a.facets()).flat_map(|facet| PROBES.map(|r| relative(facet, r))).fold(0.0, f64::max)
 }

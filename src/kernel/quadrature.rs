@@ -80,7 +80,8 @@ mod tests {
     fn five_points_match_abramowitz_and_stegun_table_25_4() {
         let rule = Rule::gauss_legendre(5);
         let nodes = [-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683, 0.906179845938664];
-        let weights = [0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366, 0.236926885056189];
+        let weights =
+            [0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366, 0.236926885056189];
         for i in 0..5 {
             assert!((rule.nodes[i] - nodes[i]).abs() < 1e-15);
             assert!((rule.weights[i] - weights[i]).abs() < 1e-15);

@@ -73,7 +73,12 @@ fn render(svg: &mut String, curves: &[Curve]) -> Drawn {
         .draw()?;
     for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {
         if let Some(sd) = &curve.reflectance_sd {
-            let edge = |side: f64| points(&curve.wavelengths_nm, curve.reflectance.iter().zip(sd).map(move |(r, sd)| (r + side * sd).clamp(0.0, 1.0)));
+            let edge = |side: f64| {
+                points(
+                    &curve.wavelengths_nm,
+                    curve.reflectance.iter().zip(sd).map(move |(r, sd)| (r + side * sd).clamp(0.0, 1.0)),
+                )
+            };
             let outline: Vec<_> = edge(2.0).chain(edge(-2.0).collect::<Vec<_>>().into_iter().rev()).collect();
             chart.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.22))))?;
         }
@@ -83,7 +88,10 @@ fn render(svg: &mut String, curves: &[Curve]) -> Drawn {
         }
         let style = colour.stroke_width(2);
         chart
-            .draw_series(LineSeries::new(points(&curve.wavelengths_nm, curve.reflectance.iter().copied()), style))?
+            .draw_series(LineSeries::new(
+                points(&curve.wavelengths_nm, curve.reflectance.iter().copied()),
+                style,
+            ))?
             .label(&curve.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
     }

@@ -7,7 +7,8 @@
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 19.2 and 19.3.
 
 use argmin::core::{
-    CostFunction, Error, Gradient, Hessian, IterState, KV, Problem, Solver, TerminationReason, TerminationStatus,
+    CostFunction, Error, Gradient, Hessian, IterState, KV, Problem, Solver, TerminationReason,
+    TerminationStatus,
 };
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -67,7 +68,14 @@ impl InteriorPoint {
     #[must_use]
     pub fn new(low: f64, high: f64, tolerance: f64) -> Self {
         let none = DVector::zeros(0);
-        Self { low, high, tolerance, multipliers: [none.clone(), none], violation: f64::INFINITY, stalled: false }
+        Self {
+            low,
+            high,
+            tolerance,
+            multipliers: [none.clone(), none],
+            violation: f64::INFINITY,
+            stalled: false,
+        }
     }
 
     /// Largest violation of the optimality conditions at the last iterate.
@@ -100,7 +108,13 @@ impl InteriorPoint {
     }
 
     /// Newton's step of x and of the multipliers.
-    fn step(&self, gradient: &DVector<f64>, mut hessian: DMatrix<f64>, gaps: &[DVector<f64>; 2], mu: f64) -> [DVector<f64>; 3] {
+    fn step(
+        &self,
+        gradient: &DVector<f64>,
+        mut hessian: DMatrix<f64>,
+        gaps: &[DVector<f64>; 2],
+        mu: f64,
+    ) -> [DVector<f64>; 3] {
         let [low, high] = gaps;
         let [z_low, z_high] = &self.multipliers;
         let right = -gradient + low.map(|g| mu / g) - high.map(|g| mu / g);
@@ -129,7 +143,8 @@ fn positive_solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
 
 /// Largest step along `direction` that keeps `value` positive, with a margin.
 fn to_boundary(value: &DVector<f64>, direction: &DVector<f64>) -> f64 {
-    let steps = value.iter().zip(direction.iter()).filter(|(_, d)| **d < 0.0).map(|(v, d)| -TO_BOUNDARY * v / d);
+    let steps =
+        value.iter().zip(direction.iter()).filter(|(_, d)| **d < 0.0).map(|(v, d)| -TO_BOUNDARY * v / d);
     steps.fold(1.0, f64::min)
 }
 
@@ -155,7 +170,11 @@ where
         Ok((state.param(x).gradient(gradient).cost(cost), None))
     }
 
-    fn next_iter(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<O>,
+        mut state: State,
+    ) -> Result<(State, Option<KV>), Error> {
         let (Some(x), Some(gradient)) = (state.take_param(), state.take_gradient()) else {
             return Err(Error::msg("interior point: the state lost its iterate"));
         };

@@ -62,7 +62,8 @@ pub fn minimise(
     loop {
         let at = model.linearise(&w, 1.0);
         let gradient_norm = (&w - at.jacobian.tr_mul(&at.residuals)).norm();
-        let stop = |termination| Solution { w: w.clone(), jacobian: at.jacobian.clone(), iterations, termination };
+        let stop =
+            |termination| Solution { w: w.clone(), jacobian: at.jacobian.clone(), iterations, termination };
         if gradient_norm <= tolerance {
             return stop(Termination::Converged { gradient_norm });
         }

@@ -72,7 +72,9 @@ impl Fields {
 /// [`Error::Field`] if one is not.
 pub fn finite<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
     match values.into_iter().find(|value| !value.is_finite()) {
-        Some(value) => Err(Error::field(name, format!("computed as {value}; the scene or its numbers are out of range"))),
+        Some(value) => {
+            Err(Error::field(name, format!("computed as {value}; the scene or its numbers are out of range")))
+        }
         None => Ok(()),
     }
 }

@@ -49,7 +49,10 @@ impl ArrayStack {
     pub fn finish(mut self) -> Result<()> {
         let path = self.saved.path().display().to_string();
         let Some(shape) = self.shape else {
-            return Err(Error::Array { path, problem: "no record has the field to save; check --save FIELD".to_owned() });
+            return Err(Error::Array {
+                path,
+                problem: "no record has the field to save; check --save FIELD".to_owned(),
+            });
         };
         let shape: Vec<u64> = std::iter::once(self.count).chain(shape).collect();
         let failed = |e| Error::file(&path, e);
@@ -59,7 +62,8 @@ impl ArrayStack {
         let mut writer = begin(&shape, &mut out).map_err(failed)?;
         // In pieces, so that memory stays flat however many records there were.
         while (&mut self.data).take(1 << 20).read_to_end(&mut bytes).map_err(failed)? > 0 {
-            let values = bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(std::array::from_fn(|i| chunk[i])));
+            let values =
+                bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(std::array::from_fn(|i| chunk[i])));
             writer.extend(values).map_err(failed)?;
             bytes.clear();
         }

@@ -66,14 +66,22 @@ impl Sample {
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
-    pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement], count: usize) -> Result<()> {
+    pub fn set_photograph(
+        &mut self,
+        image: &ImageRecord,
+        facets: &[FacetMeasurement],
+        count: usize,
+    ) -> Result<()> {
         let column = |pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
             let mut rows: Colours = facets.iter().map(pick).collect();
             rows.resize(count, None);
             rows
         };
         self.fields.set("image", image)?;
-        self.set_facets(&column(|facet| facet.mean.clone()), Some(&column(|facet| facet.standard_error.clone())))?;
+        self.set_facets(
+            &column(|facet| facet.mean.clone()),
+            Some(&column(|facet| facet.standard_error.clone())),
+        )?;
         self.fields.set("facet_pixels", facets.iter().map(|facet| facet.pixels).collect::<Vec<_>>())?;
         self.fields.set("facet_clipped", facets.iter().map(|facet| facet.clipped).collect::<Vec<_>>())?;
         self.fields.set("facet_not_finite", facets.iter().map(|facet| facet.not_finite).collect::<Vec<_>>())

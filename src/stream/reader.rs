@@ -57,7 +57,9 @@ impl Reader {
         }
         self.line += 1;
         if bytes.pop() != Some(b'\n') {
-            return Err(self.wrong("the last line has no end: the stream was cut", "run the tool before it again"));
+            return Err(
+                self.wrong("the last line has no end: the stream was cut", "run the tool before it again")
+            );
         }
         let fields = serde_json::from_slice(&bytes)
             .map(Fields)
@@ -69,7 +71,9 @@ impl Reader {
         match fields.kind() {
             "scene" => Ok(Record::Scene(Scene::from_fields(fields).map_err(|e| self.at(&e))?)),
             "sample" => Ok(Record::Sample(Sample { fields })),
-            "" => Err(self.wrong("a record without 'kind'", "each line must be a scene, a sample or a summary")),
+            "" => {
+                Err(self.wrong("a record without 'kind'", "each line must be a scene, a sample or a summary"))
+            }
             _ => Ok(Record::Other(fields)),
         }
     }
@@ -82,7 +86,12 @@ impl Reader {
     }
 
     fn wrong(&self, problem: &str, remedy: &str) -> Error {
-        Error::Record { path: self.path.clone(), line: self.line, problem: problem.to_owned(), remedy: remedy.to_owned() }
+        Error::Record {
+            path: self.path.clone(),
+            line: self.line,
+            problem: problem.to_owned(),
+            remedy: remedy.to_owned(),
+        }
     }
 }
 
@@ -148,7 +157,8 @@ fn flush<T: Transform + Sync>(
 ) -> Result<()> {
     let Some((line, _)) = batch.first() else { return Ok(()) };
     let Some(context) = context else {
-        let (problem, remedy) = ("a sample before any scene".to_owned(), "put its scene line first".to_owned());
+        let (problem, remedy) =
+            ("a sample before any scene".to_owned(), "put its scene line first".to_owned());
         return Err(Error::Record { path: reader.path.clone(), line: *line, problem, remedy });
     };
     let finished: Vec<Result<Sample>> = batch

@@ -82,7 +82,13 @@ impl Sample {
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_estimate(&mut self, method: &str, prior: &str, wavelengths_nm: &[f64], estimate: &Estimate) -> Result<()> {
+    pub fn set_estimate(
+        &mut self,
+        method: &str,
+        prior: &str,
+        wavelengths_nm: &[f64],
+        estimate: &Estimate,
+    ) -> Result<()> {
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", estimate.reflectance_sd.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
@@ -177,7 +183,8 @@ impl Sample {
     /// [`Error::Field`] if a number is not finite.
     pub fn set_metrics(&mut self, metrics: &Metrics) -> Result<()> {
         finite("metrics", [&metrics.rmse, &metrics.ciede2000, &metrics.pd])?;
-        self.fields.set("metrics", json!({ "rmse": metrics.rmse, "ciede2000": metrics.ciede2000, "pd": metrics.pd }))
+        self.fields
+            .set("metrics", json!({ "rmse": metrics.rmse, "ciede2000": metrics.ciede2000, "pd": metrics.pd }))
     }
 
     /// The sample's scores, if it has any.
@@ -198,9 +205,13 @@ impl Sample {
 
 fn termination(termination: &Termination) -> serde_json::Value {
     match termination {
-        Termination::Converged { gradient_norm } => json!({ "reason": "converged", "gradient_norm": gradient_norm }),
+        Termination::Converged { gradient_norm } => {
+            json!({ "reason": "converged", "gradient_norm": gradient_norm })
+        }
         Termination::IterationLimit => json!({ "reason": "iteration limit" }),
-        Termination::NoProgress { gradient_norm } => json!({ "reason": "no progress", "gradient_norm": gradient_norm }),
+        Termination::NoProgress { gradient_norm } => {
+            json!({ "reason": "no progress", "gradient_norm": gradient_norm })
+        }
     }
 }
 

@@ -93,13 +93,21 @@ impl Scene {
         fields.set("id", id)?;
         fields.set(
             "geometry",
-            GeometryRecord { shape: "fold".to_owned(), angle_deg: fold.angle_deg(), panel: [fold.width(), fold.depth()] },
+            GeometryRecord {
+                shape: "fold".to_owned(),
+                angle_deg: fold.angle_deg(),
+                panel: [fold.width(), fold.depth()],
+            },
         )?;
         let FacetGrid { rows, cols } = fold.facets();
         fields.set("facets", FacetsRecord { panels: 2, rows, cols })?;
         let (tilt_deg, slant_deg, sky) = (light.tilt_deg(), light.slant_deg(), light.sky());
-        fields.set("light", LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() })?;
-        let residues: Vec<_> = (0..response.facets()).map(|facet| response.facet_residues(facet).to_vec()).collect();
+        fields.set(
+            "light",
+            LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() },
+        )?;
+        let residues: Vec<_> =
+            (0..response.facets()).map(|facet| response.facet_residues(facet).to_vec()).collect();
         finite("response", response.poles().iter().chain(residues.iter().flatten()))?;
         fields.set("response", ResponseRecord { poles: response.poles().to_vec(), residues })?;
         Ok(Self { fields })
@@ -114,7 +122,10 @@ impl Scene {
             Some(format) if format == FORMAT => Ok(Self { fields }),
             format => Err(Error::field(
                 "format",
-                format!("{} where this version reads {FORMAT}; make the scene again with vkernel", format.unwrap_or_default()),
+                format!(
+                    "{} where this version reads {FORMAT}; make the scene again with vkernel",
+                    format.unwrap_or_default()
+                ),
             )),
         }
     }
@@ -134,11 +145,15 @@ impl Scene {
     pub fn fold(&self) -> Result<Fold> {
         let geometry: GeometryRecord = self.fields.require("geometry", "make the scene with vkernel")?;
         if geometry.shape != "fold" {
-            return Err(Error::field("geometry.shape", format!("'{}' is not a shape this version knows", geometry.shape)));
+            return Err(Error::field(
+                "geometry.shape",
+                format!("'{}' is not a shape this version knows", geometry.shape),
+            ));
         }
         let facets: FacetsRecord = self.fields.require("facets", "make the scene with vkernel")?;
         let grid = FacetGrid { rows: facets.rows, cols: facets.cols };
-        Fold::new(geometry.angle_deg, geometry.panel[0], geometry.panel[1], grid).map_err(|e| Error::field("geometry", e))
+        Fold::new(geometry.angle_deg, geometry.panel[0], geometry.panel[1], grid)
+            .map_err(|e| Error::field("geometry", e))
     }
 
     /// The sun and the sky.
@@ -147,7 +162,8 @@ impl Scene {
     /// [`Error::Field`] if they are missing or leave a panel unlit.
     pub fn light(&self) -> Result<Light> {
         let light: LightRecord = self.fields.require("light", "make the scene with vkernel")?;
-        Light::new(&self.fold()?, light.tilt_deg, light.slant_deg, light.sky).map_err(|e| Error::field("light", e))
+        Light::new(&self.fold()?, light.tilt_deg, light.slant_deg, light.sky)
+            .map_err(|e| Error::field("light", e))
     }
 
     /// Poles and residues of the bounces.
@@ -157,8 +173,13 @@ impl Scene {
     pub fn response(&self) -> Result<Response> {
         let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
         let poles = record.poles.len();
-        if record.residues.len() != self.fold()?.facets().len() || record.residues.iter().any(|row| row.len() != poles) {
-            return Err(Error::field("response.residues", "needs one row a facet of a panel with one number a pole"));
+        if record.residues.len() != self.fold()?.facets().len()
+            || record.residues.iter().any(|row| row.len() != poles)
+        {
+            return Err(Error::field(
+                "response.residues",
+                "needs one row a facet of a panel with one number a pole",
+            ));
         }
         Response::new(record.poles, record.residues.concat())
     }
@@ -184,7 +205,8 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or do not increase.
     pub fn grid(&self) -> Result<WavelengthGrid> {
-        let wavelengths_nm: Vec<f64> = self.fields.require("wavelengths_nm", "vforward and vextract add them")?;
+        let wavelengths_nm: Vec<f64> =
+            self.fields.require("wavelengths_nm", "vforward and vextract add them")?;
         WavelengthGrid::new(wavelengths_nm).map_err(|e| Error::field("wavelengths_nm", e))
     }
 
@@ -218,7 +240,9 @@ impl Scene {
     pub fn camera(&self) -> Result<CameraRecord> {
         let camera: CameraRecord = self.fields.require("camera", "give --camera to vforward or vextract")?;
         let bands = self.grid()?.len();
-        if camera.sensitivities.is_empty() || camera.sensitivities.iter().any(|channel| channel.len() != bands) {
+        if camera.sensitivities.is_empty()
+            || camera.sensitivities.iter().any(|channel| channel.len() != bands)
+        {
             return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers a channel")));
         }
         Ok(camera)
@@ -255,7 +279,9 @@ impl Scene {
         let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else {
             return Ok(FacetModel::one_sheet(response, &lighting));
         };
-        if card.reflectance.len() != self.grid()?.len() || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r)) {
+        if card.reflectance.len() != self.grid()?.len()
+            || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r))
+        {
             return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
         }
         Ok(FacetModel::with_card(response, &lighting, card.reflectance))
@@ -276,7 +302,10 @@ impl Scene {
         let illuminants: Vec<SpectrumRecord> =
             self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
         let [illuminant] = illuminants.as_slice() else {
-            return Err(Error::field("illuminants", format!("{} where this version knows one", illuminants.len())));
+            return Err(Error::field(
+                "illuminants",
+                format!("{} where this version knows one", illuminants.len()),
+            ));
         };
         on_grid("illuminants", illuminant)?;
         let sun = CameraResponse::new(&grid, &camera.sensitivities, &illuminant.power)?;

@@ -81,7 +81,9 @@ impl Output {
     fn bytes(&mut self, bytes: &[u8]) -> Result<()> {
         match &mut self.sink {
             Sink::Stdout(out) => out.write_all(bytes).map_err(Error::Output),
-            Sink::File(out) => out.write_all(bytes).map_err(|e| Error::file(out.get_ref().path().display(), e)),
+            Sink::File(out) => {
+                out.write_all(bytes).map_err(|e| Error::file(out.get_ref().path().display(), e))
+            }
         }
     }
 
