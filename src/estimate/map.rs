@@ -4,15 +4,15 @@
 //! product is found by Gauss–Newton in whitened z, in the space of the compressed data, and the curvature there gives error bars
 //! (Laplace's approximation).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DVector, Dyn};
 
 use super::Estimate;
 use super::data::FacetData;
 use super::prior::{Prior, logistic};
-use crate::solve::whitened::{Linearised, WhitenedModel, data_factor, minimise};
+use crate::solve::whitened::{Linearised, WhitenedModel, minimise};
 
-/// Norm of the gradient in whitened coordinates at which the maximum counts as found.
-const GRADIENT_TOLERANCE: f64 = 1e-6;
+/// The maximum counts as found within this many standard deviations of it.
+const TOLERANCE: f64 = 1e-3;
 const ITERATION_LIMIT: u32 = 300;
 
 /// The most probable reflectance.
@@ -26,13 +26,13 @@ pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
         &posterior,
         DVector::zeros(prior.bands()),
         &inflations(data.signal_to_noise()),
-        GRADIENT_TOLERANCE,
+        TOLERANCE,
         ITERATION_LIMIT,
     );
     let reflectance = posterior.reflectance(&solution.w);
     let at = data.residuals(&reflectance);
     Estimate {
-        reflectance_sd: Some(posterior.standard_deviation(&reflectance, &solution.jacobian)),
+        reflectance_sd: posterior.standard_deviation(&reflectance, solution.curvature.as_ref()),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: solution.iterations,
@@ -60,20 +60,11 @@ impl Posterior<'_> {
     }
 
     /// Square roots of the diagonal of the covariance, carried from logit to reflectance.
-    fn standard_deviation(&self, reflectance: &[f64], jacobian: &DMatrix<f64>) -> Vec<f64> {
-        let factor = self.prior.factor();
-        // (I + JᵀJ)⁻¹ = I − Jᵀ(I + JJᵀ)⁻¹J: what the data take from the prior's variance.
-        let known = data_factor(jacobian)
-            .and_then(|data| data.l().solve_lower_triangular(&(jacobian * factor.transpose())));
-        reflectance
-            .iter()
-            .enumerate()
-            .map(|(band, r)| {
-                let prior = factor.row(band).norm_squared();
-                let known = known.as_ref().map_or(0.0, |known| known.column(band).norm_squared());
-                r * (1.0 - r) * (prior - known).max(0.0).sqrt()
-            })
-            .collect()
+    fn standard_deviation(&self, reflectance: &[f64], curvature: Option<&Cholesky<f64, Dyn>>) -> Option<Vec<f64>> {
+        // The covariance of the logits is F(I + JᵀJ)⁻¹Fᵀ, F the prior's factor.
+        let spread = curvature?.l().solve_lower_triangular(&self.prior.factor().transpose())?;
+        let sd = |(band, r): (usize, &f64)| r * (1.0 - r) * spread.column(band).norm();
+        Some(reflectance.iter().enumerate().map(sd).collect())
     }
 }
 
