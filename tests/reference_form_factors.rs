@@ -1,5 +1,12 @@
 //! Form factors against reference values computed with 60-digit arithmetic (two independent methods).
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stderr,
+    reason = "a test stops at the first surprise"
+)]
+
 use std::fs;
 use std::path::PathBuf;
 
@@ -65,7 +72,7 @@ fn whole_panels_of_equal_depth() {
     for panel in data["panels"].as_array().unwrap() {
         let [angle, width, depth, other] =
             ["theta_deg", "width", "depth0", "depth1"].map(|key| number(&panel[key]));
-        if depth != other {
+        if (depth - other).abs() > 0.0 {
             continue;
         }
         let got = kernel(angle, width, depth, 1, 1).form_factor(0, 0, 0);
