@@ -63,8 +63,11 @@ pub struct Photograph {
     layout: Layout,
     /// Colours a pixel, 1 or 3.
     channels: usize,
-    /// Samples a pixel: one more than its colours if there is an alpha channel.
+    /// Samples a pixel.
     stride: usize,
+    /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
+    colours: [usize; 3],
+    alpha: Option<usize>,
     scale: Scale,
     /// Linear light of every integer; empty for floats.
     table: Vec<f64>,
@@ -104,6 +107,7 @@ impl Photograph {
         let Decoded { format, picture, camera } = decode(path)?;
         let color = picture.color();
         let stride = usize::from(color.channel_count());
+        let channels = stride - usize::from(color.has_alpha());
         let bits = u32::from(color.bits_per_pixel() / u16::from(color.channel_count()));
         let scale = Scale::new(options, bits)?;
         let stored_size = (picture.width() as usize, picture.height() as usize);
@@ -126,8 +130,10 @@ impl Photograph {
         Ok(Self {
             samples: Samples::from(picture),
             layout: camera.orientation.layout(stored_size),
-            channels: stride - usize::from(color.has_alpha()),
+            channels,
             stride,
+            colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
+            alpha: color.has_alpha().then_some(channels),
             table: scale.table(bits),
             scale,
             info,
@@ -189,10 +195,10 @@ impl Photograph {
     ) {
         for x in columns {
             let first = self.layout.stored(x, y) * self.stride;
-            let (colours, alpha) = stored[first..first + self.stride].split_at(self.channels);
-            let channel = |k: usize| linear(colours[k.min(self.channels - 1)]);
-            let transparent = alpha.first().is_some_and(|&alpha| alpha.into() <= 0.0);
-            visitor(x, Pixel::new([channel(0), channel(1), channel(2)], transparent));
+            let channel = |k: usize| linear(stored[first + self.colours[k]]);
+            let light = [channel(0), channel(1), channel(2)];
+            let transparent = self.alpha.is_some_and(|offset| stored[first + offset].into() <= 0.0);
+            visitor(x, Pixel::new(light, transparent));
         }
     }
 }
