@@ -137,9 +137,10 @@ fn intersection(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
 }
 
 /// Pixels beside each other share their geometry, in at least this many runs across a facet: that shifts a mean by
-/// 1/(12 x 64²) of the product of what light and perspective change across the facet, five millionths where
-/// each changes by half, and halves the time a large picture takes.
-const RUNS: usize = 64;
+/// 1/(12 x 32²) of the product of what light and perspective change across the facet, a millionth where each changes
+/// by a tenth, and halves the time a large picture takes.
+const RUNS: usize = 32;
+
 /// An overlap this small, px², is rounding.
 const NO_OVERLAP: f64 = 1e-9;
 

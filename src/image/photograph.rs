@@ -9,6 +9,7 @@ use std::path::Path;
 use image::{DynamicImage, ImageFormat};
 
 use super::decode::{Decoded, decode};
+use super::exif::CameraNotes;
 use super::orientation::{Layout, Orientation};
 use super::scale::{ReadOptions, Scale};
 use super::transfer::Transfer;
@@ -43,6 +44,27 @@ pub struct PhotographInfo {
     pub white_level: f64,
     /// What was wrong but did no harm.
     pub notes: Vec<String>,
+}
+
+impl PhotographInfo {
+    fn new(camera: CameraNotes, stored_size: (usize, usize), format: String, scale: &Scale) -> Self {
+        let (width, height) = camera.orientation.upright_size(stored_size);
+        Self {
+            make: camera.make,
+            model: camera.model,
+            exposure_s: camera.exposure_s,
+            f_number: camera.f_number,
+            iso: camera.iso,
+            orientation: camera.orientation,
+            width,
+            height,
+            format,
+            transfer_used: scale.transfer,
+            black_level: scale.black,
+            white_level: scale.white,
+            notes: camera.notes,
+        }
+    }
 }
 
 /// What a pixel says.
@@ -108,25 +130,10 @@ impl Photograph {
         let color = picture.color();
         let stride = usize::from(color.channel_count());
         let channels = stride - usize::from(color.has_alpha());
-        let bits = u32::from(color.bits_per_pixel() / u16::from(color.channel_count()));
+        let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
         let stored_size = (picture.width() as usize, picture.height() as usize);
-        let (width, height) = camera.orientation.upright_size(stored_size);
-        let info = PhotographInfo {
-            make: camera.make,
-            model: camera.model,
-            exposure_s: camera.exposure_s,
-            f_number: camera.f_number,
-            iso: camera.iso,
-            orientation: camera.orientation,
-            width,
-            height,
-            format: describe(format, bits, color.has_color()),
-            transfer_used: scale.transfer,
-            black_level: scale.black,
-            white_level: scale.white,
-            notes: camera.notes,
-        };
+        let format = describe(format, bits, color.has_color());
         Ok(Self {
             samples: Samples::from(picture),
             layout: camera.orientation.layout(stored_size),
@@ -135,8 +142,8 @@ impl Photograph {
             colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
             alpha: color.has_alpha().then_some(channels),
             table: scale.table(bits),
+            info: PhotographInfo::new(camera, stored_size, format, &scale),
             scale,
-            info,
         })
     }
 
