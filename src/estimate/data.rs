@@ -11,9 +11,6 @@ use crate::error::{Error, Result};
 use crate::estimate::Exposure;
 use crate::forward::FacetModel;
 
-/// Reflectances (and, with a card, wavebands) at which the terms are sampled to find their rank.
-const RANK_SAMPLES: usize = 96;
-
 /// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
 pub struct Measured<'a> {
     /// Values.
@@ -142,8 +139,8 @@ impl<'a> FacetData<'a> {
     /// Deeb et al., first term of eq. (36).
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64]) -> Residuals {
-        let terms = self.terms::<1>(reflectance);
-        let (residuals, exposure, _) = self.compare(&terms[0]);
+        let [terms] = self.model.terms_of(reflectance);
+        let (residuals, exposure, _) = self.compare(&terms);
         Residuals { residuals, exposure }
     }
 
@@ -153,7 +150,7 @@ impl<'a> FacetData<'a> {
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
-        let [terms, slopes] = self.terms(reflectance);
+        let [terms, slopes] = self.model.terms_of(reflectance);
         let (residuals, exposure, values) = self.compare(&terms);
         let mut jacobian = exposure * self.columns_of(&slopes);
         match self.exposure {
@@ -174,7 +171,7 @@ impl<'a> FacetData<'a> {
     /// `Σ ρᵢ ∂mᵢ/∂r` and `Σ ρᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of this reflectance.
     #[must_use]
     pub fn curvature(&self, reflectance: &[f64]) -> [DVector<f64>; 2] {
-        let [terms, slopes, curvatures] = self.terms(reflectance);
+        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
         let (residuals, exposure, _) = self.compare(&terms);
         [slopes, curvatures].map(|of_terms| exposure * self.along(&residuals, &of_terms))
     }
@@ -192,17 +189,6 @@ impl<'a> FacetData<'a> {
             Exposure::Free => values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE),
             Exposure::Sum => self.sums.measured / sum().max(f64::MIN_POSITIVE),
         }
-    }
-
-    /// The terms and their first `N − 1` derivatives: term by waveband.
-    fn terms<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
-        let mut all = [(); N].map(|()| DMatrix::zeros(self.model.terms(), reflectance.len()));
-        for (band, r) in reflectance.iter().enumerate() {
-            for (term, of_term) in self.model.terms_at(*r, band).enumerate() {
-                all.iter_mut().zip(of_term).for_each(|(matrix, value)| matrix[(term, band)] = value);
-            }
-        }
-        all
     }
 
     /// Model of the compressed data at exposure 1.
@@ -290,15 +276,14 @@ fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
     rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
 }
 
-/// The terms at Chebyshev points of [0, 1]: term by sample.
+/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands, so that a card's
+/// spectrum meets dark and bright ones everywhere.
 fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
-    let mut samples = DMatrix::zeros(model.terms(), RANK_SAMPLES);
-    for (n, mut column) in samples.column_iter_mut().enumerate() {
-        let r = (std::f64::consts::FRAC_PI_4 * (2 * n + 1) as f64 / RANK_SAMPLES as f64).sin().powi(2);
-        // 37 shares no factor with the usual numbers of wavebands: every reflectance meets another part of a card's spectrum.
-        let terms = model.terms_at(r, 37 * n % model.bands());
-        column.iter_mut().zip(terms).for_each(|(sample, [value, ..])| *sample = value);
-    }
+    let bands = model.bands();
+    // 37 shares no factor with the usual numbers of wavebands.
+    let place = |band: usize| (37 * band % bands) as f64 + 0.5;
+    let chebyshev = |band: usize| (std::f64::consts::FRAC_PI_2 * place(band) / bands as f64).sin().powi(2);
+    let [samples] = model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>());
     samples
 }
 

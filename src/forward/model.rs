@@ -127,29 +127,43 @@ impl FacetModel {
         &self.sources
     }
 
-    /// The terms at reflectance `r` in waveband `band`, each with its first and second derivative by `r`.
+    /// The terms and their first `N − 1` derivatives by reflectance, for a spectrum: term by waveband, `N` from 1 to 3.
     ///
     /// One sheet: `r/(1 − rg)`, then `r/(1 + rg)` where panels are lit unevenly. With a card c: `r/d`, `rcg/d`, `c/d`,
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
-    pub fn terms_at(&self, r: f64, band: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
-        let families: &[Family] = match &self.panels {
-            Panels::One { odd: false } => &[|r, _, g| rational(r, 1.0, g)],
-            Panels::One { odd: true } => &[|r, _, g| rational(r, 1.0, g), |r, _, g| rational(r, 1.0, -g)],
-            Panels::Card(_) => &[
-                |r, c, g| rational(r, 1.0, c * g * g),
-                |r, c, g| rational(r, c * g, c * g * g),
-                // c/d = c + c²g²·r/d
-                |r, c, g| {
-                    let [value, slope, curvature] = rational(r, c * c * g * g, c * g * g);
-                    [c + value, slope, curvature]
-                },
-            ],
-        };
-        let card = match &self.panels {
-            Panels::Card(card) => card[band],
-            Panels::One { .. } => 0.0,
-        };
-        families.iter().flat_map(move |family| self.poles.iter().map(move |g| family(r, card, *g)))
+    #[must_use]
+    pub fn terms_of<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
+        let (terms, poles) = (self.terms(), self.poles.len());
+        let mut all = [(); N].map(|()| DMatrix::zeros(terms, reflectance.len()));
+        for (band, r) in reflectance.iter().enumerate() {
+            for (n, family) in self.families(band).iter().enumerate() {
+                let start = band * terms + n * poles;
+                let mut targets =
+                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[start..start + poles]);
+                for (k, g) in self.poles.iter().enumerate() {
+                    let at = family.at(*r, *g);
+                    targets.iter_mut().zip(at).for_each(|(target, value)| target[k] = value);
+                }
+            }
+        }
+        all
+    }
+
+    /// The families of terms in a waveband.
+    fn families(&self, band: usize) -> Families {
+        const EVEN: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [1.0, 0.0] };
+        const ODD: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [-1.0, 0.0] };
+        match &self.panels {
+            Panels::One { odd } => Families { all: [EVEN, ODD, ODD], count: 1 + usize::from(*odd) },
+            Panels::Card(card) => {
+                let c = card[band];
+                let family = |offset, a| Family { offset, a, b: [0.0, c] };
+                // The last is c/d = c + c²g²·r/d.
+                let all =
+                    [family(0.0, [1.0, 0.0, 0.0]), family(0.0, [0.0, c, 0.0]), family(c, [0.0, 0.0, c * c])];
+                Families { all, count: 3 }
+            }
+        }
     }
 
     /// RGB of every facet at exposure 1: facet by channel, facet order panel, row, column.
@@ -158,27 +172,44 @@ impl FacetModel {
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
     #[must_use]
     pub fn facet_rgb(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        let channels = self.sources[0].camera.channels();
-        let mut moments = vec![DMatrix::zeros(self.terms(), channels); self.sources.len()];
-        for (band, r) in reflectance.iter().enumerate() {
-            for (term, [value, ..]) in self.terms_at(*r, band).enumerate() {
-                for (source, moments) in self.sources.iter().zip(&mut moments) {
-                    for channel in 0..channels {
-                        moments[(term, channel)] += source.camera.channel(channel)[band] * value;
-                    }
-                }
-            }
-        }
-        self.sources.iter().zip(&moments).map(|(source, moments)| &source.facets * moments).sum()
+        let [terms] = self.terms_of(reflectance);
+        let of_source = |source: &Source| {
+            let camera = &source.camera;
+            let weights =
+                DMatrix::from_fn(reflectance.len(), camera.channels(), |band, c| camera.channel(c)[band]);
+            &source.facets * (&terms * weights)
+        };
+        self.sources.iter().map(of_source).sum()
     }
 }
 
-/// A term as a function of reflectance, of the card's reflectance and of a pole.
-type Family = fn(f64, f64, f64) -> [f64; 3];
+/// Up to three families of terms.
+struct Families {
+    all: [Family; 3],
+    count: usize,
+}
 
-/// `a·r/(1 − b·r)` with its first and second derivative by r.
-fn rational(r: f64, a: f64, b: f64) -> [f64; 3] {
-    let rest = 1.0 / (1.0 - b * r);
-    let slope = a * rest * rest;
-    [a * r * rest, slope, 2.0 * b * slope * rest]
+impl Families {
+    fn iter(&self) -> impl Iterator<Item = &Family> {
+        self.all[..self.count].iter()
+    }
+}
+
+/// `offset + a·r/(1 − b·r)`, with a and b polynomials of the pole g: `a₀ + a₁g + a₂g²` and `b₁g + b₂g²`.
+struct Family {
+    offset: f64,
+    a: [f64; 3],
+    b: [f64; 2],
+}
+
+impl Family {
+    /// Value, first and second derivative at reflectance `r` for the pole `g`.
+    #[inline]
+    fn at(&self, r: f64, g: f64) -> [f64; 3] {
+        let a = self.a[0] + g * (self.a[1] + g * self.a[2]);
+        let b = g * (self.b[0] + g * self.b[1]);
+        let rest = 1.0 / (1.0 - b * r);
+        let slope = a * rest * rest;
+        [self.offset + a * r * rest, slope, 2.0 * b * slope * rest]
+    }
 }
