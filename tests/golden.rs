@@ -64,7 +64,8 @@ fn cases() -> Vec<PathBuf> {
 fn difference(case: &Path) -> Option<String> {
     let script = fs::read_to_string(case).unwrap();
     let run = Workdir::new().sh(&script);
-    if run.status != 0 {
+    // a shell knows only the last status of a pipeline, but no tool fails without a word
+    if run.status != 0 || !run.stderr.is_empty() {
         return Some(format!("{}: exit status {}: {}", case.display(), run.status, run.stderr));
     }
     let expected = case.with_extension("out");

@@ -33,15 +33,6 @@ impl Workdir {
             .output();
         Ended::from(run.unwrap())
     }
-
-    /// Names of the files in the folder, hidden ones too, in order.
-    pub fn files(&self) -> Vec<String> {
-        let entries = std::fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
 }
 
 impl From<Output> for Ended {
