@@ -70,7 +70,8 @@ fn help_and_version_name_the_tool() {
 fn manual_and_completions_need_no_other_argument() {
     let folder = Workdir::new();
     for tool in TOOLS {
-        for (what, mark) in [("man", ".TH"), ("bash", "complete"), ("zsh", "#compdef"), ("fish", "complete")] {
+        for (what, mark) in [("man", ".TH"), ("bash", "complete"), ("zsh", "#compdef"), ("fish", "complete")]
+        {
             let run = folder.sh(&format!("{tool} --generate {what}"));
             assert!(run.status == 0 && run.stderr.is_empty(), "{tool} {what}: {run:?}");
             assert!(run.stdout.contains(mark) && run.stdout.contains(tool), "{tool} {what}");
@@ -159,7 +160,9 @@ fn a_reader_that_leaves_is_no_failure() {
         "vscore long.ndjson",
     ] {
         let lengthen = "{ head -n 1 estimates.ndjson; for n in 1 2 3 4; do tail -n +2 estimates.ndjson; done; } > long.ndjson";
-        let script = format!("{lengthen}\n{{ status=0; {run} || status=$?; echo $status > status; }} | head -c 10; cat status");
+        let script = format!(
+            "{lengthen}\n{{ status=0; {run} || status=$?; echo $status > status; }} | head -c 10; cat status"
+        );
         assert_eq!(printed(&script), "{\"kind\":\"s0\n", "{run}");
     }
 }

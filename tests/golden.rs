@@ -16,7 +16,11 @@ use serde_json::Value;
 /// Programs that the cases call, each with a line that runs only where it is there, and what to do where it is not.
 const NEEDED: [(&str, &str, &str); 2] = [
     ("oiiotool", "oiiotool --version", "apt-get install openimageio-tools"),
-    ("NumPy", "python3 -c 'import numpy'", "run tests/run, which makes a Python with it, or pip install numpy"),
+    (
+        "NumPy",
+        "python3 -c 'import numpy'",
+        "run tests/run, which makes a Python with it, or pip install numpy",
+    ),
 ];
 
 /// How far apart two numbers may be: of the larger one, and near zero.

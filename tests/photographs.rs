@@ -46,11 +46,14 @@ struct Measured {
 
 #[test]
 fn photographs_give_their_spectra() {
-    println!("picture                           facets rms %   RMSE  CIEDE2000   exposure free: RMSE  CIEDE2000");
+    println!(
+        "picture                           facets rms %   RMSE  CIEDE2000   exposure free: RMSE  CIEDE2000"
+    );
     for sidecar in sidecars() {
         let m = measure(&sidecar);
         let bounds = BOUNDS.iter().find(|bounds| m.name.starts_with(bounds.picture));
-        let note = if bounds.is_some() { "" } else { "  its maker's white balance and matrix are not undone" };
+        let note =
+            if bounds.is_some() { "" } else { "  its maker's white balance and matrix are not undone" };
         let ([rmse, delta_e], [free_rmse, free_delta_e]) = (m.known, m.free);
         println!(
             "{:<34}{:>12.3}{rmse:>8.4}{delta_e:>10.3}{free_rmse:>21.4}{free_delta_e:>11.3}{note}",
@@ -71,7 +74,8 @@ fn sidecars() -> Vec<PathBuf> {
         println!("left out: the photographs of {ALL}, which is not there");
     }
     let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|e| e == "json") && !path.with_extension("dng").exists());
+    paths
+        .retain(|path| path.extension().is_some_and(|e| e == "json") && !path.with_extension("dng").exists());
     paths.sort();
     paths
 }
@@ -140,7 +144,8 @@ fn csv(sidecar: &Value, spectrum: &str) -> String {
 
 /// Relative rms error of the facets in their strongest channel, percent.
 fn facets_percent(sample: &Value, truth: &Value) -> f64 {
-    let facets = (0..200).map(|k| (&sample["facet_rgb"][k], &truth[["A", "B"][k / 100]][k / 10 % 10][k % 10]));
+    let facets =
+        (0..200).map(|k| (&sample["facet_rgb"][k], &truth[["A", "B"][k / 100]][k / 10 % 10][k % 10]));
     let total = |channel: usize| facets.clone().map(|(_, truth)| number(&truth[channel])).sum::<f64>();
     let strongest = (0..3).max_by(|a, b| total(*a).total_cmp(&total(*b))).unwrap();
     let error = |(got, want): (&Value, &Value)| number(&got[strongest]) / number(&want[strongest]) - 1.0;
