@@ -19,8 +19,8 @@ pub struct Common {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Threads to use [default: all cores]
-    #[arg(short = 'j', long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// Say nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -93,7 +93,7 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     let common = args.common();
     if let Some(threads) = common.threads {
         // Fails only if a pool exists already, which no tool makes before this.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     let mut out = Output::to(common.output.as_deref(), &common.save)?;
     match (common.generate, common.list) {

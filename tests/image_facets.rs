@@ -139,7 +139,7 @@ fn a_jpeg_gives_the_radiosity_solution_behind_its_curve_and_matrix() {
 }
 
 /// A trapezoid whose outer side is 100 px where the crease is 160 px: y(v) = 270 - 240/(1 + 0.6 v), whose mean over
-/// a facet is 270 - 400 ln((1 + 0.6 v1)/(1 + 0.6 v0))/(v1 - v0). Pixels weighted alike would be off by 0.8.
+/// a facet is 270 - 400 ln((1 + 0.6 v1)/(1 + 0.6 v0))/(v1 - v0). Pixels weighted alike would be off by 0.017.
 #[test]
 fn a_ramp_in_perspective_has_the_mean_over_the_sheet() {
     let folder = tempfile::tempdir().unwrap();
@@ -183,8 +183,8 @@ fn a_ramp_on_the_sheet_has_its_middle_value() {
             let (row, col) = (k / cols % rows, k % cols);
             let want = light((col as f64 + 0.5) / cols as f64, (row as f64 + 0.5) / rows as f64);
             let got = facet.mean.as_ref().unwrap()[0];
-            assert!((got - want).abs() < 1e-6, "facet {k} of {rows} x {cols}: {got} {want}");
-            assert!(facet.standard_error.as_ref().unwrap()[0] < 1e-6);
+            assert!((got - want).abs() < 2e-6, "facet {k} of {rows} x {cols}: {got} {want}");
+            assert!(facet.standard_error.as_ref().unwrap()[0] < 1e-5, "a gradient is no noise");
         }
     }
 }
@@ -223,6 +223,18 @@ fn a_corner_outside_the_picture_is_named() {
     let error = measure(&open(&path), &panels, 1, 1, 0.0).unwrap_err().to_string();
     assert!(error.starts_with("panel 1: outer end 1 at (90, 481.5"), "{error}");
     assert!(error.contains("outside the picture of 640 x 480 px"), "{error}");
+}
+
+/// Facets thinner than a pixel, and one beyond the border by less than a pixel, have nothing to measure.
+#[test]
+fn facets_without_a_whole_pixel_have_no_mean() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("flat.exr");
+    write_linear(&path, 20, 20, &[0.5; 1200]).unwrap();
+    let beyond = panel([(20.1, 2.0), (20.1, 8.0), (20.9, 8.0), (20.9, 2.0)]);
+    let sliver = panel([(2.0, 2.2), (9.0, 2.2), (9.0, 2.9), (2.0, 2.9)]);
+    let facets = measure(&open(&path), &[beyond, sliver], 3, 3, 0.0).unwrap();
+    assert!(facets.len() == 18 && facets.iter().all(|facet| facet.mean.is_none() && facet.pixels < 1e-9));
 }
 
 #[test]

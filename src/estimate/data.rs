@@ -3,6 +3,8 @@
 //! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers a channel
 //! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::{Error, Result};
@@ -32,9 +34,10 @@ pub struct FacetData<'a> {
     sums: SumRule,
 }
 
-/// What one channel's compressed data take of the terms, a matrix a light.
+/// What one channel's compressed data take of the terms, and the camera's weights: one of each a light.
 struct ChannelModel {
     sources: Vec<DMatrix<f64>>,
+    weights: Vec<DVector<f64>>,
 }
 
 /// The sum of all facet values: measured, and of the terms of each light.
@@ -43,14 +46,22 @@ struct SumRule {
     sources: Vec<DVector<f64>>,
 }
 
-/// Data minus model and its derivatives, a column a waveband, in units of the noise.
+/// Data minus model, in units of the noise.
 pub struct Residuals {
     /// Data minus model.
     pub residuals: DVector<f64>,
-    /// Derivatives of the model.
-    pub jacobian: DMatrix<f64>,
     /// The exposure used.
     pub exposure: f64,
+}
+
+/// Residuals ρ with the derivatives of the model, a column a waveband.
+pub struct LinearisedFacets {
+    /// Data minus model.
+    pub residuals: DVector<f64>,
+    /// First derivatives by the reflectance.
+    pub jacobian: DMatrix<f64>,
+    /// `Σ ρᵢ ∂²mᵢ/∂r²` a waveband, at a fixed exposure.
+    pub curvature: DVector<f64>,
 }
 
 impl<'a> FacetData<'a> {
@@ -81,7 +92,8 @@ impl<'a> FacetData<'a> {
             let (kept, compressed) = compress(&data, sources.collect(), &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
             values.extend(kept.iter());
-            models.push(ChannelModel { sources: compressed });
+            let weights = model.sources().iter().map(|source| DVector::from_column_slice(source.camera.channel(channel)));
+            models.push(ChannelModel { sources: compressed, weights: weights.collect() });
         }
         let sums = SumRule {
             measured: usable.iter().filter_map(|facet| measured.rgb[*facet].as_ref()).flatten().sum(),
@@ -123,76 +135,118 @@ impl<'a> FacetData<'a> {
         ((residuals.norm_squared() + self.outside.max(0.0)) / self.count as f64).sqrt()
     }
 
-    /// Residuals at a reflectance, with derivatives.
+    /// Residuals at a reflectance.
     ///
     /// # Source
     /// Deeb et al., first term of eq. (36).
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64]) -> Residuals {
-        let at = self.predict(reflectance);
-        let exposure = self.exposure_of(&at);
-        let residuals = &self.values - exposure * &at.values;
-        let mut jacobian = exposure * &at.slopes;
+        let [terms, ..] = self.terms(reflectance);
+        let values = self.values_of(&terms);
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms).sum());
+        Residuals { residuals: &self.values - exposure * values, exposure }
+    }
+
+    /// Residuals at a reflectance, with the derivatives of the model.
+    ///
+    /// # Source
+    /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
+    #[must_use]
+    pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
+        let [terms, slopes, curvatures] = self.terms(reflectance);
+        let values = self.values_of(&terms);
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms).sum());
+        let residuals = &self.values - exposure * &values;
+        let mut jacobian = exposure * self.columns_of(&slopes);
         match self.exposure {
             Exposure::Known(_) => {}
-            // What a change of the spectrum does beyond what a change of exposure undoes (Kaufman's approximation).
+            // What a change of the spectrum does beyond what a change of exposure undoes.
             Exposure::Free => {
-                let along = at.slopes.tr_mul(&at.values) / at.values.norm_squared();
-                jacobian.ger(-exposure, &at.values, &along, 1.0);
+                let along = jacobian.tr_mul(&values) / values.norm_squared().max(f64::MIN_POSITIVE);
+                jacobian.ger(-1.0, &values, &along, 1.0);
             }
-            Exposure::Sum => jacobian.ger(-exposure / at.sum, &at.values, &at.sum_slopes, 1.0),
+            Exposure::Sum => {
+                let shares = self.sum_of(&slopes) / self.sum_of(&terms).sum().max(f64::MIN_POSITIVE);
+                jacobian.ger(-exposure, &values, &shares, 1.0);
+            }
         }
-        Residuals { residuals, jacobian, exposure }
+        let curvature = exposure * self.curvature_along(&residuals, &curvatures);
+        LinearisedFacets { residuals, jacobian, curvature }
     }
 
-    fn exposure_of(&self, at: &Prediction) -> f64 {
+    fn exposure_of(&self, values: &DVector<f64>, sum: impl Fn() -> f64) -> f64 {
         match self.exposure {
             Exposure::Known(exposure) => exposure,
-            Exposure::Free => at.values.dot(&self.values) / at.values.norm_squared().max(f64::MIN_POSITIVE),
-            Exposure::Sum => self.sums.measured / at.sum.max(f64::MIN_POSITIVE),
+            Exposure::Free => values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE),
+            Exposure::Sum => self.sums.measured / sum().max(f64::MIN_POSITIVE),
         }
     }
 
-    /// The model at exposure 1.
-    fn predict(&self, reflectance: &[f64]) -> Prediction {
-        let (terms, bands) = (self.model.terms(), reflectance.len());
-        let mut at = Prediction {
-            values: DVector::zeros(self.len()),
-            slopes: DMatrix::zeros(self.len(), bands),
-            sum: 0.0,
-            sum_slopes: DVector::zeros(bands),
-        };
-        let (mut value, mut slope) = (DVector::zeros(terms), DVector::zeros(terms));
+    /// Values, first and second derivatives of the terms: term by waveband.
+    fn terms(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
+        let mut all = [(); 3].map(|()| DMatrix::zeros(self.model.terms(), reflectance.len()));
         for (band, r) in reflectance.iter().enumerate() {
-            self.model.terms_at(*r, band, value.as_mut_slice(), slope.as_mut_slice());
-            let mut row = 0;
-            for (channel, models) in self.channels.iter().enumerate() {
-                for ((source, compressed), sums) in
-                    self.model.sources().iter().zip(&models.sources).zip(&self.sums.sources)
-                {
-                    let weight = source.camera.channel(channel)[band];
-                    let rows = compressed.nrows();
-                    at.values.rows_mut(row, rows).gemv(weight, compressed, &value, 1.0);
-                    at.slopes
-                        .view_mut((row, band), (rows, 1))
-                        .column_mut(0)
-                        .gemv(weight, compressed, &slope, 1.0);
-                    at.sum += weight * sums.dot(&value);
-                    at.sum_slopes[band] += weight * sums.dot(&slope);
-                }
-                row += models.sources[0].nrows();
+            for (term, of_term) in self.model.terms_at(*r, band).enumerate() {
+                all.iter_mut().zip(of_term).for_each(|(matrix, value)| matrix[(term, band)] = value);
             }
         }
-        at
+        all
     }
-}
 
-/// Model values and their derivatives at exposure 1.
-struct Prediction {
-    values: DVector<f64>,
-    slopes: DMatrix<f64>,
-    sum: f64,
-    sum_slopes: DVector<f64>,
+    /// Model of the compressed data at exposure 1.
+    fn values_of(&self, terms: &DMatrix<f64>) -> DVector<f64> {
+        let mut values = DVector::zeros(self.len());
+        self.each_part(|rows, compressed, weights| {
+            values.rows_mut(rows.start, rows.len()).gemv(1.0, compressed, &(terms * weights), 1.0);
+        });
+        values
+    }
+
+    /// The same a waveband: its sum over the columns is [`FacetData::values_of`].
+    fn columns_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut columns = DMatrix::zeros(self.len(), terms.ncols());
+        self.each_part(|rows, compressed, weights| {
+            let mut part = compressed * terms;
+            part.column_iter_mut().zip(weights.iter()).for_each(|(mut column, weight)| column *= *weight);
+            let mut target = columns.rows_mut(rows.start, rows.len());
+            target += part;
+        });
+        columns
+    }
+
+    /// `Σ ρᵢ` times the model a waveband, without forming its columns.
+    fn curvature_along(&self, residuals: &DVector<f64>, curvatures: &DMatrix<f64>) -> DVector<f64> {
+        let mut along = DVector::zeros(curvatures.ncols());
+        self.each_part(|rows, compressed, weights| {
+            let by_term = compressed.tr_mul(&residuals.rows(rows.start, rows.len()));
+            along += curvatures.tr_mul(&by_term).component_mul(weights);
+        });
+        along
+    }
+
+    /// Sum over all facets and channels, a waveband.
+    fn sum_of(&self, terms: &DMatrix<f64>) -> DVector<f64> {
+        let mut sum = DVector::zeros(terms.ncols());
+        for channel in &self.channels {
+            for (weights, facets) in channel.weights.iter().zip(&self.sums.sources) {
+                sum += terms.tr_mul(facets).component_mul(weights);
+            }
+        }
+        sum
+    }
+
+    /// Visits every channel under every light: its rows of the compressed data, what they take of the terms, and the
+    /// camera's weights a waveband.
+    fn each_part(&self, mut visit: impl FnMut(Range<usize>, &DMatrix<f64>, &DVector<f64>)) {
+        let mut start = 0;
+        for channel in &self.channels {
+            let end = start + channel.sources[0].nrows();
+            for (compressed, weights) in channel.sources.iter().zip(&channel.weights) {
+                visit(start..end, compressed, weights);
+            }
+            start = end;
+        }
+    }
 }
 
 /// Facets with a value in every channel; checks the shapes on the way.
@@ -227,11 +281,11 @@ fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
 /// The terms at Chebyshev points of [0, 1]: term by sample.
 fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
     let mut samples = DMatrix::zeros(model.terms(), RANK_SAMPLES);
-    let mut slopes = vec![0.0; model.terms()];
     for (n, mut column) in samples.column_iter_mut().enumerate() {
         let r = (std::f64::consts::FRAC_PI_4 * (2 * n + 1) as f64 / RANK_SAMPLES as f64).sin().powi(2);
         // 37 shares no factor with the usual numbers of wavebands: every reflectance meets another part of a card's spectrum.
-        model.terms_at(r, 37 * n % model.bands(), column.as_mut_slice(), &mut slopes);
+        let terms = model.terms_at(r, 37 * n % model.bands());
+        column.iter_mut().zip(terms).for_each(|(sample, [value, ..])| *sample = value);
     }
     samples
 }

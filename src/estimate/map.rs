@@ -1,19 +1,18 @@
 //! The default: the most probable spectrum, given the facets and what is known of reflectances.
 //!
-//! `z = logit r` is Gaussian before the picture is taken; the facets are Gaussian about the model. The maximum of the
-//! product is found by Gauss–Newton in whitened z, in the space of the compressed data, and the curvature there gives error bars
-//! (Laplace's approximation).
+//! `z = logit r` is Gaussian before the picture is taken; the facets are Gaussian about the model. Newton's method finds the
+//! maximum of the product, and the curvature there gives error bars (Laplace's approximation).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::Estimate;
 use super::data::FacetData;
 use super::prior::{Prior, logistic};
-use crate::solve::whitened::{Linearised, WhitenedModel, data_factor, minimise};
+use crate::solve::posterior::{Linearised, Model, Solution, maximise};
 
-/// Norm of the gradient in whitened coordinates at which the maximum counts as found.
-const GRADIENT_TOLERANCE: f64 = 1e-6;
-const ITERATION_LIMIT: u32 = 300;
+/// The maximum counts as found within this many standard deviations of it.
+const TOLERANCE: f64 = 1e-3;
+const ITERATION_LIMIT: u32 = 500;
 
 /// The most probable reflectance.
 ///
@@ -21,18 +20,12 @@ const ITERATION_LIMIT: u32 = 300;
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
 pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
-    let posterior = Posterior { data, prior };
-    let solution = minimise(
-        &posterior,
-        DVector::zeros(prior.bands()),
-        &inflations(data.signal_to_noise()),
-        GRADIENT_TOLERANCE,
-        ITERATION_LIMIT,
-    );
-    let reflectance = posterior.reflectance(&solution.w);
+    let inflations = inflations(data.signal_to_noise());
+    let solution = maximise(&Facets { data }, prior.logit(), &inflations, TOLERANCE, ITERATION_LIMIT);
+    let reflectance = reflectance(&solution.z);
     let at = data.residuals(&reflectance);
     Estimate {
-        reflectance_sd: Some(posterior.standard_deviation(&reflectance, &solution.jacobian)),
+        reflectance_sd: standard_deviation(&reflectance, &solution),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: solution.iterations,
@@ -49,45 +42,36 @@ fn inflations(signal_to_noise: f64) -> Vec<f64> {
         .collect()
 }
 
-struct Posterior<'a> {
+fn reflectance(logit: &DVector<f64>) -> Vec<f64> {
+    logit.iter().map(|z| logistic(*z)).collect()
+}
+
+/// Square roots of the diagonal of Laplace's covariance, carried from logit to reflectance.
+fn standard_deviation(reflectance: &[f64], solution: &Solution) -> Option<Vec<f64>> {
+    let covariance = solution.information.as_ref()?.inverse();
+    Some(reflectance.iter().enumerate().map(|(band, r)| r * (1.0 - r) * covariance[(band, band)].sqrt()).collect())
+}
+
+/// The facets as a model of the logit of reflectance.
+struct Facets<'a> {
     data: &'a FacetData<'a>,
-    prior: &'a Prior,
 }
 
-impl Posterior<'_> {
-    fn reflectance(&self, w: &DVector<f64>) -> Vec<f64> {
-        self.prior.logit_at(w).iter().map(|z| logistic(*z)).collect()
+impl Model for Facets<'_> {
+    fn residuals(&self, z: &DVector<f64>) -> DVector<f64> {
+        self.data.residuals(&reflectance(z)).residuals
     }
 
-    /// Square roots of the diagonal of the covariance, carried from logit to reflectance.
-    fn standard_deviation(&self, reflectance: &[f64], jacobian: &DMatrix<f64>) -> Vec<f64> {
-        let factor = self.prior.factor();
-        // (I + JᵀJ)⁻¹ = I − Jᵀ(I + JJᵀ)⁻¹J: what the data take from the prior's variance.
-        let known = data_factor(jacobian)
-            .and_then(|data| data.l().solve_lower_triangular(&(jacobian * factor.transpose())));
-        reflectance
-            .iter()
-            .enumerate()
-            .map(|(band, r)| {
-                let prior = factor.row(band).norm_squared();
-                let known = known.as_ref().map_or(0.0, |known| known.column(band).norm_squared());
-                r * (1.0 - r) * (prior - known).max(0.0).sqrt()
-            })
-            .collect()
-    }
-}
-
-impl WhitenedModel for Posterior<'_> {
-    fn residuals(&self, w: &DVector<f64>, inflation: f64) -> DVector<f64> {
-        self.data.residuals(&self.reflectance(w)).residuals / inflation
-    }
-
-    fn linearise(&self, w: &DVector<f64>, inflation: f64) -> Linearised {
-        let reflectance = self.reflectance(w);
-        let mut at = self.data.residuals(&reflectance);
-        for (mut column, r) in at.jacobian.column_iter_mut().zip(&reflectance) {
-            column *= r * (1.0 - r) / inflation;
+    fn linearise(&self, z: &DVector<f64>) -> Linearised {
+        let reflectance = reflectance(z);
+        let mut at = self.data.linearise(&reflectance);
+        // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r).
+        let along = at.jacobian.tr_mul(&at.residuals);
+        for (band, r) in reflectance.iter().enumerate() {
+            let slope = r * (1.0 - r);
+            at.curvature[band] = slope * (slope * at.curvature[band] + (1.0 - 2.0 * r) * along[band]);
+            at.jacobian.column_mut(band).scale_mut(slope);
         }
-        Linearised { residuals: at.residuals / inflation, jacobian: at.jacobian * self.prior.factor() }
+        Linearised { residuals: at.residuals, jacobian: at.jacobian, curvature: at.curvature }
     }
 }

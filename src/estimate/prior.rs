@@ -1,8 +1,9 @@
 //! What is known of reflectances before a picture is taken.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix};
 
 use crate::error::{Error, Result};
+use crate::solve::posterior::Gaussian;
 
 /// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
 const MARGIN: f64 = 2e-3;
@@ -10,14 +11,12 @@ const MARGIN: f64 = 2e-3;
 const MATERN_LENGTH_NM: f64 = 40.0;
 const MATERN_SD: f64 = 0.3;
 
-/// A Gaussian prior of the logit of reflectance, `z = ln(r/(1 − r))`: mean, and a factor of its covariance.
+/// A Gaussian prior of the logit of reflectance, `z = ln(r/(1 − r))`.
 ///
 /// In logit every value is a legal reflectance, and the covariance of a set of paints or dyes spreads evenly.
 #[derive(Clone, Debug)]
 pub struct Prior {
-    mean: DVector<f64>,
-    /// Lower triangular; its product with its transpose is the covariance.
-    factor: DMatrix<f64>,
+    logit: Gaussian,
 }
 
 impl Prior {
@@ -46,28 +45,16 @@ impl Prior {
                 covariance[(i, j)] += matern_5_2(a - b);
             }
         }
-        let factor = Cholesky::new(covariance).ok_or_else(|| {
-            Error::Numeric("the covariance of the prior's spectra is not positive".to_owned())
-        })?;
-        Ok(Self { mean, factor: factor.unpack() })
+        let precision = Cholesky::new(covariance)
+            .ok_or_else(|| Error::Numeric("the covariance of the prior's spectra is not positive".to_owned()))?
+            .inverse();
+        Ok(Self { logit: Gaussian { mean, precision } })
     }
 
-    /// Logit of reflectance at whitened coordinates `w`, each standard normal under the prior.
+    /// Mean and precision of the logit.
     #[must_use]
-    pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
-        &self.mean + &self.factor * w
-    }
-
-    /// Factor of the covariance: derivative of the logits by the whitened coordinates.
-    #[must_use]
-    pub fn factor(&self) -> &DMatrix<f64> {
-        &self.factor
-    }
-
-    /// Number of wavebands.
-    #[must_use]
-    pub fn bands(&self) -> usize {
-        self.mean.len()
+    pub fn logit(&self) -> &Gaussian {
+        &self.logit
     }
 }
 

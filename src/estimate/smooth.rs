@@ -83,7 +83,7 @@ impl Gradient for Objective<'_> {
     type Gradient = DVector<f64>;
 
     fn gradient(&self, r: &DVector<f64>) -> std::result::Result<DVector<f64>, SolverError> {
-        let at = self.data.residuals(r.as_slice());
+        let at = self.data.linearise(r.as_slice());
         Ok(2.0 * (&self.penalty * r - at.jacobian.tr_mul(&at.residuals)))
     }
 }
@@ -93,7 +93,7 @@ impl Hessian for Objective<'_> {
     type Hessian = DMatrix<f64>;
 
     fn hessian(&self, r: &DVector<f64>) -> std::result::Result<DMatrix<f64>, SolverError> {
-        let at = self.data.residuals(r.as_slice());
+        let at = self.data.linearise(r.as_slice());
         Ok(2.0 * (at.jacobian.tr_mul(&at.jacobian) + &self.penalty))
     }
 }

@@ -127,33 +127,29 @@ impl FacetModel {
         &self.sources
     }
 
-    /// Values and derivatives of the terms at reflectance `r` in waveband `band`.
+    /// The terms at reflectance `r` in waveband `band`, each with its first and second derivative by `r`.
     ///
     /// One sheet: `r/(1 − rg)`, then `r/(1 + rg)` where panels are lit unevenly. With a card c: `r/d`, `rcg/d`, `c/d`,
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
-    pub fn terms_at(&self, r: f64, band: usize, values: &mut [f64], slopes: &mut [f64]) {
-        let count = self.poles.len();
-        for (k, g) in self.poles.iter().enumerate() {
-            let mut put = |n: usize, value: f64, slope: f64| {
-                (values[n * count + k], slopes[n * count + k]) = (value, slope)
-            };
-            match &self.panels {
-                Panels::One { odd } => {
-                    let (even_rest, odd_rest) = (1.0 / (1.0 - r * g), 1.0 / (1.0 + r * g));
-                    put(0, r * even_rest, even_rest * even_rest);
-                    if *odd {
-                        put(1, r * odd_rest, odd_rest * odd_rest);
-                    }
-                }
-                Panels::Card(card) => {
-                    let c = card[band];
-                    let rest = 1.0 / (1.0 - r * c * g * g);
-                    put(0, r * rest, rest * rest);
-                    put(1, r * c * g * rest, c * g * rest * rest);
-                    put(2, c * rest, c * c * g * g * rest * rest);
-                }
-            }
-        }
+    pub fn terms_at(&self, r: f64, band: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let families: Vec<Family> = match &self.panels {
+            Panels::One { odd: false } => vec![|r, _, g| rational(r, 1.0, g)],
+            Panels::One { odd: true } => vec![|r, _, g| rational(r, 1.0, g), |r, _, g| rational(r, 1.0, -g)],
+            Panels::Card(_) => vec![
+                |r, c, g| rational(r, 1.0, c * g * g),
+                |r, c, g| rational(r, c * g, c * g * g),
+                // c/d = c + c²g²·r/d
+                |r, c, g| {
+                    let [value, slope, curvature] = rational(r, c * c * g * g, c * g * g);
+                    [c + value, slope, curvature]
+                },
+            ],
+        };
+        let card = match &self.panels {
+            Panels::Card(card) => card[band],
+            Panels::One { .. } => 0.0,
+        };
+        families.into_iter().flat_map(move |family| self.poles.iter().map(move |g| family(r, card, *g)))
     }
 
     /// RGB of every facet at exposure 1: facet by channel, facet order panel, row, column.
@@ -162,19 +158,27 @@ impl FacetModel {
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
     #[must_use]
     pub fn facet_rgb(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        let terms = self.terms();
-        let (mut values, mut slopes) = (vec![0.0; terms], vec![0.0; terms]);
         let channels = self.sources[0].camera.channels();
-        let mut moments = vec![DMatrix::zeros(terms, channels); self.sources.len()];
+        let mut moments = vec![DMatrix::zeros(self.terms(), channels); self.sources.len()];
         for (band, r) in reflectance.iter().enumerate() {
-            self.terms_at(*r, band, &mut values, &mut slopes);
-            for (source, moments) in self.sources.iter().zip(&mut moments) {
-                for channel in 0..channels {
-                    let weight = source.camera.channel(channel)[band];
-                    moments.column_mut(channel).iter_mut().zip(&values).for_each(|(m, v)| *m += weight * v);
+            for (term, [value, ..]) in self.terms_at(*r, band).enumerate() {
+                for (source, moments) in self.sources.iter().zip(&mut moments) {
+                    for channel in 0..channels {
+                        moments[(term, channel)] += source.camera.channel(channel)[band] * value;
+                    }
                 }
             }
         }
         self.sources.iter().zip(&moments).map(|(source, moments)| &source.facets * moments).sum()
     }
+}
+
+/// A term as a function of reflectance, of the card's reflectance and of a pole.
+type Family = fn(f64, f64, f64) -> [f64; 3];
+
+/// `a·r/(1 − b·r)` with its first and second derivative by r.
+fn rational(r: f64, a: f64, b: f64) -> [f64; 3] {
+    let rest = 1.0 / (1.0 - b * r);
+    let slope = a * rest * rest;
+    [a * r * rest, slope, 2.0 * b * slope * rest]
 }

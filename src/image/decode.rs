@@ -1,7 +1,7 @@
 //! From the bytes of a picture file to stored samples, whatever the file turns out to be.
 
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -25,31 +25,26 @@ const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 
 /// Reads and decodes a picture file; the content, not the name, says which format it is.
 pub(super) fn decode(path: &Path) -> Result<Decoded> {
-    let bytes = read_file(path)?;
-    let format = image::guess_format(&bytes).ok().filter(is_supported);
+    let failed = |source| Error::file(path.display(), source);
+    let file = File::open(path).map_err(failed)?;
+    if file.metadata().map_err(failed)?.len() > MAX_BYTES {
+        return Err(Error::picture(path, "the file is larger than 2 GiB", "crop the picture to the sheet"));
+    }
+    let mut file = BufReader::new(file);
+    let head = file.fill_buf().map_err(failed)?;
+    if head.is_empty() {
+        return Err(Error::picture(path, "the file is empty", "copy it again"));
+    }
+    let format = image::guess_format(head).ok().filter(is_supported);
     let format =
         format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
-    let (picture, block) = decode_bytes(path, &bytes, format)?;
-    if format == ImageFormat::Jpeg && !jpeg_is_complete(&bytes) {
+    let (picture, block) = decode_as(path, &mut file, format)?;
+    if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
         return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
     }
-    let block = if format == ImageFormat::Tiff { Some(bytes) } else { block };
+    let block =
+        if format == ImageFormat::Tiff { Some(exif::tiff_tags(&mut file).map_err(failed)?) } else { block };
     Ok(Decoded { format, picture, camera: exif::read(block) })
-}
-
-fn read_file(path: &Path) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| {
-            bytes.reserve(file.metadata()?.len().min(MAX_BYTES) as usize);
-            file.take(MAX_BYTES + 1).read_to_end(&mut bytes)
-        })
-        .map_err(|source| Error::file(path.display(), source))?;
-    match bytes.len() as u64 {
-        0 => Err(Error::picture(path, "the file is empty", "copy it again")),
-        1..=MAX_BYTES => Ok(bytes),
-        _ => Err(Error::picture(path, "the file is larger than 2 GiB", "crop the picture to the sheet")),
-    }
 }
 
 fn is_supported(format: &ImageFormat) -> bool {
@@ -57,17 +52,18 @@ fn is_supported(format: &ImageFormat) -> bool {
 }
 
 /// The picture and, for PNG and JPEG, its EXIF block.
-fn decode_bytes(path: &Path, bytes: &[u8], format: ImageFormat) -> Result<(DynamicImage, Option<Vec<u8>>)> {
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+fn decode_as(
+    path: &Path,
+    file: &mut BufReader<File>,
+    format: ImageFormat,
+) -> Result<(DynamicImage, Option<Vec<u8>>)> {
+    let mut reader = ImageReader::with_format(file, format);
     reader.limits(limits());
     let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 {
-        return Err(Error::picture(
-            path,
-            format!("the picture is {width} x {height} px"),
-            "copy the file again",
-        ));
+        let problem = format!("the picture is {width} x {height} px");
+        return Err(Error::picture(path, problem, "copy the file again"));
     }
     if decoder.total_bytes() > MAX_BYTES {
         let problem = format!("{width} x {height} px would take more than 2 GiB");
@@ -99,12 +95,15 @@ fn undecodable(path: &Path, error: ImageError) -> Error {
 }
 
 /// Whether a JPEG reaches its end marker; the decoder paints what is missing grey and does not say so.
-fn jpeg_is_complete(bytes: &[u8]) -> bool {
+fn jpeg_is_complete(file: &mut BufReader<File>) -> io::Result<bool> {
     const END: u8 = 0xd9;
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
     let mut at = 2;
     while let Some([0xff, marker]) = bytes.get(at..at + 2) {
         at += match marker {
-            &END => return true,
+            &END => return Ok(true),
             0x00 | 0x01 | 0xd0..=0xd7 => 2,
             0xff => 1,
             _ => {
@@ -119,5 +118,5 @@ fn jpeg_is_complete(bytes: &[u8]) -> bool {
             .and_then(|rest| rest.iter().position(|byte| *byte == 0xff))
             .unwrap_or(bytes.len());
     }
-    false
+    Ok(false)
 }

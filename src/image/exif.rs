@@ -3,6 +3,8 @@
 //! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and what is
 //! broken becomes a note.
 
+use std::io::{self, Read, Seek, SeekFrom};
+
 use exif::{Exif, In, Reader, Tag, Value};
 
 use super::orientation::Orientation;
@@ -17,6 +19,32 @@ pub(super) struct CameraNotes {
     pub iso: Option<u32>,
     pub orientation: Orientation,
     pub notes: Vec<String>,
+}
+
+/// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
+const TAGS_BYTES: usize = 1 << 20;
+
+/// A TIFF file's own EXIF block: the whole file, but of a large one only the places where tags are kept, the pixels in
+/// between left blank.
+pub(super) fn tiff_tags(file: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
+    let mut block = vec![0; file.seek(SeekFrom::End(0))? as usize];
+    read_part(file, &mut block, 0)?;
+    let directory = match block.get(..8) {
+        Some(&[b'I', _, _, _, a, b, c, d]) => u32::from_le_bytes([a, b, c, d]),
+        Some(&[_, _, _, _, a, b, c, d]) => u32::from_be_bytes([a, b, c, d]),
+        _ => 0,
+    };
+    read_part(file, &mut block, directory as usize)?;
+    let end = block.len();
+    read_part(file, &mut block, end.saturating_sub(TAGS_BYTES))?;
+    Ok(block)
+}
+
+fn read_part(file: &mut (impl Read + Seek), block: &mut [u8], from: usize) -> io::Result<()> {
+    let to = from.saturating_add(TAGS_BYTES).min(block.len());
+    let Some(part) = block.get_mut(from..to) else { return Ok(()) };
+    file.seek(SeekFrom::Start(from as u64))?;
+    file.read_exact(part)
 }
 
 /// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block.
@@ -99,6 +127,19 @@ mod tests {
             assert_eq!(camera.orientation, Orientation::UPRIGHT);
             assert!(camera.notes[0].ends_with("is ignored"), "{:?}", camera.notes);
         }
+    }
+
+    /// The directory may stand anywhere, here between the pixels of a large file.
+    #[test]
+    fn tags_are_found_in_a_large_file() {
+        let (size, directory) = (6 * TAGS_BYTES, 3 * TAGS_BYTES - 5);
+        let small = block(&[(0x112, 3, 1, 6)]);
+        let mut large = vec![0xff; size];
+        large[..4].copy_from_slice(&small[..4]);
+        large[4..8].copy_from_slice(&(directory as u32).to_le_bytes());
+        large[directory..directory + small.len() - 8].copy_from_slice(&small[8..]);
+        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap()));
+        assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
     }
 
     #[test]

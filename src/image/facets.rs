@@ -4,13 +4,15 @@
 //! the panel area it shows. Pixels that straddle a panel's edge see something else as well and are left out; the mean
 //! is then that of a plane fitted to the others, taken over the whole facet (see [`super::plane_fit`]).
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::corners::{PANEL_CORNERS, check_inside};
 use super::homography::{Homography, Point};
 use super::photograph::{Photograph, Pixel};
 use super::pixel_area::Quadrilateral;
-use super::plane_fit::{Estimate, PixelSums};
+use super::plane_fit::{Estimate, PixelSums, Run};
 use crate::Result;
 
 /// What a photograph says about one facet.
@@ -91,36 +93,53 @@ impl Facet<'_> {
         let facet =
             Quadrilateral::new(&self.panel.facet_corners(self.row, self.col, self.rows, self.cols), 0.0);
         let (width, height) = (photograph.width(), photograph.height());
+        let run_length = facet.columns(width).len().div_ceil(RUNS).max(1);
         for y in facet.rows(height) {
             let usable = panel.whole_columns(y, width);
-            let (whole, touched) = (facet.whole_columns(y, width), facet.touched_columns(y, width));
-            for x in touched.start.max(usable.start)..touched.end.min(usable.end) {
-                let overlap = if whole.contains(&x) { 1.0 } else { facet.overlap(x, y) };
+            let touched = intersection(&facet.touched_columns(y, width), &usable);
+            let whole = intersection(&facet.whole_columns(y, width), &touched);
+            for x in whole.clone().step_by(run_length) {
+                self.add(&mut tally, photograph, x..whole.end.min(x + run_length), y, 1.0);
+            }
+            for x in (touched.start..whole.start).chain(whole.end..touched.end) {
+                let overlap = facet.overlap(x, y);
                 if overlap > NO_OVERLAP {
-                    self.add(&mut tally, photograph.pixel(x, y), overlap, x, y);
+                    self.add(&mut tally, photograph, x..x + 1, y, overlap);
                 }
             }
         }
         tally.finish(photograph.channels())
     }
 
-    #[inline]
-    fn add(&self, tally: &mut Tally, pixel: Pixel, overlap: f64, x: usize, y: usize) {
-        match pixel {
+    /// Adds a run of pixels of row `y`, of each of which the part `overlap` is in the facet.
+    fn add(&self, tally: &mut Tally, photograph: &Photograph, columns: Range<usize>, y: usize, overlap: f64) {
+        let mut run = Run::default();
+        photograph.visit(columns, y, |x, pixel| match pixel {
+            Pixel::Light(light) => run.add(x, light),
             Pixel::Clipped => tally.clipped += 1,
             Pixel::NotFinite => tally.not_finite += 1,
-            Pixel::Light(light) => {
-                let centre = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-                let (u, v, area) = self.panel.to_panel_with_area(centre);
-                let u_from_centre = u * self.cols as f64 - self.col as f64 - 0.5;
-                let v_from_centre = v * self.rows as f64 - self.row as f64 - 0.5;
-                tally.pixels += overlap;
-                tally.sums.add(overlap * area, u_from_centre, v_from_centre, light);
-            }
+        });
+        if run.pixels > 0.0 {
+            let centre = Point::new(run.x / run.pixels, y as f64 + 0.5);
+            let (u, v, area) = self.panel.to_panel_with_area(centre);
+            let u_from_centre = u * self.cols as f64 - self.col as f64 - 0.5;
+            let v_from_centre = v * self.rows as f64 - self.row as f64 - 0.5;
+            tally.pixels += overlap * run.pixels;
+            tally.sums.add(overlap * area, u_from_centre, v_from_centre, &run);
         }
     }
 }
 
+/// The part of `a` in `b`; if there is none, an empty range in `b`.
+fn intersection(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    let start = a.start.clamp(b.start, b.end);
+    start..a.end.clamp(start, b.end)
+}
+
+/// Pixels beside each other share their geometry, in at least this many runs across a facet: that shifts a mean by
+/// 1/(12 x 64²) of the product of what light and perspective change across the facet, five millionths where
+/// each changes by half, and halves the time a large picture takes.
+const RUNS: usize = 64;
 /// An overlap this small, px², is rounding.
 const NO_OVERLAP: f64 = 1e-9;
 

@@ -39,6 +39,8 @@ pub struct Homography {
     corners: [Point; 4],
     to_image: Matrix,
     to_panel: Matrix,
+    /// Size of the determinant of `to_panel`.
+    to_panel_scale: f64,
 }
 
 impl Homography {
@@ -63,7 +65,8 @@ impl Homography {
     pub fn from_unit_square(corners: [Point; 4]) -> Result<Self> {
         check_quadrilateral(&corners)?;
         let to_image = square_to_quadrilateral(&corners);
-        Ok(Self { corners, to_image, to_panel: inverse(&to_image) })
+        let to_panel = inverse(&to_image);
+        Ok(Self { corners, to_image, to_panel, to_panel_scale: determinant(&to_panel).abs() })
     }
 
     /// The picture's point, px, of the panel's point (u, v).
@@ -105,7 +108,7 @@ impl Homography {
     pub(super) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
         let [u, v, scale] = multiply(&self.to_panel, [p.x, p.y, 1.0]);
         let inverse_scale = 1.0 / scale;
-        let area = determinant(&self.to_panel).abs() * inverse_scale * inverse_scale * inverse_scale;
+        let area = self.to_panel_scale * inverse_scale * inverse_scale * inverse_scale;
         (u * inverse_scale, v * inverse_scale, area)
     }
 }

@@ -32,16 +32,34 @@ impl Orientation {
         if self.transposed() { (stored_height, stored_width) } else { (stored_width, stored_height) }
     }
 
-    /// Column and row at which the pixel (x, y) of the upright picture is stored.
-    pub(super) fn stored(self, x: usize, y: usize, (width, height): (usize, usize)) -> (usize, usize) {
-        let (column, row) = if self.transposed() { (y, x) } else { (x, y) };
-        (
-            if matches!(self.0, 2 | 3 | 7 | 8) { width - 1 - column } else { column },
-            if matches!(self.0, 3 | 4 | 6 | 7) { height - 1 - row } else { row },
-        )
+    /// Where the pixels of the upright picture are stored, row by row.
+    pub(super) fn layout(self, (stored_width, stored_height): (usize, usize)) -> Layout {
+        let mirrored_columns = matches!(self.0, 2 | 3 | 7 | 8);
+        let mirrored_rows = matches!(self.0, 3 | 4 | 6 | 7);
+        let column = if mirrored_columns { -1 } else { 1 };
+        let row = if mirrored_rows { -(stored_width as isize) } else { stored_width as isize };
+        let first_column = if mirrored_columns { stored_width - 1 } else { 0 };
+        let first_row = if mirrored_rows { stored_height - 1 } else { 0 };
+        let (x, y) = if self.transposed() { (row, column) } else { (column, row) };
+        Layout { first: (first_row * stored_width + first_column) as isize, x, y }
     }
 
     fn transposed(self) -> bool {
         self.0 >= 5
+    }
+}
+
+/// The pixel (x, y) of the upright picture is the stored pixel number `first` + x `x` + y `y`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layout {
+    first: isize,
+    x: isize,
+    y: isize,
+}
+
+impl Layout {
+    /// Number of the stored pixel, for (x, y) in the picture.
+    pub fn stored(self, x: usize, y: usize) -> usize {
+        (self.first + x as isize * self.x + y as isize * self.y) as usize
     }
 }

@@ -3,12 +3,13 @@
 //! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large picture
 //! costs little more than decoding it.
 
+use std::ops::Range;
 use std::path::Path;
 
 use image::{DynamicImage, ImageFormat};
 
 use super::decode::{Decoded, decode};
-use super::orientation::Orientation;
+use super::orientation::{Layout, Orientation};
 use super::scale::{ReadOptions, Scale};
 use super::transfer::Transfer;
 use crate::Result;
@@ -59,7 +60,7 @@ pub enum Pixel {
 #[derive(Debug, Clone)]
 pub struct Photograph {
     samples: Samples,
-    stored_size: (usize, usize),
+    layout: Layout,
     /// Colours a pixel, 1 or 3.
     channels: usize,
     /// Samples a pixel: one more than its colours if there is an alpha channel.
@@ -124,7 +125,7 @@ impl Photograph {
         };
         Ok(Self {
             samples: Samples::from(picture),
-            stored_size,
+            layout: camera.orientation.layout(stored_size),
             channels: stride - usize::from(color.has_alpha()),
             stride,
             table: scale.table(bits),
@@ -160,25 +161,53 @@ impl Photograph {
     /// The pixel in column `x` and row `y` of the upright picture, both below its size.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
-        let (column, row) = self.info.orientation.stored(x, y, self.stored_size);
-        let first = (row * self.stored_size.0 + column) * self.stride;
-        let range = first..first + self.stride;
+        let mut pixel = Pixel::NotFinite;
+        self.visit(x..x + 1, y, |_, seen| pixel = seen);
+        pixel
+    }
+
+    /// Shows the pixels in `columns` of row `y` one after another, with their columns.
+    #[inline]
+    pub(super) fn visit(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+        let integer = |v: usize| self.table[v];
+        let float = |v: f32| self.scale.linear(v.into());
         match &self.samples {
-            Samples::U8(stored) => self.read(&stored[range], |v| self.table[usize::from(v)]),
-            Samples::U16(stored) => self.read(&stored[range], |v| self.table[usize::from(v)]),
-            Samples::F32(stored) => self.read(&stored[range], |v| self.scale.linear(v.into())),
+            Samples::U8(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
+            Samples::U16(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
+            Samples::F32(stored) => self.visit_stored(stored, float, columns, y, visitor),
         }
     }
 
     #[inline]
-    fn read<T: Copy + Into<f64>>(&self, stored: &[T], linear: impl Fn(T) -> f64) -> Pixel {
-        let (colours, alpha) = stored.split_at(self.channels);
-        if alpha.iter().any(|&a| a.into() <= 0.0) || colours.iter().any(|&v| !v.into().is_finite()) {
-            Pixel::NotFinite
-        } else if colours.iter().any(|&v| v.into() >= self.scale.clipped_from) {
-            Pixel::Clipped
+    fn visit_stored<T: Copy + Into<f64>>(
+        &self,
+        stored: &[T],
+        linear: impl Fn(T) -> f64,
+        columns: Range<usize>,
+        y: usize,
+        mut visitor: impl FnMut(usize, Pixel),
+    ) {
+        for x in columns {
+            let first = self.layout.stored(x, y) * self.stride;
+            let (colours, alpha) = stored[first..first + self.stride].split_at(self.channels);
+            let channel = |k: usize| linear(colours[k.min(self.channels - 1)]);
+            let transparent = alpha.first().is_some_and(|&alpha| alpha.into() <= 0.0);
+            visitor(x, Pixel::new([channel(0), channel(1), channel(2)], transparent));
+        }
+    }
+}
+
+impl Pixel {
+    #[inline]
+    fn new(light: [f64; 3], transparent: bool) -> Self {
+        let [r, g, b] = light;
+        // one test for the many good pixels: a clipped channel is infinite
+        if (r + g + b).is_finite() && !transparent {
+            Self::Light(light)
+        } else if transparent || light.iter().any(|y| y.is_nan()) {
+            Self::NotFinite
         } else {
-            Pixel::Light([0, 1, 2].map(|channel| linear(colours[channel.min(self.channels - 1)])))
+            Self::Clipped
         }
     }
 }

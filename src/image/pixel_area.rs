@@ -55,8 +55,7 @@ impl HalfPlane {
 #[derive(Debug, Clone)]
 pub(super) struct Quadrilateral {
     sides: [HalfPlane; 4],
-    top: f64,
-    bottom: f64,
+    corners: [Point; 4],
 }
 
 impl Quadrilateral {
@@ -69,17 +68,17 @@ impl Quadrilateral {
             let (a, b) = ((p.y - q.y) / length, (q.x - p.x) / length);
             HalfPlane { a, b, c: a * p.x + b * p.y + margin_px }
         });
-        let heights = corners.map(|p| p.y);
-        Self {
-            sides,
-            top: heights.into_iter().fold(f64::INFINITY, f64::min),
-            bottom: heights.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        }
+        Self { sides, corners: *corners }
     }
 
     /// Rows of a picture of `height` rows that the quadrilateral may touch.
     pub fn rows(&self, height: usize) -> Range<usize> {
-        clamp((self.top.floor(), self.bottom.ceil()), height)
+        clamp(extent(self.corners.map(|p| p.y)), height)
+    }
+
+    /// Columns of a picture of `width` columns that the quadrilateral may touch.
+    pub fn columns(&self, width: usize) -> Range<usize> {
+        clamp(extent(self.corners.map(|p| p.x)), width)
     }
 
     /// Columns of the pixels of `row` wholly inside, in a picture of `width` columns.
@@ -100,16 +99,23 @@ impl Quadrilateral {
     }
 }
 
+/// The whole pixels from the least to the greatest of some coordinates.
+fn extent(coordinates: [f64; 4]) -> (f64, f64) {
+    let least = coordinates.into_iter().fold(f64::INFINITY, f64::min);
+    (least.floor(), coordinates.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil())
+}
+
 fn intersect(ranges: [(f64, f64); 4]) -> (f64, f64) {
     ranges
         .into_iter()
         .fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), range| (low.max(range.0), high.min(range.1)))
 }
 
-/// A range of whole numbers, cut to 0..size.
+/// A range of whole numbers, cut to 0..size and empty if it runs backwards.
 fn clamp((low, high): (f64, f64), size: usize) -> Range<usize> {
     // `as` takes negative numbers to 0 and infinity to the largest integer
-    low as usize..(high as usize).min(size)
+    let low = (low as usize).min(size);
+    low..(high as usize).clamp(low, size)
 }
 
 /// The part of a convex polygon inside a half-plane.

@@ -22,14 +22,37 @@ pub(super) struct PixelSums {
     light: [LightSums; 3],
 }
 
-/// Sums over one channel, about the first pixel's value so that small spreads survive rounding.
+/// Weighted sums over one channel's light y.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
-    origin: f64,
     wy: f64,
     wyy: f64,
     wyu: f64,
     wyv: f64,
+}
+
+/// A few pixels beside each other, near enough to share one weight and one place.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Run {
+    /// How many.
+    pub pixels: f64,
+    /// Sum of their columns' centres.
+    pub x: f64,
+    /// Sums of their light and of its square.
+    light: [(f64, f64); 3],
+}
+
+impl Run {
+    /// Adds the pixel in column `x`.
+    #[inline]
+    pub fn add(&mut self, x: usize, light: [f64; 3]) {
+        self.pixels += 1.0;
+        self.x += x as f64 + 0.5;
+        for ((sum, squares), y) in self.light.iter_mut().zip(light) {
+            *sum += y;
+            *squares += y * y;
+        }
+    }
 }
 
 /// The mean of a facet in one channel and its standard error, if the pixels tell it.
@@ -40,27 +63,21 @@ pub(super) struct Estimate {
 }
 
 impl PixelSums {
-    /// Adds a pixel of weight `w` at (u, v).
-    #[inline]
-    pub fn add(&mut self, w: f64, u: f64, v: f64, light: [f64; 3]) {
-        let first = self.w <= 0.0;
-        let (wu, wv) = (w * u, w * v);
-        self.w += w;
-        self.ww += w * w;
-        self.wu += wu;
-        self.wv += wv;
-        self.wuu += wu * u;
-        self.wuv += wu * v;
-        self.wvv += wv * v;
-        for (sums, value) in self.light.iter_mut().zip(light) {
-            if first {
-                sums.origin = value;
-            }
-            let y = value - sums.origin;
+    /// Adds pixels of weight `w` each, about (u, v).
+    pub fn add(&mut self, w: f64, u: f64, v: f64, run: &Run) {
+        let sum = w * run.pixels;
+        self.w += sum;
+        self.ww += w * sum;
+        self.wu += sum * u;
+        self.wv += sum * v;
+        self.wuu += sum * u * u;
+        self.wuv += sum * u * v;
+        self.wvv += sum * v * v;
+        for (sums, (y, yy)) in self.light.iter_mut().zip(run.light) {
             sums.wy += w * y;
-            sums.wyy += w * y * y;
-            sums.wyu += wu * y;
-            sums.wyv += wv * y;
+            sums.wyy += w * yy;
+            sums.wyu += w * y * u;
+            sums.wyv += w * y * v;
         }
     }
 
@@ -83,11 +100,11 @@ impl PixelSums {
             (covariance(light.wyy, y, y), covariance(light.wyu, y, u), covariance(light.wyv, y, v));
         let det = uu * vv - uv * uv;
         if n < PLANE_PIXELS || det < FLAT {
-            return Some(Estimate::new(light.origin + y, yy, n, 1.0, 1.0));
+            return Some(Estimate::new(y, yy, n, 1.0, 1.0));
         }
         let (slope_u, slope_v) = ((yu * vv - yv * uv) / det, (yv * uu - yu * uv) / det);
         let leverage = (u * u * vv - 2.0 * u * v * uv + v * v * uu) / det;
-        let mean = light.origin + y - slope_u * u - slope_v * v;
+        let mean = y - slope_u * u - slope_v * v;
         Some(Estimate::new(mean, yy - slope_u * yu - slope_v * yv, n, 3.0, 1.0 + leverage))
     }
 }
@@ -109,7 +126,9 @@ mod tests {
     fn sums(pixels: &[(f64, f64, f64, f64)]) -> PixelSums {
         let mut sums = PixelSums::default();
         for &(w, u, v, y) in pixels {
-            sums.add(w, u, v, [y; 3]);
+            let mut run = Run::default();
+            run.add(0, [y; 3]);
+            sums.add(w, u, v, &run);
         }
         sums
     }

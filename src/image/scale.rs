@@ -21,8 +21,11 @@ pub(super) struct Scale {
     pub transfer: Transfer,
     pub black: f64,
     pub white: f64,
-    pub clipped_from: f64,
+    clipped_from: f64,
 }
+
+/// The light of a clipped number: anything up to this.
+const CLIPPED: f64 = f64::INFINITY;
 
 impl Scale {
     /// The scale of a picture of 8 or 16 bits (integers) or 32 (floats).
@@ -45,9 +48,15 @@ impl Scale {
         Ok(Self { transfer: options.transfer.resolve(bits), black, white, clipped_from })
     }
 
-    /// Linear light of a stored number.
+    /// Linear light of a stored number; infinite from the white level on, NaN for what is not finite.
     pub fn linear(&self, stored: f64) -> f64 {
-        self.transfer.to_linear((stored - self.black) / (self.white - self.black))
+        if !stored.is_finite() {
+            f64::NAN
+        } else if stored >= self.clipped_from {
+            CLIPPED
+        } else {
+            self.transfer.to_linear((stored - self.black) / (self.white - self.black))
+        }
     }
 
     /// Linear light of every integer of 8 or 16 bits; empty for floats.
@@ -67,17 +76,18 @@ mod tests {
             ReadOptions { black_level: Some(512.0), white_level: Some(15871.0), ..ReadOptions::default() };
         let scale = Scale::new(&options, 16).unwrap();
         let table = scale.table(16);
-        assert_eq!((table[512], table[15871]), (0.0, 1.0));
+        assert_eq!((table[512], table[15871]), (0.0, CLIPPED));
+        assert!((table[15870] - 15358.0 / 15359.0).abs() < 1e-15);
         assert!((table[0] + 512.0 / 15359.0).abs() < 1e-15, "noise below black must not be cut off");
-        assert!((scale.clipped_from - 15871.0).abs() < 1e-9);
     }
 
     #[test]
     fn floats_are_clipped_only_at_a_given_level() {
-        assert!(Scale::new(&ReadOptions::default(), 32).unwrap().clipped_from.is_infinite());
+        assert!((Scale::new(&ReadOptions::default(), 32).unwrap().linear(1e9) - 1e9).abs() < 1.0);
         let options = ReadOptions { white_level: Some(2.0), ..ReadOptions::default() };
         let scale = Scale::new(&options, 32).unwrap();
-        assert!((scale.clipped_from - 2.0).abs() < 1e-15 && (scale.linear(1.0) - 0.5).abs() < 1e-15);
+        assert!((scale.linear(1.0) - 0.5).abs() < 1e-15 && scale.linear(2.0).is_infinite());
+        assert!(scale.linear(f64::INFINITY).is_nan());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Solvers for smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
 pub mod interior_point;
-pub mod whitened;
+pub mod posterior;
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]

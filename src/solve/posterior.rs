@@ -1,0 +1,144 @@
+//! The maximum of a Gaussian prior times a Gaussian likelihood of a nonlinear model, by Newton's method.
+//!
+//! Minimises `½|ρ(z)|² + ½(z − μ)ᵀΛ(z − μ)`. The Hessian `Λ + JᵀJ − Σ ρᵢ∇²mᵢ` is exact; where it is not positive the last term
+//! is left out (Gauss–Newton). The step is solved for itself, in the space of the unknowns: the smaller system in the
+//! space of the data (Tarantola, *Inverse Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a
+//! small difference of large vectors loses its digits once the data are a million times as large as their noise.
+//!
+//! ## Reference
+//! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 3.1 and 10.3.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::Termination;
+
+/// Steps at each inflation of the noise.
+const STEPS_A_STAGE: u32 = 2;
+/// Gradient, in the metric of the Hessian, below which second derivatives are trusted.
+const NEAR: f64 = 1.0;
+/// Most halvings of a step.
+const HALVINGS: usize = 20;
+
+/// A model seen through data of known noise; each unknown enters on its own, so that second derivatives are diagonal.
+pub trait Model {
+    /// Data minus model at `z`, in units of the noise.
+    fn residuals(&self, z: &DVector<f64>) -> DVector<f64>;
+    /// Residuals with derivatives.
+    fn linearise(&self, z: &DVector<f64>) -> Linearised;
+}
+
+/// A model about a point.
+pub struct Linearised {
+    /// Residuals.
+    pub residuals: DVector<f64>,
+    /// First derivatives of the model: residual by unknown.
+    pub jacobian: DMatrix<f64>,
+    /// `Σ ρᵢ ∂²mᵢ/∂z²` for each unknown.
+    pub curvature: DVector<f64>,
+}
+
+/// A Gaussian prior.
+#[derive(Clone, Debug)]
+pub struct Gaussian {
+    /// Mean μ.
+    pub mean: DVector<f64>,
+    /// Inverse covariance Λ.
+    pub precision: DMatrix<f64>,
+}
+
+impl Gaussian {
+    fn cost(&self, z: &DVector<f64>) -> f64 {
+        let off = z - &self.mean;
+        0.5 * off.dot(&(&self.precision * &off))
+    }
+}
+
+/// Where the iteration ended.
+pub struct Solution {
+    /// The unknowns.
+    pub z: DVector<f64>,
+    /// Factor of `Λ + JᵀJ` there: the inverse of Laplace's covariance. None if the model was not finite.
+    pub information: Option<Cholesky<f64, Dyn>>,
+    /// Iterations over all stages.
+    pub iterations: u32,
+    /// Why it stopped.
+    pub termination: Termination,
+}
+
+/// Minimises from the prior's mean, first with the noise inflated by each of `inflations` for two steps, then at its true
+/// size until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then within
+/// `tolerance` standard deviations of the minimum.
+///
+/// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
+pub fn maximise(model: &impl Model, prior: &Gaussian, inflations: &[f64], tolerance: f64, limit: u32) -> Solution {
+    let mut search = Search { model, prior, z: prior.mean.clone(), iterations: 0 };
+    for inflation in inflations {
+        for _ in 0..STEPS_A_STAGE {
+            search.step(inflation.powi(-2));
+        }
+    }
+    let termination = loop {
+        let (decrement, moved) = search.step(1.0);
+        if decrement <= tolerance {
+            break Termination::Converged { gradient_norm: decrement };
+        }
+        if !moved {
+            break Termination::NoProgress { gradient_norm: decrement };
+        }
+        if search.iterations >= limit {
+            break Termination::IterationLimit;
+        }
+    };
+    let at = model.linearise(&search.z);
+    let information = Cholesky::new(&prior.precision + at.jacobian.tr_mul(&at.jacobian));
+    Solution { z: search.z, information, iterations: search.iterations, termination }
+}
+
+struct Search<'a, M> {
+    model: &'a M,
+    prior: &'a Gaussian,
+    z: DVector<f64>,
+    iterations: u32,
+}
+
+impl<M: Model> Search<'_, M> {
+    /// One step with the data weighted by `weight`: the gradient's norm in the metric of the Hessian before it, and
+    /// whether the cost fell.
+    fn step(&mut self, weight: f64) -> (f64, bool) {
+        self.iterations += 1;
+        let at = self.model.linearise(&self.z);
+        let descent =
+            weight * at.jacobian.tr_mul(&at.residuals) - &self.prior.precision * (&self.z - &self.prior.mean);
+        let Some((direction, decrement)) = self.direction(&at, weight, &descent) else { return (f64::INFINITY, false) };
+        let cost = |z: &DVector<f64>, residuals: &DVector<f64>| {
+            0.5 * weight * residuals.norm_squared() + self.prior.cost(z)
+        };
+        let before = cost(&self.z, &at.residuals);
+        let next = std::iter::successors(Some(1.0), |length| Some(0.5 * length))
+            .take(HALVINGS)
+            .map(|length| &self.z + length * &direction)
+            .find(|next| cost(next, &self.model.residuals(next)) < before);
+        let moved = next.is_some();
+        self.z = next.unwrap_or_else(|| self.z.clone());
+        (decrement, moved)
+    }
+
+    /// Gauss and Newton's direction, or near the minimum Newton's where the Hessian is positive; and the gradient's norm in
+    /// the metric of that Hessian.
+    fn direction(&self, at: &Linearised, weight: f64, descent: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
+        let mut hessian = &self.prior.precision + weight * at.jacobian.tr_mul(&at.jacobian);
+        let solve = |factor: Cholesky<f64, Dyn>| {
+            let direction = factor.solve(descent);
+            let decrement = descent.dot(&direction).max(0.0).sqrt();
+            (direction, decrement)
+        };
+        let gauss_newton = solve(Cholesky::new(hessian.clone())?);
+        if gauss_newton.1 > NEAR {
+            return Some(gauss_newton);
+        }
+        for (i, curvature) in at.curvature.iter().enumerate() {
+            hessian[(i, i)] -= weight * curvature;
+        }
+        Some(Cholesky::new(hessian).map_or(gauss_newton, solve))
+    }
+}
