@@ -44,6 +44,12 @@ impl CameraResponse {
         Ok(response.with_reference(strongest))
     }
 
+    /// A response whose weights are known as they are; channel 0 is the reference.
+    #[must_use]
+    pub fn from_weights(weights: Vec<Vec<f64>>) -> Self {
+        Self { weights, reference_channel: 0 }
+    }
+
     /// The response to another light, scaled to give 1 in this response's reference channel.
     ///
     /// # Errors

@@ -116,10 +116,27 @@ impl Colorimeter {
     /// If `reflectance` is not as long as the grid.
     #[must_use]
     pub fn srgb(&self, reflectance: &[f64]) -> [f64; 3] {
-        let xyz = self.to_d65 * Vector3::from(self.xyz(reflectance));
-        let linear = XYZ::new(xyz.into(), self.white.observer()).rgb(RgbSpace::SRGB);
-        linear.to_array().map(|value| RgbSpace::SRGB.gamma().encode(value))
+        self.screen(self.xyz(reflectance)).map(encode_srgb)
     }
+
+    /// Linear sRGB of a unit reflectance in each waveband alone: what a camera would see whose pictures need no colour
+    /// conversion. Channel by waveband; white gives 1 in each channel.
+    #[must_use]
+    pub fn screen_weights(&self) -> Vec<Vec<f64>> {
+        (0..3).map(|channel| self.wavebands.iter().map(|xyz| self.screen(*xyz)[channel]).collect()).collect()
+    }
+
+    /// Linear sRGB of XYZ under the illuminant.
+    fn screen(&self, xyz: [f64; 3]) -> [f64; 3] {
+        let adapted = self.to_d65 * Vector3::from(xyz);
+        XYZ::new(adapted.into(), self.white.observer()).rgb(RgbSpace::SRGB).to_array()
+    }
+}
+
+/// Linear sRGB, 0..1, as a screen's number, 0..1 (IEC 61966-2-1); values outside are clipped.
+#[must_use]
+pub fn encode_srgb(linear: f64) -> f64 {
+    RgbSpace::SRGB.gamma().encode(linear.clamp(0.0, 1.0))
 }
 
 /// CIEDE2000 between two CIELAB colours (CIE 142-2001; Sharma, Wu and Dalal 2005).

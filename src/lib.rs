@@ -1,4 +1,35 @@
 //! vfold measures the spectral reflectance of a matte sheet with an ordinary camera.
+//!
+//! Fold the sheet into a V, photograph it in the sun: light that bounces n times between the panels carries the n-th power
+//! of the reflectance, so the colour gradient along the panels holds far more than three numbers. The five tools in
+//! `src/bin` are thin; everything they do is here.
+//!
+//! The method is that of R. Deeb, D. Muselet, M. Hébert, A. Trémeau, "Spectral reflectance estimation from one RGB image using
+//! self-interreflections in a concave object", *Applied Optics* 57 (2018), p. 4918. Where its equations are:
+//!
+//! | equation | what it says | here |
+//! |---|---|---|
+//! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
+//! | eq. (2) | geometrical kernel of two points | [`kernel::exact`], averaged over facets |
+//! | eq. (10) | kernel matrix of the facets | [`kernel::exact::FoldKernel::matrix_row`] |
+//! | eq. (16) | radiance after all bounces | [`response::Response::lanczos`] |
+//! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
+//! | eq. (24) | facet RGB | [`forward::FacetModel::facet_rgb`] |
+//! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
+//! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
+//! | eq. (36) | the estimate as a bounded minimum | [`estimate::smooth`]; [`estimate::map`] with a better prior |
+//! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
+//!
+//! Use runs one way:
+//!
+//! ```text
+//! bin -> cli, stream, plot
+//!        stream -> estimate -> forward -> camera -> spectrum
+//!                  estimate -> solve     forward -> response -> kernel -> geometry
+//!                                        forward -> image -> files
+//!        score, colorimetry -> spectrum                            all -> error
+//! ```
+//! JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 
 pub mod camera;
 pub mod cli;

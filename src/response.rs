@@ -45,12 +45,11 @@ impl Response {
             diagonal.push(dot(last, &next));
             orthogonalise(&mut next, &basis);
             let length = dot(&next, &next).sqrt();
-            let (residual, worst) = residual_at_one(&diagonal, &beside, length);
-            if !(worst < 1.0) {
+            let Some(residual) = residual_at_one(&diagonal, &beside, length) else {
                 return Err(Error::Numeric(
                     "the fold hands on more light than it receives: refine the mesh".to_owned(),
                 ));
-            }
+            };
             if residual <= tolerance || basis.len() == start.len() || basis.len() == STEPS_MAX {
                 break;
             }
@@ -88,7 +87,7 @@ impl Response {
     /// # Errors
     /// [`Error::Field`] if the shapes disagree or a pole is not inside (−1, 1).
     pub fn new(poles: Vec<f64>, residues: Vec<f64>) -> Result<Self> {
-        if poles.is_empty() || residues.is_empty() || residues.len() % poles.len() != 0 {
+        if poles.is_empty() || residues.is_empty() || !residues.len().is_multiple_of(poles.len()) {
             return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
         }
         if !poles.iter().all(|g| g.abs() < 1.0) {
@@ -169,16 +168,17 @@ fn tridiagonal(diagonal: &[f64], beside: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side, and the largest pole so far as
-/// the pivots show it: below 1 as long as all are positive.
-fn residual_at_one(diagonal: &[f64], beside: &[f64], next: f64) -> (f64, f64) {
+/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.
+fn residual_at_one(diagonal: &[f64], beside: &[f64], next: f64) -> Option<f64> {
     // LDLᵀ of I − T, carrying the last component of the solution.
     let mut pivot = 1.0 - diagonal[0];
     let mut last = 1.0 / pivot;
+    let mut positive = pivot > 0.0;
     for (a, b) in diagonal[1..].iter().zip(beside) {
         let coupling = b / pivot;
         pivot = 1.0 - a - b * coupling;
         last *= b / pivot;
+        positive &= pivot > 0.0;
     }
-    (next * last.abs(), if pivot > 0.0 { 1.0 - pivot } else { 1.0 })
+    positive.then_some(next * last.abs())
 }

@@ -10,7 +10,7 @@ use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map, smooth};
 use vfold::forward::FacetModel;
-use vfold::plot::spectra::{Curve, draw};
+use vfold::plot::spectra::draw;
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Output, Reader, Record, ReferencePanel, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
@@ -104,7 +104,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut curves = Vec::new();
     pipe(&mut Reader::open(&args.samples)?, &estimator, |record| {
         if let (Record::Sample(sample), Some(_)) = (&record, &args.plot) {
-            curves.extend(curve(sample)?);
+            curves.extend(sample.curve()?);
         }
         out.record(&record)
     })?;
@@ -224,18 +224,6 @@ impl Estimator<'_> {
         };
         Ok(rgb.iter().enumerate().map(facet).collect())
     }
-}
-
-/// The estimate of a sample as a curve to draw; none if it failed.
-fn curve(sample: &Sample) -> Result<Option<Curve>> {
-    let Some(estimate) = sample.estimated()? else { return Ok(None) };
-    Ok(Some(Curve {
-        name: sample.id()?,
-        wavelengths_nm: estimate.wavelengths_nm,
-        reflectance: estimate.reflectance,
-        reflectance_sd: sample.estimated_sd()?,
-        truth: sample.truth()?.map(|truth| (truth.wavelengths_nm, truth.reflectance)),
-    }))
 }
 
 fn noise_sd(text: &str) -> std::result::Result<NoiseSd, String> {

@@ -80,7 +80,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let panels = panels(args)?;
     check(args)?;
     let mut reader = Reader::open(&args.scene)?;
-    let Some(Record::Scene(mut scene)) = reader.next()? else {
+    let Some(Record::Scene(mut scene)) = reader.read()? else {
         return Err(Error::Record {
             path: args.scene.clone(),
             line: 1,

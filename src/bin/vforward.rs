@@ -6,10 +6,12 @@ use std::process::ExitCode;
 use clap::Parser;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use vfold::camera::CameraResponse;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
-use vfold::forward::FacetModel;
+use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
+use vfold::forward::{FacetModel, Lighting};
 use vfold::spectrum::{self, Outside, Spectrum};
 use vfold::stream::{Output, Reader, Record, ReferencePanel, ReflectanceRecord, Sample, Scene};
 use vfold::{Error, Result};
@@ -52,7 +54,7 @@ struct Args {
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Also take a photograph of the first sheet: .exr or 16-bit .tif or .png
+    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
     #[arg(long, value_name = "FILE")]
     render: Option<PathBuf>,
     /// Size of the photograph
@@ -81,7 +83,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         .collect::<Result<Vec<_>>>()?
         .concat();
     let mut reader = Reader::open(&args.scene)?;
-    while let Some(record) = reader.next()? {
+    while let Some(record) = reader.read()? {
         match record {
             Record::Scene(mut scene) => {
                 equip(args, &mut scene).map_err(|e| reader.at(&e))?;
@@ -179,11 +181,18 @@ fn sample(
 fn photograph(args: &Args, scene: &Scene, sheets: &[Spectrum], noise: Noise) -> Result<()> {
     let (Some(path), Some(sheet)) = (&args.render, sheets.first()) else { return Ok(()) };
     let view = View::of(&scene.fold()?, args.render_size.0, args.render_size.1)?;
+    let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    let lighting = if for_screen { screen(args, scene)? } else { scene.lighting()? };
     let reflectance = sheet.on(&args.optics.wavelengths_nm, Outside::Refuse)?;
-    let light: DMatrix<f64> = args.exposure * scene.fine_model(view.grid())?.facet_rgb(&reflectance);
+    let light: DMatrix<f64> =
+        args.exposure * scene.fine_model(view.grid(), &lighting)?.facet_rgb(&reflectance);
     let mut picture = Picture::take(&view, &light);
     noise.add(picture.pixels_mut(), args.seed, u64::MAX);
-    picture.save(path)?;
+    if for_screen {
+        picture.save_for_screen(path)?;
+    } else {
+        picture.save(path)?;
+    }
     if !args.common.quiet {
         let [panel0, panel1] = view
             .corners()
@@ -194,4 +203,12 @@ fn photograph(args: &Args, scene: &Scene, sheets: &[Spectrum], noise: Noise) -> 
         );
     }
     Ok(())
+}
+
+/// The scene as an eye sees it that is adapted to the light.
+fn screen(args: &Args, scene: &Scene) -> Result<Lighting> {
+    let illuminant = spectrum::illuminant(&args.optics.illuminant)?;
+    let eye = Colorimeter::new(&args.optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
+    let response = CameraResponse::from_weights(eye.screen_weights());
+    Ok(Lighting { light: scene.light()?, sun: response.clone(), sky: response })
 }

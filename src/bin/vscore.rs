@@ -1,13 +1,15 @@
 //! `vscore`: how far estimates are from the truth.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::plot::spectra::draw;
 use vfold::score::{Metrics, Summary, pearson_distance, rmse};
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Output, Reader, Record, Sample, Scene, Transform, pipe};
+use vfold::stream::{Output, Reader, Record, ReflectanceRecord, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
 
 /// Score estimated spectra against true ones
@@ -31,6 +33,9 @@ struct Args {
     /// Standard observer of the colour difference, degrees
     #[arg(long, value_name = "2|10", default_value = "10", value_parser = observer)]
     observer: Observer,
+    /// Draw estimates, their error bands and true spectra
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// Print a table instead of records
     #[arg(long)]
     table: bool,
@@ -64,13 +69,16 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let truth = args.truth.as_deref().map(spectrum::reflectances).transpose()?;
     let illuminant = spectrum::illuminant(&args.illuminant)?;
     let scorer = Scorer { args, illuminant, truth };
-    let mut summary = Summary::default();
+    let (mut summary, mut curves) = (Summary::default(), Vec::new());
     if args.table {
         out.text(&format!("{:<28} {:>8} {:>10} {:>10}", "sample", "RMSE", "CIEDE2000", "PD"))?;
     }
     pipe(&mut Reader::open(&args.samples)?, &scorer, |record| {
         if let Record::Sample(sample) = &record {
             summary.add(sample.metrics()?);
+            if args.plot.is_some() {
+                curves.extend(sample.curve()?);
+            }
         }
         match (args.table, &record) {
             (true, Record::Sample(sample)) => row(out, sample),
@@ -78,6 +86,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             (false, record) => out.record(record),
         }
     })?;
+    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))?;
     if args.table { footer(out, &summary) } else { out.fields(&vfold::stream::summary(&summary)?) }
 }
 
@@ -102,6 +111,8 @@ impl Transform for Scorer<'_> {
             return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
         }
         let truth = self.truth_of(sample)?.on(&context.grid, Outside::Refuse)?;
+        let wavelengths_nm = context.grid.wavelengths_nm().to_vec();
+        sample.set_truth(&ReflectanceRecord { wavelengths_nm, reflectance: truth.clone() })?;
         sample.set_metrics(&Metrics {
             rmse: rmse(&truth, &estimate.reflectance),
             ciede2000: context.colorimeter.delta_e_2000(&truth, &estimate.reflectance),

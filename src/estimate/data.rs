@@ -92,7 +92,10 @@ impl<'a> FacetData<'a> {
             let (kept, compressed) = compress(&data, sources.collect(), &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
             values.extend(kept.iter());
-            let weights = model.sources().iter().map(|source| DVector::from_column_slice(source.camera.channel(channel)));
+            let weights = model
+                .sources()
+                .iter()
+                .map(|source| DVector::from_column_slice(source.camera.channel(channel)));
             models.push(ChannelModel { sources: compressed, weights: weights.collect() });
         }
         let sums = SumRule {

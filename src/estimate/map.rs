@@ -49,7 +49,13 @@ fn reflectance(logit: &DVector<f64>) -> Vec<f64> {
 /// Square roots of the diagonal of Laplace's covariance, carried from logit to reflectance.
 fn standard_deviation(reflectance: &[f64], solution: &Solution) -> Option<Vec<f64>> {
     let covariance = solution.information.as_ref()?.inverse();
-    Some(reflectance.iter().enumerate().map(|(band, r)| r * (1.0 - r) * covariance[(band, band)].sqrt()).collect())
+    Some(
+        reflectance
+            .iter()
+            .enumerate()
+            .map(|(band, r)| r * (1.0 - r) * covariance[(band, band)].sqrt())
+            .collect(),
+    )
 }
 
 /// The facets as a model of the logit of reflectance.

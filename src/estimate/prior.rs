@@ -46,7 +46,9 @@ impl Prior {
             }
         }
         let precision = Cholesky::new(covariance)
-            .ok_or_else(|| Error::Numeric("the covariance of the prior's spectra is not positive".to_owned()))?
+            .ok_or_else(|| {
+                Error::Numeric("the covariance of the prior's spectra is not positive".to_owned())
+            })?
             .inverse();
         Ok(Self { logit: Gaussian { mean, precision } })
     }

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use nalgebra::{DMatrix, Point3, Vector3};
 
+use crate::colorimetry::encode_srgb;
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
-use crate::image::{Homography, Point, write_linear};
+use crate::image::{Homography, Point, write_linear, write_srgb_png};
 
 /// Cells of a panel, away from the crease and along it, on which the light is computed.
 const CELLS: FacetGrid = FacetGrid { rows: 160, cols: 96 };
@@ -100,12 +101,22 @@ impl Picture {
         &mut self.rgb
     }
 
-    /// Writes the picture as OpenEXR, or 16-bit TIFF or PNG, all linear.
+    /// Writes the picture as it is, linear: OpenEXR or 16-bit TIFF.
     ///
     /// # Errors
     /// As [`write_linear`].
     pub fn save(&self, path: &Path) -> Result<()> {
         write_linear(path, self.width, self.height, &self.rgb)
+    }
+
+    /// Writes linear sRGB for a screen: 8-bit PNG, the brightest pixel white.
+    ///
+    /// # Errors
+    /// As [`write_srgb_png`].
+    pub fn save_for_screen(&self, path: &Path) -> Result<()> {
+        let brightest = self.rgb.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let encoded: Vec<f64> = self.rgb.iter().map(|value| encode_srgb(value / brightest)).collect();
+        write_srgb_png(path, self.width, self.height, &encoded)
     }
 }
 

@@ -68,7 +68,7 @@ impl Fold {
                 "give width along the crease x depth, both positive, at most 1000 times each other",
             ));
         }
-        let count = facets.rows.checked_mul(facets.cols).unwrap_or(usize::MAX);
+        let count = facets.rows.saturating_mul(facets.cols);
         if count == 0 || count > MAX_FACETS {
             let entries = facets.rows as f64 * (facets.rows as f64 + 1.0) / 2.0 * facets.cols as f64;
             return Err(Error::usage(

@@ -32,14 +32,14 @@ impl Light {
     pub fn new(fold: &Fold, tilt_deg: f64, slant_deg: f64, sky: f64) -> Result<Self> {
         let half = fold.angle_deg() / 2.0;
         // Beyond half the opening one panel shades the other; at a slant no panel is shaded as long as both face the sun.
-        if !(tilt_deg.abs() < half) {
+        if tilt_deg.is_nan() || tilt_deg.abs() >= half {
             return Err(Error::usage(
                 "--tilt-deg",
                 format!("{tilt_deg} leaves a panel of a {}° fold in the shade", fold.angle_deg()),
                 format!("give degrees between {:?} and {half:?}", -half),
             ));
         }
-        if !(slant_deg.abs() < 90.0) {
+        if slant_deg.is_nan() || slant_deg.abs() >= 90.0 {
             return Err(Error::usage(
                 "--slant-deg",
                 format!("{slant_deg} puts the sun along the crease or below it"),

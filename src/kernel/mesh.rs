@@ -72,7 +72,7 @@ pub fn respond(fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Acc
 
 fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(Response, Accuracy)> {
     let facets = fold.facets();
-    if patches.rows % facets.rows != 0 || patches.cols % facets.cols != 0 {
+    if !(patches.rows.is_multiple_of(facets.rows) && patches.cols.is_multiple_of(facets.cols)) {
         return Err(Error::usage(
             "--mesh",
             format!(

@@ -84,7 +84,7 @@ fn render(svg: &mut String, curves: &[Curve]) -> Drawn {
         }
         if let Some((wavelengths_nm, reflectance)) = &curve.truth {
             let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
-            chart.draw_series(DashedLineSeries::new(line.into_iter(), 6, 4, BLACK.stroke_width(2)))?;
+            chart.draw_series(DashedLineSeries::new(line, 6, 4, BLACK.stroke_width(2)))?;
         }
         let style = colour.stroke_width(2);
         chart

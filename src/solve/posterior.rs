@@ -70,7 +70,13 @@ pub struct Solution {
 /// `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise(model: &impl Model, prior: &Gaussian, inflations: &[f64], tolerance: f64, limit: u32) -> Solution {
+pub fn maximise(
+    model: &impl Model,
+    prior: &Gaussian,
+    inflations: &[f64],
+    tolerance: f64,
+    limit: u32,
+) -> Solution {
     let mut search = Search { model, prior, z: prior.mean.clone(), iterations: 0 };
     for inflation in inflations {
         for _ in 0..STEPS_A_STAGE {
@@ -109,7 +115,9 @@ impl<M: Model> Search<'_, M> {
         let at = self.model.linearise(&self.z);
         let descent =
             weight * at.jacobian.tr_mul(&at.residuals) - &self.prior.precision * (&self.z - &self.prior.mean);
-        let Some((direction, decrement)) = self.direction(&at, weight, &descent) else { return (f64::INFINITY, false) };
+        let Some((direction, decrement)) = self.direction(&at, weight, &descent) else {
+            return (f64::INFINITY, false);
+        };
         let cost = |z: &DVector<f64>, residuals: &DVector<f64>| {
             0.5 * weight * residuals.norm_squared() + self.prior.cost(z)
         };

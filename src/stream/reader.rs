@@ -48,7 +48,7 @@ impl Reader {
     ///
     /// # Errors
     /// [`Error::Record`] for a line that is not a record, with file and line.
-    pub fn next(&mut self) -> Result<Option<Record>> {
+    pub fn read(&mut self) -> Result<Option<Record>> {
         let mut bytes = Vec::new();
         let mut limited = (&mut self.source).take(LINE_MAX);
         let read = limited.read_until(b'\n', &mut bytes).map_err(|e| Error::file(&self.path, e))?;
@@ -126,7 +126,7 @@ pub fn pipe<T: Transform + Sync>(
     let mut context = None;
     let mut batch = Vec::new();
     loop {
-        let record = reader.next()?;
+        let record = reader.read()?;
         if let Some(Record::Sample(sample)) = record {
             batch.push((reader.line, sample));
             if batch.len() < BATCH {

@@ -6,6 +6,7 @@ use serde_json::json;
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
+use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
 use crate::solve::Termination;
 
@@ -135,6 +136,21 @@ impl Sample {
     pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
         finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
         self.fields.set("truth", truth)
+    }
+
+    /// The estimate as a curve to draw; none if there is none.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not a spectrum.
+    pub fn curve(&self) -> Result<Option<Curve>> {
+        let Some(estimate) = self.estimated()? else { return Ok(None) };
+        Ok(Some(Curve {
+            name: self.id()?,
+            wavelengths_nm: estimate.wavelengths_nm,
+            reflectance: estimate.reflectance,
+            reflectance_sd: self.estimated_sd()?,
+            truth: self.truth()?.map(|truth| (truth.wavelengths_nm, truth.reflectance)),
+        }))
     }
 
     /// The true spectrum, if the sample carries it.

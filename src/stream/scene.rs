@@ -262,29 +262,28 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if a part of the scene is missing or does not fit the others.
     pub fn model(&self) -> Result<FacetModel> {
-        self.model_with(&self.response()?)
+        self.model_with(&self.response()?, &self.lighting()?)
     }
 
-    /// The same with other facets, finer than those of the scene, for pictures.
+    /// The same under `lighting` with other facets, finer than those of the scene, for pictures.
     ///
     /// # Errors
     /// As [`Scene::model`].
-    pub fn fine_model(&self, grid: FacetGrid) -> Result<FacetModel> {
+    pub fn fine_model(&self, grid: FacetGrid, lighting: &Lighting) -> Result<FacetModel> {
         let (response, _) = respond(&self.fold()?.with_facets(grid)?, Mesh::Auto, PICTURE_TOLERANCE)?;
-        self.model_with(&response)
+        self.model_with(&response, lighting)
     }
 
-    fn model_with(&self, response: &Response) -> Result<FacetModel> {
-        let lighting = self.lighting()?;
+    fn model_with(&self, response: &Response, lighting: &Lighting) -> Result<FacetModel> {
         let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else {
-            return Ok(FacetModel::one_sheet(response, &lighting));
+            return Ok(FacetModel::one_sheet(response, lighting));
         };
         if card.reflectance.len() != self.grid()?.len()
             || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r))
         {
             return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
         }
-        Ok(FacetModel::with_card(response, &lighting, card.reflectance))
+        Ok(FacetModel::with_card(response, lighting, card.reflectance))
     }
 
     /// The lights as the camera responds to them.
