@@ -35,6 +35,8 @@ fn geometry() {
             case("vkernel --save kernel=no/such/K.npy", 1, &["no/such/K.npy"]),
             case("vkernel -o no/such/folder", 1, &["no/such/folder"]),
             case("vkernel -j none", 2, &["--threads"]),
+            case("vkernel -j 0", 2, &["--threads", "1024"]),
+            case("vkernel -j 1000000", 2, &["--threads", "1024"]),
             case("vkernel surplus", 2, &["surplus"]),
         ],
     );
