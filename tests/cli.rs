@@ -243,7 +243,7 @@ proptest! {
     /// One double in ten would change in its last digit on its way through a careless reader.
     #[test]
     fn doubles_survive_the_stream(bits in prop::collection::vec(any::<u64>(), 2000)) {
-        let odd = [5e-324, f64::MIN_POSITIVE, f64::MAX, 0.1 + 0.2, 2.2250738585072011e-308, -0.0, 1e23];
+        let odd = [5e-324, f64::MIN_POSITIVE, f64::MAX, 0.1 + 0.2, f64::MIN_POSITIVE.next_down(), -0.0, 1e23];
         let finite = bits.into_iter().map(f64::from_bits).filter(|x| x.is_finite());
         let doubles: Vec<f64> = odd.into_iter().chain(finite).collect();
         let script = format!("vscore <<END\n{}\nEND", json!({"kind": "doubles", "x": doubles}));
