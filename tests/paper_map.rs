@@ -1,7 +1,11 @@
 //! The table in `src/lib.rs` that says where each equation of the paper is must be true.
 
-// a test stops at the first surprise
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stderr,
+    reason = "a test stops at the first surprise"
+)]
 
 use std::fs;
 use std::path::PathBuf;

@@ -122,8 +122,8 @@ cat > card.csv <<END
 vkernel --angle-deg {angle} --tilt-deg {tilt} --sky {sky} -o scene.json
 vextract "{photo}" --scene scene.json --camera {camera} --illuminant {illuminant} {sky_illuminant} \
     --panel0 "{panel0}" --panel1 "{panel1}" --exposure {exposure} -o sample.ndjson
-vestimate sample.ndjson {reference} | vscore --truth truth.csv
-vestimate sample.ndjson {reference} --exposure free | vscore --truth truth.csv
+vestimate -q sample.ndjson {reference} | vscore --truth truth.csv
+vestimate -q sample.ndjson {reference} --exposure free | vscore --truth truth.csv
 "#,
         photo = photo.display()
     )

@@ -21,6 +21,8 @@ const NOISE_FLOOR: f64 = 1e-6;
 const MODEL_ERROR: f64 = 1e-3;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
+/// Residuals, in units of their expected size, beyond which the scene cannot be right.
+const MISFIT: f64 = 5.0;
 /// Weight of smoothness in the paper's objective, in units of white squared.
 const SMOOTHNESS: f64 = 1e-5;
 
@@ -103,12 +105,32 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let estimator = Estimator { args, method: method(args)? };
     let mut curves = Vec::new();
     pipe(&mut Reader::open(&args.samples)?, &estimator, |record| {
-        if let (Record::Sample(sample), Some(_)) = (&record, &args.plot) {
-            curves.extend(sample.curve()?);
+        if let Record::Sample(sample) = &record {
+            warn_of_misfit(args, sample)?;
+            if args.plot.is_some() {
+                curves.extend(sample.curve()?);
+            }
         }
         out.record(&record)
     })?;
     args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))
+}
+
+/// Says when the facets cannot be those of the scene: a spectrum fitted to them means nothing.
+fn warn_of_misfit(args: &Args, sample: &Sample) -> Result<()> {
+    match sample.residual_rms()? {
+        Some(rms)
+            if rms > MISFIT && !args.common.quiet && !matches!(args.prior.as_str(), "smooth" | "none") =>
+        {
+            let problem = format!("facets are {rms:.0} times further from the model than their noise");
+            cli::say(
+                "vestimate",
+                &format!("{}: {problem}; check angle, corners, light, camera and exposure", sample.id()?),
+            );
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 fn method(args: &Args) -> Result<Method> {

@@ -54,14 +54,12 @@ pub struct Residuals {
     pub exposure: f64,
 }
 
-/// Residuals ρ with the derivatives of the model, a column a waveband.
+/// Residuals with the derivatives of the model by the reflectance, a column a waveband.
 pub struct LinearisedFacets {
     /// Data minus model.
     pub residuals: DVector<f64>,
-    /// First derivatives by the reflectance.
+    /// Derivatives of the model.
     pub jacobian: DMatrix<f64>,
-    /// `Σ ρᵢ ∂²mᵢ/∂r²` a waveband, at a fixed exposure.
-    pub curvature: DVector<f64>,
 }
 
 impl<'a> FacetData<'a> {
@@ -144,10 +142,9 @@ impl<'a> FacetData<'a> {
     /// Deeb et al., first term of eq. (36).
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64]) -> Residuals {
-        let [terms, ..] = self.terms(reflectance);
-        let values = self.values_of(&terms);
-        let exposure = self.exposure_of(&values, || self.sum_of(&terms).sum());
-        Residuals { residuals: &self.values - exposure * values, exposure }
+        let terms = self.terms::<1>(reflectance);
+        let (residuals, exposure, _) = self.compare(&terms[0]);
+        Residuals { residuals, exposure }
     }
 
     /// Residuals at a reflectance, with the derivatives of the model.
@@ -156,10 +153,8 @@ impl<'a> FacetData<'a> {
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
-        let [terms, slopes, curvatures] = self.terms(reflectance);
-        let values = self.values_of(&terms);
-        let exposure = self.exposure_of(&values, || self.sum_of(&terms).sum());
-        let residuals = &self.values - exposure * &values;
+        let [terms, slopes] = self.terms(reflectance);
+        let (residuals, exposure, values) = self.compare(&terms);
         let mut jacobian = exposure * self.columns_of(&slopes);
         match self.exposure {
             Exposure::Known(_) => {}
@@ -173,8 +168,22 @@ impl<'a> FacetData<'a> {
                 jacobian.ger(-exposure, &values, &shares, 1.0);
             }
         }
-        let curvature = exposure * self.curvature_along(&residuals, &curvatures);
-        LinearisedFacets { residuals, jacobian, curvature }
+        LinearisedFacets { residuals, jacobian }
+    }
+
+    /// `Σ ρᵢ ∂mᵢ/∂r` and `Σ ρᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of this reflectance.
+    #[must_use]
+    pub fn curvature(&self, reflectance: &[f64]) -> [DVector<f64>; 2] {
+        let [terms, slopes, curvatures] = self.terms(reflectance);
+        let (residuals, exposure, _) = self.compare(&terms);
+        [slopes, curvatures].map(|of_terms| exposure * self.along(&residuals, &of_terms))
+    }
+
+    /// Residuals, exposure, and the model at exposure 1.
+    fn compare(&self, terms: &DMatrix<f64>) -> (DVector<f64>, f64, DVector<f64>) {
+        let values = self.values_of(terms);
+        let exposure = self.exposure_of(&values, || self.sum_of(terms).sum());
+        (&self.values - exposure * &values, exposure, values)
     }
 
     fn exposure_of(&self, values: &DVector<f64>, sum: impl Fn() -> f64) -> f64 {
@@ -185,9 +194,9 @@ impl<'a> FacetData<'a> {
         }
     }
 
-    /// Values, first and second derivatives of the terms: term by waveband.
-    fn terms(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
-        let mut all = [(); 3].map(|()| DMatrix::zeros(self.model.terms(), reflectance.len()));
+    /// The terms and their first `N − 1` derivatives: term by waveband.
+    fn terms<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
+        let mut all = [(); N].map(|()| DMatrix::zeros(self.model.terms(), reflectance.len()));
         for (band, r) in reflectance.iter().enumerate() {
             for (term, of_term) in self.model.terms_at(*r, band).enumerate() {
                 all.iter_mut().zip(of_term).for_each(|(matrix, value)| matrix[(term, band)] = value);
@@ -218,11 +227,11 @@ impl<'a> FacetData<'a> {
     }
 
     /// `Σ ρᵢ` times the model a waveband, without forming its columns.
-    fn curvature_along(&self, residuals: &DVector<f64>, curvatures: &DMatrix<f64>) -> DVector<f64> {
-        let mut along = DVector::zeros(curvatures.ncols());
+    fn along(&self, residuals: &DVector<f64>, of_terms: &DMatrix<f64>) -> DVector<f64> {
+        let mut along = DVector::zeros(of_terms.ncols());
         self.each_part(|rows, compressed, weights| {
             let by_term = compressed.tr_mul(&residuals.rows(rows.start, rows.len()));
-            along += curvatures.tr_mul(&by_term).component_mul(weights);
+            along += of_terms.tr_mul(&by_term).component_mul(weights);
         });
         along
     }

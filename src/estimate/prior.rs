@@ -1,12 +1,14 @@
 //! What is known of reflectances before a picture is taken.
 
-use nalgebra::{Cholesky, DMatrix};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::error::{Error, Result};
-use crate::solve::posterior::Gaussian;
 
 /// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
 const MARGIN: f64 = 2e-3;
+/// Directions of less than this share of the largest variance are left out: spectra do not move along them, and half of the
+/// directions of a smooth prior are such.
+const VARIANCE_CUTOFF: f64 = 1e-5;
 /// Correlation length and standard deviation, in logit, of what spectra do that the training set does not.
 const MATERN_LENGTH_NM: f64 = 40.0;
 const MATERN_SD: f64 = 0.3;
@@ -16,7 +18,9 @@ const MATERN_SD: f64 = 0.3;
 /// In logit every value is a legal reflectance, and the covariance of a set of paints or dyes spreads evenly.
 #[derive(Clone, Debug)]
 pub struct Prior {
-    logit: Gaussian,
+    mean: DVector<f64>,
+    /// Waveband by direction; its product with its transpose is the covariance.
+    basis: DMatrix<f64>,
 }
 
 impl Prior {
@@ -45,18 +49,26 @@ impl Prior {
                 covariance[(i, j)] += matern_5_2(a - b);
             }
         }
-        let precision = Cholesky::new(covariance)
-            .ok_or_else(|| {
-                Error::Numeric("the covariance of the prior's spectra is not positive".to_owned())
-            })?
-            .inverse();
-        Ok(Self { logit: Gaussian { mean, precision } })
+        let eigen = SymmetricEigen::new(covariance);
+        let negligible = VARIANCE_CUTOFF * eigen.eigenvalues.max();
+        let directions = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+        let columns: Vec<_> = directions
+            .filter(|(variance, _)| **variance > negligible)
+            .map(|(variance, direction)| direction * variance.sqrt())
+            .collect();
+        Ok(Self { mean, basis: DMatrix::from_columns(&columns) })
     }
 
-    /// Mean and precision of the logit.
+    /// Logit of reflectance at whitened coordinates `w`, each standard normal under the prior.
     #[must_use]
-    pub fn logit(&self) -> &Gaussian {
-        &self.logit
+    pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
+        &self.mean + &self.basis * w
+    }
+
+    /// Derivative of the logits by the whitened coordinates: waveband by coordinate.
+    #[must_use]
+    pub fn basis(&self) -> &DMatrix<f64> {
+        &self.basis
     }
 }
 

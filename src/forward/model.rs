@@ -132,10 +132,10 @@ impl FacetModel {
     /// One sheet: `r/(1 − rg)`, then `r/(1 + rg)` where panels are lit unevenly. With a card c: `r/d`, `rcg/d`, `c/d`,
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
     pub fn terms_at(&self, r: f64, band: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
-        let families: Vec<Family> = match &self.panels {
-            Panels::One { odd: false } => vec![|r, _, g| rational(r, 1.0, g)],
-            Panels::One { odd: true } => vec![|r, _, g| rational(r, 1.0, g), |r, _, g| rational(r, 1.0, -g)],
-            Panels::Card(_) => vec![
+        let families: &[Family] = match &self.panels {
+            Panels::One { odd: false } => &[|r, _, g| rational(r, 1.0, g)],
+            Panels::One { odd: true } => &[|r, _, g| rational(r, 1.0, g), |r, _, g| rational(r, 1.0, -g)],
+            Panels::Card(_) => &[
                 |r, c, g| rational(r, 1.0, c * g * g),
                 |r, c, g| rational(r, c * g, c * g * g),
                 // c/d = c + c²g²·r/d
@@ -149,7 +149,7 @@ impl FacetModel {
             Panels::Card(card) => card[band],
             Panels::One { .. } => 0.0,
         };
-        families.into_iter().flat_map(move |family| self.poles.iter().map(move |g| family(r, card, *g)))
+        families.iter().flat_map(move |family| self.poles.iter().map(move |g| family(r, card, *g)))
     }
 
     /// RGB of every facet at exposure 1: facet by channel, facet order panel, row, column.

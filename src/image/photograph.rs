@@ -9,6 +9,7 @@ use std::path::Path;
 use image::{DynamicImage, ImageFormat};
 
 use super::decode::{Decoded, decode};
+use super::exif::CameraNotes;
 use super::orientation::{Layout, Orientation};
 use super::scale::{ReadOptions, Scale};
 use super::transfer::Transfer;
@@ -45,6 +46,27 @@ pub struct PhotographInfo {
     pub notes: Vec<String>,
 }
 
+impl PhotographInfo {
+    fn new(camera: CameraNotes, stored_size: (usize, usize), format: String, scale: &Scale) -> Self {
+        let (width, height) = camera.orientation.upright_size(stored_size);
+        Self {
+            make: camera.make,
+            model: camera.model,
+            exposure_s: camera.exposure_s,
+            f_number: camera.f_number,
+            iso: camera.iso,
+            orientation: camera.orientation,
+            width,
+            height,
+            format,
+            transfer_used: scale.transfer,
+            black_level: scale.black,
+            white_level: scale.white,
+            notes: camera.notes,
+        }
+    }
+}
+
 /// What a pixel says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pixel {
@@ -63,8 +85,11 @@ pub struct Photograph {
     layout: Layout,
     /// Colours a pixel, 1 or 3.
     channels: usize,
-    /// Samples a pixel: one more than its colours if there is an alpha channel.
+    /// Samples a pixel.
     stride: usize,
+    /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
+    colours: [usize; 3],
+    alpha: Option<usize>,
     scale: Scale,
     /// Linear light of every integer; empty for floats.
     table: Vec<f64>,
@@ -104,33 +129,21 @@ impl Photograph {
         let Decoded { format, picture, camera } = decode(path)?;
         let color = picture.color();
         let stride = usize::from(color.channel_count());
-        let bits = u32::from(color.bits_per_pixel() / u16::from(color.channel_count()));
+        let channels = stride - usize::from(color.has_alpha());
+        let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
         let stored_size = (picture.width() as usize, picture.height() as usize);
-        let (width, height) = camera.orientation.upright_size(stored_size);
-        let info = PhotographInfo {
-            make: camera.make,
-            model: camera.model,
-            exposure_s: camera.exposure_s,
-            f_number: camera.f_number,
-            iso: camera.iso,
-            orientation: camera.orientation,
-            width,
-            height,
-            format: describe(format, bits, color.has_color()),
-            transfer_used: scale.transfer,
-            black_level: scale.black,
-            white_level: scale.white,
-            notes: camera.notes,
-        };
+        let format = describe(format, bits, color.has_color());
         Ok(Self {
             samples: Samples::from(picture),
             layout: camera.orientation.layout(stored_size),
-            channels: stride - usize::from(color.has_alpha()),
+            channels,
             stride,
+            colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
+            alpha: color.has_alpha().then_some(channels),
             table: scale.table(bits),
+            info: PhotographInfo::new(camera, stored_size, format, &scale),
             scale,
-            info,
         })
     }
 
@@ -189,10 +202,10 @@ impl Photograph {
     ) {
         for x in columns {
             let first = self.layout.stored(x, y) * self.stride;
-            let (colours, alpha) = stored[first..first + self.stride].split_at(self.channels);
-            let channel = |k: usize| linear(colours[k.min(self.channels - 1)]);
-            let transparent = alpha.first().is_some_and(|&alpha| alpha.into() <= 0.0);
-            visitor(x, Pixel::new([channel(0), channel(1), channel(2)], transparent));
+            let channel = |k: usize| linear(stored[first + self.colours[k]]);
+            let light = [channel(0), channel(1), channel(2)];
+            let transparent = self.alpha.is_some_and(|offset| stored[first + offset].into() <= 0.0);
+            visitor(x, Pixel::new(light, transparent));
         }
     }
 }

@@ -24,6 +24,11 @@ impl HalfPlane {
         self.a * p.x + self.b * p.y - self.c
     }
 
+    /// How far a pixel reaches from its centre towards the border, px.
+    fn pixel_reach(&self) -> f64 {
+        (self.a.abs() + self.b.abs()) / 2.0
+    }
+
     /// The range of x in which a x >= `rest`, for pixels whose corner at `x + offset` decides.
     fn columns(&self, rest: f64, offset: f64) -> (f64, f64) {
         let border = rest / self.a - offset;
@@ -94,8 +99,14 @@ impl Quadrilateral {
     /// The area, px², that the quadrilateral shares with the pixel in column `x` and row `y`.
     pub fn overlap(&self, x: usize, y: usize) -> f64 {
         let (x, y) = (x as f64, y as f64);
+        let centre = Point::new(x + 0.5, y + 0.5);
+        // most pixels are met by one side only
+        let met_by = |side: &&HalfPlane| side.depth(centre).abs() < side.pixel_reach();
+        if self.sides.iter().any(|side| side.depth(centre) <= -side.pixel_reach()) {
+            return 0.0;
+        }
         let pixel = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)].map(|(x, y)| Point::new(x, y));
-        area(&self.sides.iter().fold(pixel.to_vec(), |polygon, side| clip(&polygon, side)))
+        area(&self.sides.iter().filter(met_by).fold(pixel.to_vec(), |polygon, side| clip(&polygon, side)))
     }
 }
 

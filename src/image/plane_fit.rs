@@ -35,9 +35,9 @@ struct LightSums {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Run {
     /// How many.
-    pub pixels: f64,
-    /// Sum of their columns' centres.
-    pub x: f64,
+    pixels: usize,
+    /// Sum of their columns.
+    columns: usize,
     /// Sums of their light and of its square.
     light: [(f64, f64); 3],
 }
@@ -46,12 +46,22 @@ impl Run {
     /// Adds the pixel in column `x`.
     #[inline]
     pub fn add(&mut self, x: usize, light: [f64; 3]) {
-        self.pixels += 1.0;
-        self.x += x as f64 + 0.5;
+        self.pixels += 1;
+        self.columns += x;
         for ((sum, squares), y) in self.light.iter_mut().zip(light) {
             *sum += y;
             *squares += y * y;
         }
+    }
+
+    /// How many pixels there are.
+    pub fn pixels(&self) -> f64 {
+        self.pixels as f64
+    }
+
+    /// Where their middle is, px; not a number if there are none.
+    pub fn x(&self) -> f64 {
+        self.columns as f64 / self.pixels() + 0.5
     }
 }
 
@@ -65,7 +75,7 @@ pub(super) struct Estimate {
 impl PixelSums {
     /// Adds pixels of weight `w` each, about (u, v).
     pub fn add(&mut self, w: f64, u: f64, v: f64, run: &Run) {
-        let sum = w * run.pixels;
+        let sum = w * run.pixels();
         self.w += sum;
         self.ww += w * sum;
         self.wu += sum * u;

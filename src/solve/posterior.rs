@@ -1,9 +1,10 @@
 //! The maximum of a Gaussian prior times a Gaussian likelihood of a nonlinear model, by Newton's method.
 //!
-//! Minimises `½|ρ(z)|² + ½(z − μ)ᵀΛ(z − μ)`. The Hessian `Λ + JᵀJ − Σ ρᵢ∇²mᵢ` is exact; where it is not positive the last term
-//! is left out (Gauss–Newton). The step is solved for itself, in the space of the unknowns: the smaller system in the
-//! space of the data (Tarantola, *Inverse Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a
-//! small difference of large vectors loses its digits once the data are a million times as large as their noise.
+//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. The Hessian
+//! `I + JᵀJ − Σ ρᵢ∇²mᵢ` is exact near the minimum; further off, and where it is not positive, the last term is left out
+//! (Gauss–Newton). The step is solved for itself, in the space of the unknowns: the system in the space of the data
+//! (Tarantola, *Inverse Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a small
+//! difference of large vectors loses its digits once the data are a million times as large as their noise.
 //!
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 3.1 and 10.3.
@@ -19,45 +20,31 @@ const NEAR: f64 = 1.0;
 /// Most halvings of a step.
 const HALVINGS: usize = 20;
 
-/// A model seen through data of known noise; each unknown enters on its own, so that second derivatives are diagonal.
+/// A model seen through data of known noise.
 pub trait Model {
-    /// Data minus model at `z`, in units of the noise.
-    fn residuals(&self, z: &DVector<f64>) -> DVector<f64>;
-    /// Residuals with derivatives.
-    fn linearise(&self, z: &DVector<f64>) -> Linearised;
+    /// Number of unknowns.
+    fn unknowns(&self) -> usize;
+    /// Data minus model at `w`, in units of the noise.
+    fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
+    /// Residuals with first derivatives.
+    fn linearise(&self, w: &DVector<f64>) -> Linearised;
+    /// `Σ ρᵢ∇²mᵢ` at `w`.
+    fn curvature(&self, w: &DVector<f64>) -> DMatrix<f64>;
 }
 
 /// A model about a point.
 pub struct Linearised {
     /// Residuals.
     pub residuals: DVector<f64>,
-    /// First derivatives of the model: residual by unknown.
+    /// Derivatives of the model: residual by unknown.
     pub jacobian: DMatrix<f64>,
-    /// `Σ ρᵢ ∂²mᵢ/∂z²` for each unknown.
-    pub curvature: DVector<f64>,
-}
-
-/// A Gaussian prior.
-#[derive(Clone, Debug)]
-pub struct Gaussian {
-    /// Mean μ.
-    pub mean: DVector<f64>,
-    /// Inverse covariance Λ.
-    pub precision: DMatrix<f64>,
-}
-
-impl Gaussian {
-    fn cost(&self, z: &DVector<f64>) -> f64 {
-        let off = z - &self.mean;
-        0.5 * off.dot(&(&self.precision * &off))
-    }
 }
 
 /// Where the iteration ended.
 pub struct Solution {
     /// The unknowns.
-    pub z: DVector<f64>,
-    /// Factor of `Λ + JᵀJ` there: the inverse of Laplace's covariance. None if the model was not finite.
+    pub w: DVector<f64>,
+    /// Factor of `I + JᵀJ` there: the inverse of Laplace's covariance. None if the model was not finite.
     pub information: Option<Cholesky<f64, Dyn>>,
     /// Iterations over all stages.
     pub iterations: u32,
@@ -70,14 +57,8 @@ pub struct Solution {
 /// `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise(
-    model: &impl Model,
-    prior: &Gaussian,
-    inflations: &[f64],
-    tolerance: f64,
-    limit: u32,
-) -> Solution {
-    let mut search = Search { model, prior, z: prior.mean.clone(), iterations: 0 };
+pub fn maximise(model: &impl Model, inflations: &[f64], tolerance: f64, limit: u32) -> Solution {
+    let mut search = Search { model, w: DVector::zeros(model.unknowns()), iterations: 0 };
     for inflation in inflations {
         for _ in 0..STEPS_A_STAGE {
             search.step(inflation.powi(-2));
@@ -95,15 +76,22 @@ pub fn maximise(
             break Termination::IterationLimit;
         }
     };
-    let at = model.linearise(&search.z);
-    let information = Cholesky::new(&prior.precision + at.jacobian.tr_mul(&at.jacobian));
-    Solution { z: search.z, information, iterations: search.iterations, termination }
+    let information = Cholesky::new(gauss_newton(&model.linearise(&search.w).jacobian, 1.0));
+    Solution { w: search.w, information, iterations: search.iterations, termination }
+}
+
+/// `I + weight·JᵀJ`.
+fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
+    let mut hessian = weight * jacobian.tr_mul(jacobian);
+    for i in 0..hessian.nrows() {
+        hessian[(i, i)] += 1.0;
+    }
+    hessian
 }
 
 struct Search<'a, M> {
     model: &'a M,
-    prior: &'a Gaussian,
-    z: DVector<f64>,
+    w: DVector<f64>,
     iterations: u32,
 }
 
@@ -112,41 +100,34 @@ impl<M: Model> Search<'_, M> {
     /// whether the cost fell.
     fn step(&mut self, weight: f64) -> (f64, bool) {
         self.iterations += 1;
-        let at = self.model.linearise(&self.z);
-        let descent =
-            weight * at.jacobian.tr_mul(&at.residuals) - &self.prior.precision * (&self.z - &self.prior.mean);
-        let Some((direction, decrement)) = self.direction(&at, weight, &descent) else {
-            return (f64::INFINITY, false);
-        };
-        let cost = |z: &DVector<f64>, residuals: &DVector<f64>| {
-            0.5 * weight * residuals.norm_squared() + self.prior.cost(z)
-        };
-        let before = cost(&self.z, &at.residuals);
+        let at = self.model.linearise(&self.w);
+        let Some((direction, decrement)) = self.direction(&at, weight) else { return (f64::INFINITY, false) };
+        let cost =
+            |w: &DVector<f64>, residuals: &DVector<f64>| weight * residuals.norm_squared() + w.norm_squared();
+        let before = cost(&self.w, &at.residuals);
         let next = std::iter::successors(Some(1.0), |length| Some(0.5 * length))
             .take(HALVINGS)
-            .map(|length| &self.z + length * &direction)
+            .map(|length| &self.w + length * &direction)
             .find(|next| cost(next, &self.model.residuals(next)) < before);
         let moved = next.is_some();
-        self.z = next.unwrap_or_else(|| self.z.clone());
+        self.w = next.unwrap_or_else(|| self.w.clone());
         (decrement, moved)
     }
 
     /// Gauss and Newton's direction, or near the minimum Newton's where the Hessian is positive; and the gradient's norm in
     /// the metric of that Hessian.
-    fn direction(&self, at: &Linearised, weight: f64, descent: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
-        let mut hessian = &self.prior.precision + weight * at.jacobian.tr_mul(&at.jacobian);
+    fn direction(&self, at: &Linearised, weight: f64) -> Option<(DVector<f64>, f64)> {
+        let descent = weight * at.jacobian.tr_mul(&at.residuals) - &self.w;
         let solve = |factor: Cholesky<f64, Dyn>| {
-            let direction = factor.solve(descent);
+            let direction = factor.solve(&descent);
             let decrement = descent.dot(&direction).max(0.0).sqrt();
             (direction, decrement)
         };
-        let gauss_newton = solve(Cholesky::new(hessian.clone())?);
-        if gauss_newton.1 > NEAR {
-            return Some(gauss_newton);
+        let hessian = gauss_newton(&at.jacobian, weight);
+        let first = solve(Cholesky::new(hessian.clone())?);
+        if first.1 > NEAR {
+            return Some(first);
         }
-        for (i, curvature) in at.curvature.iter().enumerate() {
-            hessian[(i, i)] -= weight * curvature;
-        }
-        Some(Cholesky::new(hessian).map_or(gauss_newton, solve))
+        Some(Cholesky::new(hessian - weight * self.model.curvature(&self.w)).map_or(first, solve))
     }
 }

@@ -138,6 +138,18 @@ impl Sample {
         self.fields.set("truth", truth)
     }
 
+    /// Residuals of the estimate in units of their expected size, if there is an estimate.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not a number.
+    pub fn residual_rms(&self) -> Result<Option<f64>> {
+        #[derive(Deserialize)]
+        struct Fit {
+            residual_rms: f64,
+        }
+        Ok(self.fields.get::<Fit>("estimate")?.map(|fit| fit.residual_rms))
+    }
+
     /// The estimate as a curve to draw; none if there is none.
     ///
     /// # Errors
