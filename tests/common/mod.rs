@@ -1,0 +1,44 @@
+//! A fresh folder in which shell lines run with the five tools first on PATH.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// The folder; it goes when the test ends.
+pub struct Workdir(TempDir);
+
+/// What a shell line left.
+#[derive(Debug)]
+pub struct Ended {
+    pub status: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Workdir {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    /// Runs a script with `sh -eu`.
+    pub fn sh(&self, script: &str) -> Ended {
+        let tools = Path::new(env!("CARGO_BIN_EXE_vkernel")).parent().unwrap();
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::iter::once(tools.to_owned()).chain(std::env::split_paths(&others));
+        let run = Command::new("sh")
+            .args(["-eu", "-c", script])
+            .current_dir(self.0.path())
+            .env("PATH", std::env::join_paths(path).unwrap())
+            .output();
+        Ended::from(run.unwrap())
+    }
+}
+
+impl From<Output> for Ended {
+    fn from(run: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        // a shell reports a child killed by a signal as 128 + signal; its own death has no status
+        Self { status: run.status.code().unwrap_or(-1), stdout: text(run.stdout), stderr: text(run.stderr) }
+    }
+}

@@ -1,0 +1,92 @@
+//! Numbers and names on the command line.
+
+use crate::{assert_refused, case};
+
+#[test]
+fn geometry() {
+    assert_refused(
+        "",
+        &[
+            case("vkernel --angle-deg 0", 2, &["--angle-deg", "above 0"]),
+            case("vkernel --angle-deg 180.5", 2, &["--angle-deg", "up to 180"]),
+            case("vkernel --angle-deg NaN", 2, &["--angle-deg", "NaN"]),
+            case("vkernel --angle-deg -10", 2, &["--angle-deg", "-10"]),
+            case("vkernel --angle-deg wide", 2, &["--angle-deg", "wide"]),
+            case("vkernel --panel 0x1", 2, &["--panel", "positive"]),
+            case("vkernel --panel 1", 2, &["--panel", "10x10"]),
+            case("vkernel --panel 1x1001", 2, &["--panel", "1000"]),
+            case("vkernel --panel infxinf", 2, &["--panel"]),
+            case("vkernel --facets 0x10", 2, &["--facets", "at least 1x1"]),
+            case("vkernel --facets 1000000x1000000", 2, &["--facets", "4.000e18 bytes"]),
+            case("vkernel --facets 99999999999999999x3", 2, &["--facets", "bytes"]),
+            case("vkernel --facets=-1x3", 2, &["--facets"]),
+            case("vkernel --mesh 7x10", 2, &["--mesh", "multiples"]),
+            case("vkernel --mesh fine", 2, &["--mesh", "auto"]),
+            case("vkernel --tolerance 0", 2, &["--tolerance", "1e-12"]),
+            case("vkernel --tolerance NaN", 2, &["--tolerance", "NaN"]),
+            case("vkernel --angle-deg 1 --tolerance 1e-12", 2, &["--tolerance", "unknowns"]),
+            case("vkernel --tilt-deg 22.5", 2, &["--tilt-deg", "shade"]),
+            case("vkernel --tilt-deg NaN", 2, &["--tilt-deg"]),
+            case("vkernel --slant-deg 90", 2, &["--slant-deg"]),
+            case("vkernel --sky -0.1", 2, &["--sky", "from 0"]),
+            case("vkernel --sky inf", 2, &["--sky"]),
+            case("vkernel --save kernel", 2, &["--save", "FIELD=FILE"]),
+            case("vkernel --save nothing=x.npy", 1, &["x.npy", "no record has the field", "--save"]),
+            case("vkernel --save kernel=no/such/K.npy", 1, &["no/such/K.npy"]),
+            case("vkernel -o no/such/folder", 1, &["no/such/folder"]),
+            case("vkernel -j none", 2, &["--threads"]),
+            case("vkernel -j 0", 2, &["--threads", "1024"]),
+            case("vkernel -j 1000000", 2, &["--threads", "1024"]),
+            case("vkernel surplus", 2, &["surplus"]),
+        ],
+    );
+}
+
+#[test]
+fn light_and_camera() {
+    assert_refused(
+        "vkernel --facets 1x1 -o scene.json",
+        &[
+            case("vforward scene.json", 2, &["--reflectance"]),
+            case("vforward missing.json --reflectance 0.5", 1, &["missing.json", "No such file"]),
+            case("vforward . --reflectance 0.5", 1, &[".", "directory"]),
+            case("vforward scene.json --reflectance 1.5", 1, &["1.5", "0..1"]),
+            case("vforward scene.json --reflectance -0.1", 2, &["-0"]),
+            case("vforward scene.json --reflectance NaN", 1, &["NaN"]),
+            case("vforward scene.json --reflectance cc24:rad", 1, &["cc24:rad", "cc24:red", "--list"]),
+            case("vforward scene.json --reflectance 0.5 --noise-sd -1", 2, &["--noise-sd", "0 or more"]),
+            case("vforward scene.json --reflectance 0.5 --noise-sd NaN", 2, &["--noise-sd"]),
+            case("vforward scene.json --reflectance 0.5 --photon-noise inf", 2, &["--photon-noise"]),
+            case("vforward scene.json --reflectance 0.5 --exposure 0", 2, &["--exposure", "above 0"]),
+            case("vforward scene.json --reflectance 0.5 --seed=-1", 2, &["--seed"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --camera cannon-5d-mark-ii",
+                1,
+                &["canon-5d-mark-ii"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --illuminant D66", 1, &["D66", "D65", "--list"]),
+            case("vforward scene.json --reflectance 0.5 --illuminant daylight:1", 1, &["4000..25000 K"]),
+            case("vforward scene.json --reflectance 0.5 --illuminant 0", 1, &["zero"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --wavelengths-nm 700:400:5",
+                2,
+                &["--wavelengths-nm"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --wavelengths-nm 400:700:1e-9", 2, &["larger step"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --wavelengths-nm 300:900:5",
+                1,
+                &["D65", "380..780 nm"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --reference-panel 2", 1, &["0..1"]),
+            case("vforward scene.json --reflectance 0.5 --render picture.bmp", 1, &["picture.bmp", ".exr"]),
+            case("vforward scene.json --reflectance 0.5 --render no/such.exr", 1, &["no/such.exr"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --render x.exr --render-size 0x9",
+                2,
+                &["--render-size"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --save facet_rgb=no/such.npy", 1, &["no/such.npy"]),
+        ],
+    );
+}

@@ -1,0 +1,60 @@
+//! Bad input gets one clear line and the right exit status: no panic, no file, no half line.
+
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod flags;
+mod photographs;
+mod spectra;
+mod streams;
+
+use common::Workdir;
+
+const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
+
+/// A shell line that must fail.
+struct Case {
+    script: &'static str,
+    status: i32,
+    /// What the error must say.
+    says: &'static [&'static str],
+}
+
+const fn case(script: &'static str, status: i32, says: &'static [&'static str]) -> Case {
+    Case { script, status, says }
+}
+
+/// Runs each case in one folder that `setup` has filled.
+fn assert_refused(setup: &str, cases: &[Case]) {
+    let folder = Workdir::new();
+    let ready = folder.sh(setup);
+    assert_eq!((ready.status, ready.stderr.as_str()), (0, ""), "{setup}");
+    let files = folder.sh("ls -A").stdout;
+    let failures: Vec<_> = cases.iter().filter_map(|case| refusal_fault(&folder, case, &files)).collect();
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+/// What is wrong with the way in which a case is refused, if anything.
+fn refusal_fault(folder: &Workdir, case: &Case, files: &str) -> Option<String> {
+    let run = folder.sh(case.script);
+    let fault =
+        |what: &str| Some(format!("{}\n    {what}: status {}: {}", case.script, run.status, run.stderr));
+    let by_tool = TOOLS.iter().any(|tool| run.stderr.starts_with(&format!("{tool}: ")));
+    if run.status != case.status {
+        return fault(&format!("exit status is not {}", case.status));
+    }
+    // clap says more than a line about an argument that it cannot parse
+    let by_clap = run.status == 2 && run.stderr.starts_with("error: ");
+    if !by_clap && (run.stderr.lines().count() != 1 || !by_tool) {
+        return fault("not one line that starts with the tool's name");
+    }
+    if let Some(word) = case.says.iter().find(|word| !run.stderr.contains(**word)) {
+        return fault(&format!("does not say '{word}'"));
+    }
+    if !run.stdout.is_empty() && !run.stdout.ends_with('\n') {
+        return fault("half a line on standard output");
+    }
+    (folder.sh("ls -A").stdout != *files).then(|| fault("leaves or takes a file")).flatten()
+}

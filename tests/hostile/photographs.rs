@@ -1,0 +1,105 @@
+//! Pictures and corners.
+
+use serde_json::Value;
+
+use crate::common::Workdir;
+use crate::{assert_refused, case};
+
+/// The copy of a photograph that [`photographs`] spoils.
+const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
+
+#[test]
+fn photographs() {
+    let setup = format!(
+        r#"
+        vkernel --angle-deg 50 --facets 2x2 -o scene.json
+        cp '{PHOTO}' photo.exr
+        echo 'this is no picture' > text.png
+        : > empty.tif
+        oiiotool photo.exr -d uint16 -o photo.tif
+        oiiotool photo.exr -d uint16 -o photo.png
+        oiiotool photo.exr -d uint8 -o photo.jpg
+        for photo in photo.exr photo.tif photo.png photo.jpg; do
+            head -c $(($(wc -c < $photo) / 2)) $photo > cut-$photo
+            head -c 20 $photo > begun-$photo
+        done
+        rm photo.tif photo.png photo.jpg
+        cat > extract <<'END'
+        photo=$1 corners=$2
+        shift 2
+        vextract $photo --panel0 "$corners" --scene scene.json --camera canon-5d-mark-ii "$@"
+END
+        cat > whole <<'END'
+        photo=$1
+        shift
+        sh extract $photo "332,462 345,77 122,12 104,442" "$@"
+END
+        "#
+    );
+    assert_refused(
+        &setup,
+        &[
+            case(
+                "sh extract photo.exr '332,462 345,77 104,442 122,12'",
+                2,
+                &["--panel0", "cross", "crease end 0"],
+            ),
+            case("sh extract photo.exr '332,462 345,77 122,12'", 2, &["--panel0", "3 corners instead of 4"]),
+            case("sh extract photo.exr '332,462 345,77 122,12 a,b'", 2, &["--panel0", "a,b"]),
+            case("sh extract photo.exr '332,462 345,77 122,12 NaN,442'", 2, &["--panel0", "corner 4"]),
+            case("sh extract photo.exr '332,462 345,77 345,77 104,442'", 2, &["--panel0", "same point"]),
+            case("sh extract photo.exr ''", 2, &["--panel0", "0 corners"]),
+            case("sh extract photo.exr '332,462 345,77 122,12 -4,442'", 1, &["outer end 0", "640 x 480 px"]),
+            case("sh extract photo.exr '332,462 345,77 122,12 104,900'", 1, &["outside the picture"]),
+            case("sh whole missing.exr", 1, &["missing.exr", "No such file"]),
+            case("sh whole .", 1, &["directory"]),
+            case("sh whole text.png", 1, &["text.png", "not a PNG, TIFF, JPEG or OpenEXR"]),
+            case("sh whole empty.tif", 1, &["empty.tif", "empty"]),
+            case("sh whole cut-photo.exr", 1, &["cut-photo.exr", "cut short"]),
+            case("sh whole cut-photo.tif", 1, &["cut-photo.tif", "cut short"]),
+            case("sh whole cut-photo.png", 1, &["cut-photo.png", "cut short"]),
+            case("sh whole cut-photo.jpg", 1, &["cut-photo.jpg", "ends too early"]),
+            case("sh whole begun-photo.exr", 1, &["begun-photo.exr", "cut short"]),
+            case("sh whole begun-photo.tif", 1, &["begun-photo.tif", "cut short"]),
+            case("sh whole begun-photo.png", 1, &["begun-photo.png", "cut short"]),
+            case("sh whole begun-photo.jpg", 1, &["begun-photo.jpg", "cut short"]),
+            case("sh whole photo.exr --margin -1", 2, &["--margin"]),
+            case("sh whole photo.exr --white-level 0", 2, &["--white-level", "black level"]),
+            case("sh whole photo.exr --exposure 0", 2, &["--exposure", "above 0"]),
+            case("sh whole photo.exr --transfer gamma", 2, &["--transfer", "srgb"]),
+            case(
+                "vextract photo.exr --scene scene.json --camera nikon-d510 --panel0 '0,0 9,0 9,9 0,9'",
+                1,
+                &["nikon-d5100"],
+            ),
+            case(
+                "vextract photo.exr --scene missing.json --camera 1 --panel0 '0,0 9,0 9,9 0,9'",
+                1,
+                &["missing.json"],
+            ),
+            case(
+                "vextract photo.exr --panel0 '332,462 345,77 122,12 104,442' < scene.json",
+                2,
+                &["--camera"],
+            ),
+            case("vextract photo.exr < scene.json", 2, &["--panel0"]),
+            case("vextract --panel0 '332,462 345,77 122,12 104,442' < scene.json", 2, &["IMAGE"]),
+        ],
+    );
+}
+
+/// In a batch a photograph that cannot be used does not stop the others.
+#[test]
+fn photographs_of_a_batch() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!(
+        "echo no picture > text.png
+        vkernel --angle-deg 50 --facets 2x2 | vextract '{PHOTO}' text.png missing.tif '{PHOTO}' \
+            --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442'"
+    ));
+    assert_eq!((run.status, run.stderr.as_str()), (3, ""));
+    let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let errors: Vec<_> = records.iter().map(|record| record["error"].as_str().unwrap_or_default()).collect();
+    assert_eq!((errors[0], errors[1], errors[4]), ("", "", ""));
+    assert!(errors[2].starts_with("text.png: ") && errors[3].starts_with("missing.tif: "), "{errors:?}");
+}

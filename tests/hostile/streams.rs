@@ -1,0 +1,99 @@
+//! Scenes and samples.
+
+use serde_json::Value;
+
+use crate::common::Workdir;
+use crate::{assert_refused, case};
+
+/// Lines that `sed` makes of a good scene and its sample.
+const STREAM: &str = "vkernel --angle-deg 50 --facets 2x2 --no-history |
+    vforward --reflectance 0.5 --wavelengths-nm 400:700:10 --no-history -o good.ndjson";
+
+#[test]
+fn streams() {
+    assert_refused(
+        STREAM,
+        &[
+            case("vestimate missing.ndjson", 1, &["missing.ndjson", "No such file"]),
+            case("echo hello | vestimate", 1, &["-:1", "not a JSON object"]),
+            case("echo '[1, 2]' | vscore", 1, &["-:1", "not a JSON object"]),
+            case("echo '{}' | vscore", 1, &["-:1", "'kind'"]),
+            case("echo | vestimate", 1, &["-:1", "not a JSON object"]),
+            case("head -c 400 good.ndjson | vestimate", 1, &["-:1", "cut"]),
+            case("head -c -9 good.ndjson | vestimate", 1, &["-:2", "cut"]),
+            case("head -c -1 good.ndjson | vestimate", 1, &["-:2", "cut"]),
+            case("tail -n 1 good.ndjson | vestimate", 1, &["-:1", "sample before any scene"]),
+            case("printf '\\0\\377\\n' | vestimate", 1, &["-:1", "not a JSON object"]),
+            case("yes '[' | head -n 200000 | tr -d '\\n' | sed '$a\\' | vscore", 1, &["-:1"]),
+            case("sed 's#vfold/1#vfold/2#' good.ndjson | vestimate", 1, &["-:1", "vfold/2", "vkernel"]),
+            case("sed 's#\"format\":#\"old\":#' good.ndjson | vestimate", 1, &["-:1", "'format'"]),
+            case("sed 's/\"poles\":\\[/&1.5,/' good.ndjson | vestimate", 1, &["-:1", "response"]),
+            case(
+                "sed 's/\"poles\":\\[[^,]*/\"poles\":[1.5/' good.ndjson | vestimate",
+                1,
+                &["poles", "(-1, 1)"],
+            ),
+            case(
+                "sed 's/\"poles\":\\[[^,]*/\"poles\":[-1/' good.ndjson | vestimate",
+                1,
+                &["poles", "(-1, 1)"],
+            ),
+            case(
+                "sed 's/\"residues\":\\[/&[1],/' good.ndjson | vestimate",
+                1,
+                &["response.residues", "facet"],
+            ),
+            case("sed 's/\"residues\":/\"rest\":/' good.ndjson | vestimate", 1, &["residues"]),
+            case(
+                "sed 's/\"angle_deg\":50/\"angle_deg\":0/' good.ndjson | vestimate",
+                1,
+                &["geometry", "180"],
+            ),
+            case("sed 's/\"rows\":2/\"rows\":1000000000/' good.ndjson | vestimate", 1, &["bytes"]),
+            case("sed 's/\"rows\":2/\"rows\":-2/' good.ndjson | vestimate", 1, &["facets"]),
+            case("sed 's/\"sky\":0/\"sky\":-1/' good.ndjson | vestimate", 1, &["light"]),
+            case("sed 's/\"wavelengths_nm\":\\[/&900,/' good.ndjson | vestimate", 1, &["-:1", "wavelength"]),
+            case("sed 's/\"power\":\\[/&1,/' good.ndjson | vestimate", 1, &["illuminants", "31 wavebands"]),
+            case("sed 's/\"camera\":/\"eye\":/' good.ndjson | vestimate", 1, &["camera", "missing"]),
+            case("vestimate good.ndjson --smoothness=-1", 2, &["--smoothness"]),
+            case("vestimate good.ndjson --start 1", 2, &["--start"]),
+            case("vestimate good.ndjson --noise-sd=-1", 2, &["--noise-sd"]),
+            case("vestimate good.ndjson --exposure 0", 2, &["--exposure"]),
+            case("vestimate good.ndjson --exposure loud", 2, &["--exposure", "free"]),
+            case("vestimate good.ndjson --prior munsel", 1, &["munsel", "munsell"]),
+            case("vestimate good.ndjson --plot no/such.svg", 1, &["no/such.svg"]),
+            case("vestimate good.ndjson --save nothing=x.npy", 1, &["x.npy", "--save"]),
+            case("vscore good.ndjson --truth cc25", 1, &["cc25", "cc24"]),
+            case("vscore good.ndjson --observer 5", 2, &["--observer", "2 or 10"]),
+        ],
+    );
+}
+
+/// A sample that cannot be used goes out with an error in its record, and the exit status is 3.
+#[test]
+fn samples() {
+    let folder = Workdir::new();
+    folder.sh(STREAM);
+    for (edit, says) in [
+        (r#"2s/"facet_rgb":\[/&[0.1,0.1,0.1],/"#, "9 facets, but the scene has 8"),
+        (r#"2s/"facet_rgb":\[\[/&0.1,/"#, "channels, but the scene's camera has 3"),
+        (
+            r#"2s/"facet_rgb":[^}]*]]/"facet_rgb":[null,null,null,null,null,null,null,null]/"#,
+            "no facet was measured",
+        ),
+        (r#"2s/\[\[0/[[-9/;2s/\],\[0/],[-9/g;2s/,0\.\([0-9]*\),/,-0.\1,/g"#, "no light in any facet"),
+        (
+            r#"2s/"facet_rgb":[^}]*]]/"facet_rgb":[[0,0,0],[0,0,0],[0,0,0],[0,0,0],null,null,null,null]/"#,
+            "no light",
+        ),
+        (r#"2s/"facet_rgb":/"facets":/"#, "missing; make it with vforward or vextract"),
+        (r#"2s/"facet_rgb":\[/"facet_rgb":["x",/"#, "facet_rgb"),
+        (r#"2s/"exposure":1.0/"exposure":"x"/"#, "exposure"),
+    ] {
+        let run = folder.sh(&format!("sed '{edit}' good.ndjson | vestimate"));
+        assert_eq!((run.status, run.stderr.as_str(), run.stdout.lines().count()), (3, "", 2), "{edit}");
+        let sample: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
+        let error = sample["error"].as_str().unwrap();
+        assert!(error.contains(says), "{edit}: {error}");
+    }
+}

@@ -1,0 +1,267 @@
+//! Laws that any fold, light and reflectance obey, whatever the code does to obey them.
+//!
+//! The dense solution of eq. (15) and the reference radiances check the poles and residues that replace it.
+
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::f64::consts::PI;
+use std::fs;
+
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use serde_json::Value;
+use vfold::camera::CameraResponse;
+use vfold::forward::{FacetModel, Lighting};
+use vfold::geometry::{FacetGrid, Fold, Light};
+use vfold::kernel::exact::FoldKernel;
+use vfold::kernel::mesh::{Mesh, respond};
+use vfold::response::{ModeLight, Response};
+use vfold::score::pearson_distance;
+use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant};
+
+/// Even light on both panels.
+const EVEN: ModeLight = ModeLight::Sun([1.0, 1.0]);
+
+/// Folds of a few facets, square to long, narrow to wide open.
+fn folds() -> impl Strategy<Value = Fold> {
+    (5.0..175.0, 0.2..5.0, 1_usize..6, 1_usize..6).prop_map(|(angle_deg, width, rows, cols)| {
+        Fold::new(angle_deg, width, 1.0, FacetGrid { rows, cols }).unwrap()
+    })
+}
+
+/// K of eq. (10), dense, facet order panel, row, column.
+fn matrix(fold: &Fold) -> DMatrix<f64> {
+    let kernel = FoldKernel::new(fold);
+    let facets = 2 * fold.facets().len();
+    let rows: Vec<_> = (0..facets).flat_map(|facet| kernel.matrix_row(facet)).collect();
+    DMatrix::from_row_slice(facets, facets, &rows)
+}
+
+/// Poles and residues of the fold with one flat patch a facet.
+fn response(fold: &Fold) -> Response {
+    respond(fold, Mesh::Facets, 1e-12).unwrap().0
+}
+
+/// Irradiance of all facets of both panels, from poles and residues; `light` as panel 0 sees it.
+fn irradiance(response: &Response, light: ModeLight, r0: f64, r1: f64) -> DVector<f64> {
+    let facets = response.facets();
+    let mirrored = match light {
+        ModeLight::Sun([own, other]) => ModeLight::Sun([other, own]),
+        sky @ ModeLight::Sky(_) => sky,
+    };
+    let of = |facet: usize| match facet / facets {
+        0 => response.irradiance(facet, light, r0, r1),
+        _ => response.irradiance(facet - facets, mirrored, r1, r0),
+    };
+    DVector::from_fn(2 * facets, |facet, _| of(facet))
+}
+
+/// The same by solving eq. (15) as it stands.
+fn dense_irradiance(k: &DMatrix<f64>, direct: &DVector<f64>, r0: f64, r1: f64) -> DVector<f64> {
+    let half = k.nrows() / 2;
+    let r = DVector::from_fn(k.nrows(), |facet, _| if facet < half { r0 } else { r1 });
+    let system = DMatrix::identity(k.nrows(), k.nrows()) - k * DMatrix::from_diagonal(&r);
+    system.lu().solve(direct).unwrap()
+}
+
+fn worst_relative(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+}
+
+proptest! {
+    /// Paper appendix A rests on this: no facet hands on more light than it has, and none takes any away.
+    #[test]
+    fn a_facet_hands_on_less_than_it_has(fold in folds()) {
+        let k = matrix(&fold);
+        prop_assert!(k.iter().all(|factor| (0.0..1.0).contains(factor)));
+        for (facet, row) in k.row_iter().enumerate() {
+            prop_assert!(row.sum() > 0.0 && row.sum() < 1.0, "facet {facet}: {}", row.sum());
+        }
+    }
+
+    /// What reaches a facet is what reaches its parts, and a facet's own light is the mean of its parts' light.
+    #[test]
+    fn parts_of_facets_exchange_what_the_facets_do(fold in folds(), split in 2_usize..4) {
+        let FacetGrid { rows, cols } = fold.facets();
+        let coarse = FoldKernel::new(&fold);
+        let fine = FoldKernel::new(&fold.with_facets(FacetGrid { rows: split * rows, cols: split * cols }).unwrap());
+        for (i, j, k) in (0..rows * rows * cols).map(|n| (n / cols / rows, n / cols % rows, n % cols)) {
+            let parts = |n: usize| split * n..split * (n + 1);
+            let mut sum = 0.0;
+            for (from_row, to_row) in parts(i).flat_map(|from| parts(j).map(move |to| (from, to))) {
+                for (from, to) in parts(0).flat_map(|from| parts(k).map(move |to| (from, to))) {
+                    sum += fine.form_factor(from_row, to_row, from.abs_diff(to));
+                }
+            }
+            let whole = coarse.form_factor(i, j, k);
+            prop_assert!((sum / (split * split) as f64 - whole).abs() < 1e-13, "rows {i} {j}, shift {k}");
+        }
+    }
+
+    /// All facets of a fold are of one size, so K is its own transpose.
+    #[test]
+    fn exchange_is_mutual(fold in folds()) {
+        let k = matrix(&fold);
+        prop_assert!((&k - k.transpose()).amax() < 1e-15);
+    }
+
+    #[test]
+    fn only_the_shape_matters(fold in folds(), scale in 1e-3..1e3) {
+        let (width, depth) = (scale * fold.width(), scale * fold.depth());
+        let scaled = Fold::new(fold.angle_deg(), width, depth, fold.facets()).unwrap();
+        let [a, b] = [&fold, &scaled].map(|fold| irradiance(&response(fold), EVEN, 0.8, 0.8));
+        prop_assert!(worst_relative(&a, &b) < 1e-11);
+    }
+
+    /// Two panels of any two reflectances under a sun anywhere between them.
+    #[test]
+    fn poles_and_residues_solve_the_dense_system(
+        fold in folds(), lean in -0.9..0.9, r0 in 0.0..=1.0, r1 in 0.0..=1.0,
+    ) {
+        let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, 0.0).unwrap();
+        let sun = light.panel_irradiance();
+        let half = fold.facets().len();
+        let direct = DVector::from_fn(2 * half, |facet, _| sun[facet / half]);
+        let dense = dense_irradiance(&matrix(&fold), &direct, r0, r1);
+        let short = irradiance(&response(&fold), ModeLight::Sun(sun), r0, r1);
+        prop_assert!(worst_relative(&short, &dense) < 1e-10, "{}", worst_relative(&short, &dense));
+    }
+
+    /// Each facet sees the sky that the other panel does not hide: its share is one less its row of K.
+    #[test]
+    fn a_sky_lights_what_the_other_panel_leaves_open(fold in folds(), r in 0.0..=1.0) {
+        let k = matrix(&fold);
+        let open = k.column_sum().map(|sum| 1.0 - sum);
+        let dense = dense_irradiance(&k, &(0.3 * open), r, r);
+        let short = irradiance(&response(&fold), ModeLight::Sky(0.3), r, r);
+        prop_assert!(worst_relative(&short, &dense) < 1e-9, "{}", worst_relative(&short, &dense));
+    }
+
+    /// A sheet inside a uniform sky that reflects everything is as bright as the sky, wherever one looks: the white
+    /// furnace. The sun is left out.
+    #[test]
+    fn a_white_fold_in_a_sky_disappears(fold in folds()) {
+        let lit = irradiance(&response(&fold), ModeLight::Sky(1.0), 1.0, 1.0);
+        prop_assert!(lit.iter().all(|e| (e - 1.0).abs() < 1e-10), "{lit}");
+    }
+
+    /// Light absorbed and light that leaves the fold are the light received.
+    #[test]
+    fn no_light_is_lost_or_gained(fold in folds(), sun in (0.1..1.0, 0.1..1.0), r0 in 0.0..=1.0, r1 in 0.0..=1.0) {
+        let k = matrix(&fold);
+        let half = fold.facets().len();
+        let lit = irradiance(&response(&fold), ModeLight::Sun([sun.0, sun.1]), r0, r1);
+        let r = |facet: usize| if facet < half { r0 } else { r1 };
+        let absorbed: f64 = lit.iter().enumerate().map(|(facet, e)| (1.0 - r(facet)) * e).sum();
+        let leaving: f64 =
+            lit.iter().enumerate().map(|(facet, e)| r(facet) * e * (1.0 - k.row(facet).sum())).sum();
+        let received = half as f64 * (sun.0 + sun.1);
+        prop_assert!((absorbed + leaving - received).abs() < 1e-10 * received);
+    }
+
+    /// Eq. (14): every bounce adds light, and what n bounces leave out shrinks as the largest row sum to the n.
+    #[test]
+    fn bounce_after_bounce_approaches_the_response(fold in folds(), r in 0.05_f64..=1.0) {
+        let k: DMatrix<f64> = r * matrix(&fold);
+        let most = k.column_sum().max();
+        let whole = irradiance(&response(&fold), EVEN, r, r);
+        let (mut bounce, mut sum) = (DVector::from_element(k.nrows(), 1.0), DVector::zeros(k.nrows()));
+        for n in 1..=12 {
+            sum += &bounce;
+            bounce = &k * bounce;
+            prop_assert!(bounce.iter().all(|light| *light > 0.0));
+            let rest = (&whole - &sum).amax();
+            prop_assert!(rest <= most.powi(n) / (1.0 - most) * (1.0 + 1e-9) + 1e-10, "{n} bounces: {rest}");
+        }
+    }
+
+    #[test]
+    fn a_lighter_sheet_is_brighter(fold in folds(), darker in 0.0..1.0, step in 1e-3..1.0) {
+        let response = response(&fold);
+        let radiance = |r: f64| irradiance(&response, EVEN, r, r) * r;
+        let lighter = f64::min(darker + step, 1.0);
+        prop_assume!(lighter > darker);
+        let (dark, light) = (radiance(darker), radiance(lighter));
+        prop_assert!(dark.iter().zip(&light).all(|(dark, light)| dark < light));
+    }
+
+    /// A light along the bisecting plane lights both panels by the sine of half the angle.
+    #[test]
+    fn no_tilt_is_the_bisector(fold in folds()) {
+        let [e0, e1] = Light::new(&fold, 0.0, 0.0, 0.0).unwrap().panel_irradiance();
+        let half = 0.5 * fold.angle_deg().to_radians();
+        prop_assert!((e0 - half.sin()).abs() < 1e-15 && (e1 - half.sin()).abs() < 1e-15);
+    }
+
+    /// What the camera sees of sun and sky together is what it sees of each: the second helping of sky adds as much as
+    /// the first.
+    #[test]
+    fn sun_and_sky_superpose(fold in folds(), sky in 0.01..2.0, r in 0.0..=1.0, lean in -0.9..0.9) {
+        let response = response(&fold);
+        let rgb = |sky: f64| {
+            let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
+            FacetModel::one_sheet(&response, &lighting(light)).facet_rgb(&[r; 31])
+        };
+        let (none, one, two) = (rgb(0.0), rgb(sky), rgb(2.0 * sky));
+        prop_assert!((two - &one * 2.0 + none).amax() < 1e-12 * one.amax().max(1.0));
+    }
+
+    #[test]
+    fn a_black_sheet_is_dark(fold in folds(), sky in 0.0..2.0) {
+        let light = Light::new(&fold, 0.0, 0.0, sky).unwrap();
+        let rgb = FacetModel::one_sheet(&response(&fold), &lighting(light)).facet_rgb(&[0.0; 31]);
+        prop_assert!(rgb.iter().all(|value| *value == 0.0));
+    }
+
+    /// Eq. (38) has no means in it: greys are alike, and a spectrum is like any multiple of itself.
+    #[test]
+    fn pearson_distance_sees_no_scale(spectrum in prop::collection::vec(0.01..1.0, 5), scale in 0.1..10.0) {
+        let scaled: Vec<_> = spectrum.iter().map(|r| scale * r).collect();
+        prop_assert!(pearson_distance(&spectrum, &scaled) < 1e-14);
+        prop_assert!(pearson_distance(&[0.2; 5], &[scale; 5]) < 1e-14);
+    }
+}
+
+/// A camera in daylight, with a bluer sky, on 31 wavebands.
+fn lighting(light: Light) -> Lighting {
+    let grid = WavelengthGrid::uniform(400.0, 700.0, 10.0).unwrap();
+    let power = |spec: &str| illuminant(spec).unwrap().on(&grid, Outside::Refuse).unwrap();
+    let channels = camera("canon-5d-mark-ii").unwrap().channels;
+    let sensitivities: Vec<_> =
+        channels.iter().map(|channel| channel.on(&grid, Outside::Zero).unwrap()).collect();
+    let sun = CameraResponse::new(&grid, &sensitivities, &power("D65")).unwrap();
+    let sky = sun.to_other_light(&grid, &sensitivities, &power("daylight:10000")).unwrap();
+    Lighting { light, sun, sky }
+}
+
+/// Flat and facing the sun, a perfect white diffuser gives 1 in the camera's strongest channel; a sky adds its share.
+#[test]
+fn white_facing_the_sun_is_one() {
+    let flat = Fold::new(180.0, 1.0, 1.0, FacetGrid { rows: 2, cols: 2 }).unwrap();
+    for (sky, want) in [(0.0, 1.0), (0.25, 1.25)] {
+        let light = Light::new(&flat, 0.0, 0.0, sky).unwrap();
+        let rgb = FacetModel::one_sheet(&response(&flat), &lighting(light)).facet_rgb(&[1.0; 31]);
+        assert!(rgb.row_iter().all(|facet| (facet.max() - want).abs() < 1e-14), "{rgb}");
+    }
+}
+
+/// Radiances of folds under even light, solved with exact form factors by LU in double precision elsewhere.
+#[test]
+fn reference_radiances() {
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/reference/radiance.json"));
+    let reference: Value = serde_json::from_str(&text.unwrap()).unwrap();
+    for system in reference["systems"].as_array().unwrap() {
+        let (angle_deg, n) = (system["theta_deg"].as_f64().unwrap(), system["nx"].as_u64().unwrap() as usize);
+        let fold = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: n, cols: n }).unwrap();
+        let response = response(&fold);
+        for known in system["radiance"].as_array().unwrap() {
+            let r = known["r"].as_f64().unwrap();
+            for (row, col) in (0..n).flat_map(|row| (0..n / 2).map(move |col| (row, col))) {
+                let want = known["L"][row][col].as_f64().unwrap();
+                let got = r / PI * response.irradiance(row * n + col, EVEN, r, r);
+                assert!((got / want - 1.0).abs() < 1e-11, "{angle_deg}° r {r} ({row}, {col}): {got} {want}");
+            }
+        }
+    }
+}

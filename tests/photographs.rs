@@ -1,0 +1,165 @@
+//! Rendered photographs with known answers through the tools: fold and light from the sidecar, facets, spectrum, score.
+//!
+//! All of `../shared/photos` where that folder is there, else the copies under `tests/data/photos`. The table is printed
+//! with `cargo test --test photographs -- --nocapture`.
+
+// a test stops at the first surprise, and prints what it measured
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::Workdir;
+use serde_json::Value;
+
+const COPIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
+const ALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos");
+
+/// What a picture must reach: facet means, percent rms; RMSE and CIEDE2000 with the exposure known and with it free.
+/// Scores are half as large again as measured.
+struct Bounds {
+    picture: &'static str,
+    facets_percent: f64,
+    known: [f64; 2],
+    free: [f64; 2],
+}
+
+#[rustfmt::skip]
+const BOUNDS: [Bounds; 6] = [
+    Bounds { picture: "a", facets_percent: 0.2, known: [0.0114, 0.046], free: [0.0119, 0.106] },
+    Bounds { picture: "b", facets_percent: 0.5, known: [0.0315, 0.407], free: [0.0181, 0.678] },
+    Bounds { picture: "c", facets_percent: 0.5, known: [0.0373, 0.372], free: [0.0366, 0.584] },
+    Bounds { picture: "d", facets_percent: 0.5, known: [0.0181, 0.778], free: [0.0188, 0.728] },
+    Bounds { picture: "e", facets_percent: 0.5, known: [0.0253, 0.261], free: [0.0324, 0.584] },
+    Bounds { picture: "g", facets_percent: 0.5, known: [0.0053, 0.078], free: [0.0054, 0.083] },
+];
+
+/// What was measured in one picture.
+struct Measured {
+    name: String,
+    facets_percent: f64,
+    known: [f64; 2],
+    free: [f64; 2],
+}
+
+#[test]
+fn photographs_give_their_spectra() {
+    println!(
+        "picture                           facets rms %   RMSE  CIEDE2000   exposure free: RMSE  CIEDE2000"
+    );
+    for sidecar in sidecars() {
+        let m = measure(&sidecar);
+        let bounds = BOUNDS.iter().find(|bounds| m.name.starts_with(bounds.picture));
+        let note =
+            if bounds.is_some() { "" } else { "  its maker's white balance and matrix are not undone" };
+        let ([rmse, delta_e], [free_rmse, free_delta_e]) = (m.known, m.free);
+        println!(
+            "{:<34}{:>12.3}{rmse:>8.4}{delta_e:>10.3}{free_rmse:>21.4}{free_delta_e:>11.3}{note}",
+            m.name, m.facets_percent
+        );
+        let Some(bounds) = bounds else { continue };
+        assert!(m.facets_percent < bounds.facets_percent, "{}: facets", m.name);
+        for (scores, limits) in [(m.known, bounds.known), (m.free, bounds.free)] {
+            assert!(scores.iter().zip(limits).all(|(score, limit)| *score < limit), "{}: {scores:?}", m.name);
+        }
+    }
+}
+
+/// The sidecars of all pictures that the tools read.
+fn sidecars() -> Vec<PathBuf> {
+    let folder = if Path::new(ALL).exists() { ALL } else { COPIES };
+    if folder == COPIES {
+        println!("left out: the photographs of {ALL}, which is not there");
+    }
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths
+        .retain(|path| path.extension().is_some_and(|e| e == "json") && !path.with_extension("dng").exists());
+    paths.sort();
+    paths
+}
+
+fn measure(path: &Path) -> Measured {
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let photo = path.with_file_name(text(&sidecar["file"]));
+    let run = Workdir::new().sh(&script(&sidecar, &photo));
+    assert!(run.status == 0 && run.stderr.is_empty(), "{}: {}", photo.display(), run.stderr);
+    let samples: Vec<Value> =
+        run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).filter(is_sample).collect();
+    let [known, free] = [0, 1].map(|n| {
+        let metrics = &samples[n]["metrics"];
+        ["rmse", "ciede2000"].map(|score| number(&metrics[score]))
+    });
+    let facets_percent = facets_percent(&samples[0], &sidecar["facet_mean_rgb_10x10"]);
+    Measured { name: text(&sidecar["name"]).to_owned(), facets_percent, known, free }
+}
+
+/// The pipeline that a user would type who knows what the sidecar knows.
+fn script(sidecar: &Value, photo: &Path) -> String {
+    let ambient = number(&sidecar["ambient_fraction"]);
+    let (angle, tilt, sky) = (&sidecar["angle_deg"], &sidecar["light_tilt_deg"], ambient / (1.0 - ambient));
+    let camera = match text(&sidecar["camera"]) {
+        "Canon EOS 5D Mark II" => "canon-5d-mark-ii",
+        "Nikon 5100 (NPL)" => "nikon-d5100",
+        other => panic!("the sidecar names another camera: {other}"),
+    };
+    let illuminant = text(&sidecar["illuminant"]);
+    let sky_illuminant = if ambient > 0.0 { "--sky-illuminant daylight:8000" } else { "" };
+    let [panel0, panel1] = ["A", "B"].map(|panel| corners(&sidecar["panels_px"][panel]));
+    let exposure = sidecar["white_rgb"].as_array().unwrap().iter().map(number).fold(0.0, f64::max);
+    let truth = csv(sidecar, "reflectance");
+    let (card, reference) = match sidecar.get("card_reflectance") {
+        Some(_) => (csv(sidecar, "card_reflectance"), "--reference-panel card.csv"),
+        None => (String::new(), ""),
+    };
+    format!(
+        r#"
+cat > truth.csv <<END
+{truth}END
+cat > card.csv <<END
+{card}END
+vkernel --angle-deg {angle} --tilt-deg {tilt} --sky {sky} -o scene.json
+vextract "{photo}" --scene scene.json --camera {camera} --illuminant {illuminant} {sky_illuminant} \
+    --panel0 "{panel0}" --panel1 "{panel1}" --exposure {exposure} -o sample.ndjson
+vestimate -q sample.ndjson {reference} | vscore --truth truth.csv
+vestimate -q sample.ndjson {reference} --exposure free | vscore --truth truth.csv
+"#,
+        photo = photo.display()
+    )
+}
+
+/// Corners in the order of the command line.
+fn corners(panel: &Value) -> String {
+    let ends = ["crease_0", "crease_1", "outer_1", "outer_0"];
+    ends.map(|end| format!("{},{}", panel[end][0], panel[end][1])).join(" ")
+}
+
+/// A spectrum of the sidecar as a table.
+fn csv(sidecar: &Value, spectrum: &str) -> String {
+    let (nm, values) = (sidecar["wavelengths_nm"].as_array().unwrap(), sidecar[spectrum].as_array().unwrap());
+    let rows = nm.iter().zip(values).map(|(nm, value)| format!("{nm},{value}\n"));
+    std::iter::once("wavelength,sheet\n".to_owned()).chain(rows).collect()
+}
+
+/// Relative rms error of the facets in their strongest channel, percent.
+fn facets_percent(sample: &Value, truth: &Value) -> f64 {
+    let facets =
+        (0..200).map(|k| (&sample["facet_rgb"][k], &truth[["A", "B"][k / 100]][k / 10 % 10][k % 10]));
+    let total = |channel: usize| facets.clone().map(|(_, truth)| number(&truth[channel])).sum::<f64>();
+    let strongest = (0..3).max_by(|a, b| total(*a).total_cmp(&total(*b))).unwrap();
+    let error = |(got, want): (&Value, &Value)| number(&got[strongest]) / number(&want[strongest]) - 1.0;
+    100.0 * (facets.map(|facet| error(facet).powi(2)).sum::<f64>() / 200.0).sqrt()
+}
+
+fn is_sample(record: &Value) -> bool {
+    record["kind"] == "sample"
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap()
+}
