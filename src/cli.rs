@@ -8,8 +8,8 @@ use clap::{Args, Parser, ValueEnum};
 
 use crate::error::{Error, Result};
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{self, Outside, WavelengthGrid};
-use crate::stream::{CameraRecord, Output, SpectrumRecord};
+use crate::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
 
 /// Flags that all tools have.
 #[derive(Args, Clone, Debug)]
@@ -177,32 +177,41 @@ fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {
 }
 
 impl OpticsArgs {
-    /// The camera of this name or file on the wavelengths; it sees nothing where it was not measured.
+    /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera sees nothing where it
+    /// was not measured.
     ///
     /// # Errors
-    /// As [`spectrum::camera`].
-    pub fn camera(&self, spec: &str) -> Result<CameraRecord> {
-        let camera = spectrum::camera(spec)?;
-        let on_grid = |channel: &spectrum::Spectrum| channel.on(&self.wavelengths_nm, Outside::Zero);
-        Ok(CameraRecord {
-            name: camera.name.clone(),
-            channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
-            sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
+    /// As [`spectrum::camera`] and [`spectrum::illuminant`], or if an illuminant does not cover the wavelengths.
+    pub fn resolve(&self, camera: &str) -> Result<Optics> {
+        let grid = self.wavelengths_nm.clone();
+        let camera = spectrum::camera(camera)?;
+        let on_grid = |channel: &Spectrum| channel.on(&grid, Outside::Zero);
+        let light = |spec: &String| {
+            let spectrum = spectrum::illuminant(spec)?;
+            let power = spectrum.on(&grid, Outside::Refuse)?;
+            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power })
+        };
+        Ok(Optics {
+            camera: CameraRecord {
+                name: camera.name.clone(),
+                channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
+                sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
+            },
+            illuminant: light(&self.illuminant)?,
+            sky: self.sky_illuminant.as_ref().map(light).transpose()?,
+            grid,
         })
     }
+}
 
-    /// The sun's spectrum, and the sky's if it has one of its own.
-    ///
-    /// # Errors
-    /// As [`spectrum::illuminant`], or if a spectrum does not cover the wavelengths.
-    pub fn illuminants(&self) -> Result<(SpectrumRecord, Option<SpectrumRecord>)> {
-        let record = |spec: &String| {
-            let spectrum = spectrum::illuminant(spec)?;
-            Ok(SpectrumRecord {
-                name: spectrum.name().to_owned(),
-                power: spectrum.on(&self.wavelengths_nm, Outside::Refuse)?,
-            })
-        };
-        Ok((record(&self.illuminant)?, self.sky_illuminant.as_ref().map(record).transpose()?))
+/// The one reflectance that a flag names.
+///
+/// # Errors
+/// As [`spectrum::reflectances`], or [`Error::Usage`] if it is a set.
+pub fn one_reflectance(flag: &'static str, spec: &str) -> Result<Spectrum> {
+    let mut spectra = spectrum::reflectances(spec)?;
+    match (spectra.pop(), spectra.is_empty()) {
+        (Some(spectrum), true) => Ok(spectrum),
+        _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
     }
 }

@@ -44,6 +44,16 @@ pub enum Error {
         /// What to do.
         remedy: String,
     },
+    /// What is wrong with a record of a stream.
+    #[error("{path}:{line}: {source}")]
+    Located {
+        /// The stream's file, `-` for standard input.
+        path: String,
+        /// Line number, from 1.
+        line: usize,
+        /// What is wrong, and what to do.
+        source: Box<Self>,
+    },
     /// A record lacks a field, or the field does not hold what it should.
     #[error("field '{field}': {problem}")]
     Field {
@@ -135,6 +145,7 @@ impl Error {
     pub fn exit_status(&self) -> u8 {
         match self {
             Self::Usage { .. } => 2,
+            Self::Located { source, .. } => source.exit_status(),
             _ => 1,
         }
     }

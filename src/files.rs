@@ -29,7 +29,8 @@ impl Saved {
         // Temporary files are private by default; a result is for whom the umask allows.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder).map_err(|e| Error::file(path.display(), e))?;
+        // The error names the temporary file, which nobody asked for: its kind says what is wrong.
+        let file = builder.tempfile_in(folder).map_err(|e| Error::file(path.display(), e.kind().into()))?;
         Ok(Self { file, path: path.to_owned() })
     }
 

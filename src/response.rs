@@ -93,6 +93,13 @@ impl Response {
         if !poles.iter().all(|g| g.abs() < 1.0) {
             return Err(Error::field("response.poles", "a pole outside (-1, 1): the bounces would not end"));
         }
+        // Without a bounce, even light is even.
+        if !residues.chunks_exact(poles.len()).all(|facet| (facet.iter().sum::<f64>() - 1.0).abs() < 1e-3) {
+            return Err(Error::field(
+                "response.residues",
+                "those of a facet do not add up to 1: make the scene again",
+            ));
+        }
         Ok(Self { poles, residues })
     }
 

@@ -42,13 +42,13 @@ struct Args {
     #[arg(long, value_name = "SPEC|smooth|none", default_value = "munsell")]
     prior: String,
     /// Weight of the squared second differences of the spectrum, for --prior smooth [default: 1e-5]
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     smoothness: Option<f64>,
     /// Standard deviation of every facet, or what the samples say
-    #[arg(long, value_name = "X|auto", default_value = "auto", value_parser = noise_sd)]
+    #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = noise_sd)]
     noise_sd: NoiseSd,
     /// Error of the model, relative to a facet's value [default: 1e-3 for photographs, 0 for computed facets]
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
     /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
     #[arg(long, value_name = "X|free|sum", value_parser = exposure)]
@@ -145,6 +145,9 @@ fn method(args: &Args) -> Result<Method> {
             "give a reflectance",
         ));
     }
+    if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
+        return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
+    }
     Ok(match args.prior.as_str() {
         "smooth" => Method::Smooth(smoothness),
         "none" => Method::Smooth(0.0),
@@ -158,14 +161,7 @@ impl Transform for Estimator<'_> {
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         let grid = scene.grid()?;
         if let Some(spec) = &self.args.reference_panel {
-            let card = spectrum::reflectances(spec)?;
-            let [card] = card.as_slice() else {
-                return Err(Error::usage(
-                    "--reference-panel",
-                    format!("'{spec}' is a set"),
-                    "name one member",
-                ));
-            };
+            let card = cli::one_reflectance("--reference-panel", spec)?;
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
         }
@@ -223,6 +219,14 @@ impl Estimator<'_> {
     /// How far each facet may be off: its noise, and what the model leaves out.
     fn deviations(&self, rgb: &Colours, sample: &Sample) -> Result<Colours> {
         let said = sample.facet_sd()?;
+        if let Some(said) = &said
+            && said.len() != rgb.len()
+        {
+            return Err(Error::field(
+                "facet_sd",
+                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
+            ));
+        }
         let model_error = match self.args.model_error {
             Some(error) => error,
             None if sample.is_photograph()? => MODEL_ERROR,

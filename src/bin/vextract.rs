@@ -8,7 +8,7 @@ use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
 use vfold::geometry::FacetGrid;
 use vfold::image::{Homography, PANEL_CORNERS, Photograph, ReadOptions, Transfer, measure, parse_corners};
 use vfold::spectrum;
-use vfold::stream::{ImageRecord, Output, Reader, Record, Sample, Scene};
+use vfold::stream::{ImageRecord, Output, Reader, Record, Sample};
 use vfold::{Error, Result};
 
 /// Measure the facets of a folded sheet in photographs
@@ -89,8 +89,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         });
     };
     let first = open(args, &args.images[0]);
-    equip(args, &mut scene, first.as_ref().ok())
-        .map_err(|e| if args.images.len() == 1 { e } else { reader.at(&e) })?;
+    if let Some(camera) = camera(args, first.as_ref().ok())? {
+        scene.set_optics(&args.optics.resolve(camera)?)?;
+    }
+    if !args.common.no_history {
+        scene.fields.add_history("vextract")?;
+    }
     let grid = scene.fold()?.facets();
     let id = scene.id()?;
     let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| open(args, path)));
@@ -118,11 +122,19 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
 
 fn panels(args: &Args) -> Result<Vec<Homography>> {
     let given = [("--panel0", &args.panel0), ("--panel1", &args.panel1)];
-    given
+    let panels: Vec<Homography> = given
         .into_iter()
         .filter_map(|(flag, text)| text.as_ref().map(|text| (flag, text)))
         .map(|(flag, text)| Homography::from_unit_square(parse_corners(flag, text, &PANEL_CORNERS)?))
-        .collect()
+        .collect::<Result<_>>()?;
+    if let [panel0, panel1] = panels.as_slice() {
+        let (u, v) = panel0.to_panel(panel1.to_image(0.5, 0.5));
+        if (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
+            let problem = "the middle of panel 1 lies inside panel 0";
+            return Err(Error::usage("--panel1", problem, "the panels meet at the crease and nowhere else"));
+        }
+    }
+    Ok(panels)
 }
 
 fn check(args: &Args) -> Result<()> {
@@ -153,32 +165,24 @@ fn open(args: &Args, path: &Path) -> Result<Photograph> {
     )
 }
 
-/// Adds camera and light to the scene: the camera that was named, or the one that the first photograph names.
-fn equip(args: &Args, scene: &mut Scene, first: Option<&Photograph>) -> Result<()> {
-    let by_exif = || {
-        let info = first?.info();
-        spectrum::camera_by_exif(info.make.as_deref()?, info.model.as_deref()?)
-    };
-    match args.camera.as_deref().or_else(by_exif) {
-        Some(camera) => {
-            let (illuminant, sky) = args.optics.illuminants()?;
-            scene.set_optics(
-                &args.optics.wavelengths_nm,
-                &args.optics.camera(camera)?,
-                &illuminant,
-                sky.as_ref(),
-            )?;
-        }
-        None if first.is_none() => {}
-        None => {
-            return Err(Error::usage(
-                "--camera",
-                "the photograph does not name a camera whose sensitivities are known",
-                "name one (--list cameras) or give a CSV file",
-            ));
-        }
+/// The camera that was named, or the one that the first photograph names; none only if that cannot be read.
+fn camera<'a>(args: &'a Args, first: Option<&Photograph>) -> Result<Option<&'a str>> {
+    if let Some(camera) = &args.camera {
+        return Ok(Some(camera));
     }
-    if args.common.no_history { Ok(()) } else { scene.fields.add_history("vextract") }
+    let Some(info) = first.map(Photograph::info) else { return Ok(None) };
+    let (make, model) = (info.make.as_deref().unwrap_or(""), info.model.as_deref().unwrap_or(""));
+    match spectrum::camera_by_exif(make, model) {
+        Some(camera) => Ok(Some(camera)),
+        None => Err(Error::usage(
+            "--camera",
+            match (make, model) {
+                ("", "") => "the photograph names no camera".to_owned(),
+                _ => format!("the photograph names '{make} {model}', whose sensitivities are not known"),
+            },
+            "name one (--list cameras) or give a CSV file",
+        )),
+    }
 }
 
 fn sample(
@@ -197,6 +201,10 @@ fn sample(
         let transfer = photograph.info().transfer_used.name();
         let text = format!("{transfer} curve, {clipped} clipped and {not_finite} non-finite pixels left out");
         cli::say("vextract", &format!("{}: {text}", path.display()));
+    }
+    if facets.iter().all(|facet| facet.mean.is_none()) {
+        let remedy = "check --panel0, --panel1, --margin and the white level";
+        return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
     }
     let mut sample = Sample::new(scene, &name(path))?;
     sample.set_photograph(

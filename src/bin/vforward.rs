@@ -12,7 +12,7 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
 use vfold::forward::{FacetModel, Lighting};
-use vfold::spectrum::{self, Outside, Spectrum};
+use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Output, Reader, Record, ReferencePanel, ReflectanceRecord, Sample, Scene};
 use vfold::{Error, Result};
 
@@ -24,6 +24,7 @@ const BATCH: usize = 64;
 #[command(
     name = "vforward",
     version,
+    override_usage = "vforward [SCENE] --reflectance <SPEC>... [OPTIONS]",
     after_help = "Examples:\n  vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill | vestimate | vscore --table\n  \
                   vkernel --angle-deg 50 | vforward --reflectance cc24:red --render photo.exr > sample.json"
 )]
@@ -82,19 +83,31 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         .map(|spec| spectrum::reflectances(spec))
         .collect::<Result<Vec<_>>>()?
         .concat();
+    let optics = args.optics.resolve(&args.camera)?;
+    let card = args.reference_panel.as_deref().map(|spec| card(spec, &optics.grid)).transpose()?;
     let mut reader = Reader::open(&args.scene)?;
     while let Some(record) = reader.read()? {
         match record {
             Record::Scene(mut scene) => {
-                equip(args, &mut scene).map_err(|e| reader.at(&e))?;
+                scene.set_optics(&optics)?;
+                card.as_ref().map_or(Ok(()), |card| scene.set_reference_panel(card))?;
+                if !args.common.no_history {
+                    scene.fields.add_history("vforward")?;
+                }
+                let model = scene.model().map_err(|e| reader.at(e))?;
                 photograph(args, &scene, &sheets, noise)?;
                 out.scene(&scene)?;
-                samples(args, &scene, &sheets, noise, out)?;
+                samples(args, &model, &scene.id()?, &sheets, noise, out)?;
             }
             other => out.record(&other)?,
         }
     }
     Ok(())
+}
+
+fn card(spec: &str, grid: &WavelengthGrid) -> Result<ReferencePanel> {
+    let card = cli::one_reflectance("--reference-panel", spec)?;
+    Ok(ReferencePanel { name: card.name().to_owned(), reflectance: card.on(grid, Outside::Refuse)? })
 }
 
 fn noise(args: &Args) -> Result<Noise> {
@@ -113,43 +126,20 @@ fn noise(args: &Args) -> Result<Noise> {
     Ok(Noise { sd: args.noise_sd, photon: args.photon_noise })
 }
 
-/// Adds camera, light and card to the scene.
-fn equip(args: &Args, scene: &mut Scene) -> Result<()> {
-    let (illuminant, sky) = args.optics.illuminants()?;
-    scene.set_optics(
-        &args.optics.wavelengths_nm,
-        &args.optics.camera(&args.camera)?,
-        &illuminant,
-        sky.as_ref(),
-    )?;
-    if let Some(spec) = &args.reference_panel {
-        let card = single(spec)?;
-        let reflectance = card.on(&args.optics.wavelengths_nm, Outside::Refuse)?;
-        scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
-    }
-    if args.common.no_history { Ok(()) } else { scene.fields.add_history("vforward") }
-}
-
-fn single(spec: &str) -> Result<Spectrum> {
-    let mut spectra = spectrum::reflectances(spec)?;
-    match (spectra.pop(), spectra.is_empty()) {
-        (Some(spectrum), true) => Ok(spectrum),
-        _ => Err(Error::usage(
-            "--reference-panel",
-            format!("'{spec}' is a set"),
-            "name one member, as in cc24:white",
-        )),
-    }
-}
-
-fn samples(args: &Args, scene: &Scene, sheets: &[Spectrum], noise: Noise, out: &mut Output) -> Result<()> {
-    let (model, id) = (scene.model()?, scene.id()?);
+fn samples(
+    args: &Args,
+    model: &FacetModel,
+    scene: &str,
+    sheets: &[Spectrum],
+    noise: Noise,
+    out: &mut Output,
+) -> Result<()> {
     // A photograph has its own noise, pixel by pixel.
     let noise = if args.render.is_some() { Noise::default() } else { noise };
     let numbered: Vec<_> = sheets.iter().enumerate().collect();
     for batch in numbered.chunks(BATCH) {
         let made: Vec<Result<Sample>> =
-            batch.par_iter().map(|(n, sheet)| sample(args, &model, &id, sheet, noise, *n as u64)).collect();
+            batch.par_iter().map(|(n, sheet)| sample(args, model, scene, sheet, noise, *n as u64)).collect();
         made.into_iter().try_for_each(|sample| out.sample(&sample?))?;
     }
     Ok(())

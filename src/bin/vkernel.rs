@@ -10,6 +10,9 @@ use vfold::kernel::mesh::{Mesh, respond};
 use vfold::stream::{Output, Scene, write_matrix};
 use vfold::{Error, Result};
 
+/// Relative error of facet means: below what a camera sees.
+const TOLERANCE: f64 = 1e-5;
+
 /// Solve the bounces of light in a V-shaped fold, for every reflectance at once
 #[derive(Parser)]
 #[command(
@@ -31,9 +34,10 @@ struct Args {
     /// Where the bounces are solved: as fine as needed, one flat patch a facet (the paper's model), or given patches
     #[arg(long, value_name = "auto|facets|ROWSxCOLS", default_value = "auto", value_parser = mesh)]
     mesh: Mesh,
-    /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1
-    #[arg(long, value_name = "X", default_value_t = 1e-5, allow_negative_numbers = true)]
-    tolerance: f64,
+    /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it
+    /// gets on a narrow fold]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
     /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     tilt_deg: f64,
@@ -61,19 +65,28 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
-    if !(1e-12..=0.1).contains(&args.tolerance) {
-        return Err(Error::usage(
-            "--tolerance",
-            format!("{} is out of range", args.tolerance),
-            "give 1e-12 to 0.1",
-        ));
+    if let Some(tolerance) = args.tolerance.filter(|tolerance| !(1e-12..=0.1).contains(tolerance)) {
+        return Err(Error::usage("--tolerance", format!("{tolerance} is out of range"), "give 1e-12 to 0.1"));
     }
     let grid = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
     let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, grid)?;
     let light = Light::new(&fold, args.tilt_deg, args.slant_deg, args.sky)?;
-    let (response, accuracy) = respond(&fold, args.mesh, args.tolerance)?;
+    let tolerance = args.tolerance.unwrap_or(TOLERANCE);
+    let (response, accuracy) = respond(&fold, args.mesh, tolerance)?;
+    if let Some(error) = accuracy.facet_mean_error.filter(|error| *error > tolerance) {
+        let problem = format!(
+            "{error:.1e} is the least error of the facet means that is reached at {}°",
+            fold.angle_deg()
+        );
+        if args.tolerance.is_some() {
+            return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
+        }
+        if !args.common.quiet {
+            cli::say("vkernel", &problem);
+        }
+    }
     let mut scene = Scene::new(&args.id, &fold, &light, &response)?;
-    scene.set_accuracy(&args.mesh.to_string(), args.tolerance, &accuracy)?;
+    scene.set_accuracy(&args.mesh.to_string(), tolerance, &accuracy)?;
     if args.common.verbose {
         let error =
             accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));

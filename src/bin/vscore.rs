@@ -127,7 +127,12 @@ impl Scorer<'_> {
             (Some([one]), _) => Ok(one.clone()),
             (Some(spectra), _) => {
                 let id = sample.id()?;
-                spectra.iter().find(|spectrum| spectrum.name() == id).cloned().ok_or_else(|| {
+                // A column of a file is called after both: `truth:photo`.
+                let named = |spectrum: &&Spectrum| {
+                    spectrum.name() == id
+                        || spectrum.name().split_once(':').is_some_and(|(_, member)| member == id)
+                };
+                spectra.iter().find(named).cloned().ok_or_else(|| {
                     Error::field("id", format!("--truth has no member '{id}' among its {}", spectra.len()))
                 })
             }

@@ -68,18 +68,24 @@ impl Fold {
                 "give width along the crease x depth, both positive, at most 1000 times each other",
             ));
         }
-        let count = facets.rows.saturating_mul(facets.cols);
-        if count == 0 || count > MAX_FACETS {
-            let entries = facets.rows as f64 * (facets.rows as f64 + 1.0) / 2.0 * facets.cols as f64;
+        let Some(count) = facets.rows.checked_mul(facets.cols).filter(|count| *count <= MAX_FACETS) else {
+            let entries = 0.5 * (facets.rows as f64) * (facets.rows as f64 + 1.0) * facets.cols as f64;
             return Err(Error::usage(
                 "--facets",
                 format!(
-                    "{}x{} facets a panel, whose kernel would take {:.3e} bytes",
+                    "the kernel of {}x{} facets would take {:.3e} GB",
                     facets.rows,
                     facets.cols,
-                    8.0 * entries
+                    8e-9 * entries
                 ),
-                format!("give rows x columns, at least 1x1 and at most {MAX_FACETS} facets"),
+                format!("give rows x columns, at most {MAX_FACETS} facets a panel"),
+            ));
+        };
+        if count == 0 {
+            return Err(Error::usage(
+                "--facets",
+                format!("{}x{} is no facet", facets.rows, facets.cols),
+                "give rows x columns, at least 1x1",
             ));
         }
         Ok(Self { angle_deg, width, depth, facets })

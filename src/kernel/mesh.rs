@@ -49,8 +49,10 @@ pub struct Accuracy {
 
 /// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`.
 ///
+/// The error stays above the tolerance, and says so, where 5000 unknowns do not reach it.
+///
 /// # Errors
-/// A mesh that does not divide into the facets, or a tolerance that needs more than 5000 unknowns.
+/// A mesh that does not divide into the facets, or a fold so narrow that no solution fits.
 ///
 /// # Example
 /// ```
@@ -87,50 +89,44 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
     Ok((response, Accuracy { unknowns: patches.rows * patches.cols.div_ceil(2), facet_mean_error: None }))
 }
 
-/// Refines until the error, extrapolated from the last three solutions, is within the tolerance.
+/// Refines until the error, extrapolated from the last three solutions, is within the tolerance, or the next solution would
+/// take too many unknowns.
 fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
     if flat(fold) {
         return respond_patches(fold, fold.facets(), tolerance);
     }
     // Half the tolerance is asked for, so that the first fine solution meets it more often than not.
-    let mut aim = 0.5 * tolerance * STEP * STEP;
-    let (coarse, _) = solve(fold, aim, tolerance)?;
-    aim /= STEP;
-    let (mut middle, _) = solve(fold, aim, tolerance)?;
-    let mut before = difference(&coarse, &middle);
-    loop {
-        aim /= STEP;
-        let (fine, unknowns) = solve(fold, aim, tolerance)?;
-        let last = difference(&middle, &fine);
+    let aims = std::iter::successors(Some(0.5 * tolerance * STEP * STEP), |aim| Some(aim / STEP));
+    let mut solutions =
+        aims.map(|aim| (aim, resolution(aim))).take_while(|(_, r)| r.unknowns(fold) <= UNKNOWNS_MAX);
+    let mut solve = || -> Result<Option<(Response, usize)>> {
+        let Some((aim, resolution)) = solutions.next() else { return Ok(None) };
+        let response = Response::lanczos(&Continuum::new(fold, &resolution), 0.1 * aim)?;
+        Ok(Some((response, resolution.unknowns(fold))))
+    };
+    let Some((mut response, mut unknowns)) = solve()? else {
+        return Err(Error::usage(
+            "--tolerance",
+            format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
+            "give a larger tolerance or --mesh facets",
+        ));
+    };
+    let (mut before, mut error) = (f64::INFINITY, f64::INFINITY);
+    while error > tolerance
+        && let Some(finer) = solve()?
+    {
+        let last = difference(&response, &finer.0);
         // A difference is the error of the coarser solution. The finer one gains as much again as the one before did, but
-        // is not believed to gain more than it was asked to.
-        let error = last * (last / before).clamp(1.0 / STEP, 1.0);
-        if error <= tolerance {
-            return Ok((fine, Accuracy { unknowns, facet_mean_error: Some(error) }));
-        }
-        (middle, before) = (fine, last);
+        // is not believed to gain more than it was asked to; the first gain of all is not known.
+        error = last * if before.is_finite() { (last / before).clamp(1.0 / STEP, 1.0) } else { 1.0 };
+        before = last;
+        (response, unknowns) = finer;
     }
+    Ok((response, Accuracy { unknowns, facet_mean_error: error.is_finite().then_some(error) }))
 }
 
 fn flat(fold: &Fold) -> bool {
     (fold.angle_deg() - 180.0).abs() < f64::EPSILON
-}
-
-fn solve(fold: &Fold, aim: f64, tolerance: f64) -> Result<(Response, usize)> {
-    let resolution = resolution(aim);
-    let unknowns = resolution.unknowns(fold);
-    if unknowns > UNKNOWNS_MAX {
-        return Err(Error::usage(
-            "--tolerance",
-            format!(
-                "{tolerance:e} takes {unknowns} unknowns at {}°, more than {UNKNOWNS_MAX}",
-                fold.angle_deg()
-            ),
-            "give a larger tolerance or --mesh facets",
-        ));
-    }
-    let response = Response::lanczos(&Continuum::new(fold, &resolution), 0.1 * aim)?;
-    Ok((response, unknowns))
 }
 
 /// The resolution that reaches about `aim` on a 45° fold of square panels at reflectance 1, found by trying.

@@ -18,5 +18,5 @@ pub use photograph::ImageRecord;
 pub use reader::{Reader, Record, Transform, pipe};
 pub use sample::{Colours, ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
-pub use scene::{CameraRecord, ReferencePanel, Scene, SpectrumRecord};
+pub use scene::{CameraRecord, Optics, ReferencePanel, Scene, SpectrumRecord};
 pub use writer::Output;

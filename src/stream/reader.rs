@@ -69,7 +69,7 @@ impl Reader {
 
     fn typed(&self, fields: Fields) -> Result<Record> {
         match fields.kind() {
-            "scene" => Ok(Record::Scene(Scene::from_fields(fields).map_err(|e| self.at(&e))?)),
+            "scene" => Ok(Record::Scene(Scene::from_fields(fields).map_err(|e| self.at(e))?)),
             "sample" => Ok(Record::Sample(Sample { fields })),
             "" => {
                 Err(self.wrong("a record without 'kind'", "each line must be a scene, a sample or a summary"))
@@ -78,11 +78,13 @@ impl Reader {
         }
     }
 
-    /// The same error with the file and line it belongs to.
+    /// The same error with the file and line it belongs to; wrong usage belongs to the command line.
     #[must_use]
-    pub fn at(&self, error: &Error) -> Error {
-        let (problem, remedy) = (error.to_string(), "fix the record or make it again".to_owned());
-        Error::Record { path: self.path.clone(), line: self.line, problem, remedy }
+    pub fn at(&self, error: Error) -> Error {
+        match error {
+            Error::Usage { .. } => error,
+            other => Error::Located { path: self.path.clone(), line: self.line, source: Box::new(other) },
+        }
     }
 
     fn wrong(&self, problem: &str, remedy: &str) -> Error {
@@ -138,7 +140,7 @@ pub fn pipe<T: Transform + Sync>(
         flush(reader, transform, context.as_ref(), &mut batch, &mut done)?;
         match record {
             Some(Record::Scene(mut scene)) => {
-                context = Some(transform.scene(&mut scene).map_err(|e| reader.at(&e))?);
+                context = Some(transform.scene(&mut scene).map_err(|e| reader.at(e))?);
                 done(Record::Scene(scene))?;
             }
             Some(other) => done(other)?,

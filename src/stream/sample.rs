@@ -1,5 +1,7 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
@@ -9,6 +11,9 @@ use crate::estimate::Estimate;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
 use crate::solve::Termination;
+
+/// Largest value of a facet that is read: sums and squares of such numbers stay finite.
+const LARGEST: f64 = 1e30;
 
 /// Facet by channel; null for a facet that was not measured.
 pub type Colours = Vec<Option<Vec<f64>>>;
@@ -68,7 +73,9 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if they are missing.
     pub fn facet_rgb(&self) -> Result<Colours> {
-        self.fields.require("facet_rgb", "make it with vforward or vextract")
+        let rgb: Colours = self.fields.require("facet_rgb", "make it with vforward or vextract")?;
+        within("facet_rgb", &rgb, -LARGEST..=LARGEST)?;
+        Ok(rgb)
     }
 
     /// The facets' standard deviations, if known.
@@ -76,7 +83,9 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if they are not numbers.
     pub fn facet_sd(&self) -> Result<Option<Colours>> {
-        self.fields.get("facet_sd")
+        let sd: Option<Colours> = self.fields.get("facet_sd")?;
+        sd.as_ref().map_or(Ok(()), |sd| within("facet_sd", sd, 0.0..=LARGEST))?;
+        Ok(sd)
     }
 
     /// Adds an estimate.
@@ -192,9 +201,15 @@ impl Sample {
     /// The exposure at which the facets were computed or calibrated, if it is known.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a number.
+    /// [`Error::Field`] if it is not a number above 0.
     pub fn exposure(&self) -> Result<Option<f64>> {
-        self.fields.get("exposure")
+        match self.fields.get("exposure")? {
+            Some(exposure) if !(exposure > 0.0 && exposure <= LARGEST) => Err(Error::field(
+                "exposure",
+                format!("{exposure} gives no picture; it needs a number above 0"),
+            )),
+            exposure => Ok(exposure),
+        }
     }
 
     /// Whether the facets come from a photograph.
@@ -262,4 +277,11 @@ pub fn summary(summary: &Summary) -> Result<Fields> {
         }
     }
     Ok(fields)
+}
+
+fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()> {
+    match facets.iter().flatten().flatten().find(|value| !range.contains(*value)) {
+        Some(value) => Err(Error::field(name, format!("{value:e} cannot be the value of a facet"))),
+        None => Ok(()),
+    }
 }

@@ -14,6 +14,8 @@ use crate::spectrum::WavelengthGrid;
 
 /// The stream's format, in every scene.
 const FORMAT: &str = "vfold/1";
+/// Largest power or sensitivity that is read: sums and products of such numbers stay finite.
+const LARGEST: f64 = 1e30;
 /// Relative error of the light in a picture: below its noise.
 const PICTURE_TOLERANCE: f64 = 1e-4;
 
@@ -42,6 +44,19 @@ pub struct CameraRecord {
     pub channels: Vec<String>,
     /// Sensitivity, channel by waveband.
     pub sensitivities: Vec<Vec<f64>>,
+}
+
+/// What looks at a fold and in which light, all on one grid of wavelengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Optics {
+    /// The wavelengths.
+    pub grid: WavelengthGrid,
+    /// The camera.
+    pub camera: CameraRecord,
+    /// The sun.
+    pub illuminant: SpectrumRecord,
+    /// The sky, if it has another spectrum.
+    pub sky: Option<SpectrumRecord>,
 }
 
 /// A card of known reflectance in the place of panel 1, on the scene's wavelengths.
@@ -120,13 +135,11 @@ impl Scene {
     pub fn from_fields(fields: Fields) -> Result<Self> {
         match fields.get::<String>("format")? {
             Some(format) if format == FORMAT => Ok(Self { fields }),
-            format => Err(Error::field(
+            Some(format) => Err(Error::field(
                 "format",
-                format!(
-                    "{} where this version reads {FORMAT}; make the scene again with vkernel",
-                    format.unwrap_or_default()
-                ),
+                format!("'{format}' where this version reads '{FORMAT}'; make the scene again with vkernel"),
             )),
+            None => Err(Error::field("format", "missing; make the scene with vkernel")),
         }
     }
 
@@ -210,27 +223,15 @@ impl Scene {
         WavelengthGrid::new(wavelengths_nm).map_err(|e| Error::field("wavelengths_nm", e))
     }
 
-    /// Sets what looks at the fold and in which light; all spectra lie on `grid`.
+    /// Sets what looks at the fold and in which light.
     ///
     /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_optics(
-        &mut self,
-        grid: &WavelengthGrid,
-        camera: &CameraRecord,
-        illuminant: &SpectrumRecord,
-        sky: Option<&SpectrumRecord>,
-    ) -> Result<()> {
-        finite("camera", camera.sensitivities.iter().flatten())?;
-        finite("illuminants", &illuminant.power)?;
-        self.fields.set("wavelengths_nm", grid.wavelengths_nm())?;
-        self.fields.set("camera", camera)?;
-        self.fields.set("illuminants", [illuminant])?;
-        if let Some(sky) = sky {
-            finite("sky_illuminant", &sky.power)?;
-            self.fields.set("sky_illuminant", sky)?;
-        }
-        Ok(())
+    /// As [`Fields::set`].
+    pub fn set_optics(&mut self, optics: &Optics) -> Result<()> {
+        self.fields.set("wavelengths_nm", optics.grid.wavelengths_nm())?;
+        self.fields.set("camera", &optics.camera)?;
+        self.fields.set("illuminants", [&optics.illuminant])?;
+        optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
     }
 
     /// The camera.
@@ -245,6 +246,7 @@ impl Scene {
         {
             return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers a channel")));
         }
+        not_negative("camera.sensitivities", camera.sensitivities.iter().flatten())?;
         Ok(camera)
     }
 
@@ -293,10 +295,11 @@ impl Scene {
     pub fn lighting(&self) -> Result<Lighting> {
         let (grid, camera, light) = (self.grid()?, self.camera()?, self.light()?);
         let on_grid = |name: &str, spectrum: &SpectrumRecord| {
-            if spectrum.power.len() == grid.len() {
-                return Ok(());
+            if spectrum.power.len() != grid.len() {
+                let count = spectrum.power.len();
+                return Err(Error::field(name, format!("{count} numbers for {} wavebands", grid.len())));
             }
-            Err(Error::field(name, format!("{} numbers for {} wavebands", spectrum.power.len(), grid.len())))
+            not_negative(name, &spectrum.power)
         };
         let illuminants: Vec<SpectrumRecord> =
             self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
@@ -316,5 +319,13 @@ impl Scene {
             None => sun.clone(),
         };
         Ok(Lighting { light, sun, sky })
+    }
+}
+
+/// Checks that powers or sensitivities are possible ones.
+fn not_negative<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    match values.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
+        Some(value) => Err(Error::field(name, format!("{value:e} cannot be; it needs numbers from 0"))),
+        None => Ok(()),
     }
 }
