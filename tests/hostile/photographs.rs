@@ -64,6 +64,13 @@ END
             case("sh whole begun-photo.png", 1, &["begun-photo.png", "cut short"]),
             case("sh whole begun-photo.jpg", 1, &["begun-photo.jpg", "cut short"]),
             case("sh whole photo.exr --margin -1", 2, &["--margin"]),
+            case("sh whole photo.exr --margin 1000", 1, &["photo.exr", "no facet", "--margin"]),
+            case("sh whole photo.exr --white-level 1e-9", 1, &["photo.exr", "no facet", "white level"]),
+            case(
+                "sh whole photo.exr --panel1 '332,462 345,77 122,12 104,442'",
+                2,
+                &["--panel1", "inside panel 0"],
+            ),
             case("sh whole photo.exr --white-level 0", 2, &["--white-level", "black level"]),
             case("sh whole photo.exr --exposure 0", 2, &["--exposure", "above 0"]),
             case("sh whole photo.exr --transfer gamma", 2, &["--transfer", "srgb"]),
