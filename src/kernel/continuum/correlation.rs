@@ -1,0 +1,81 @@
+//! Pairs of strips along the crease: the kernel depends on the shift between two points alone.
+
+use super::crease::polynomials;
+use crate::kernel::quadrature::Rule;
+
+/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0.
+const PEAK_GRADING: f64 = 3.0;
+
+/// `∫∫ P_b(x) P_d(y) g(x − y) dx dy` as a rule over the shift: squared shifts and, for each, weights of all pairs (b, d).
+pub(super) struct Correlation {
+    order: usize,
+    shift2: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl Correlation {
+    pub(super) fn new(order: usize) -> Self {
+        Self { order, shift2: Vec::new(), weights: Vec::new() }
+    }
+
+    /// Adds strips `e` and `f`; `mirror` reverses the polynomials of `f`. The kernel's peak at z = 0 has width `peak`.
+    pub(super) fn add(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, peak: f64) {
+        let mut kinks = [e[0] - f[1], e[0] - f[0], e[1] - f[1], e[1] - f[0]];
+        kinks.sort_by(f64::total_cmp);
+        let rule = Rule::gauss_legendre(self.order + 6);
+        for piece in kinks.windows(2) {
+            for [low, high] in towards_peak(piece[0], piece[1], peak) {
+                for (z, w) in rule.on(low, high) {
+                    self.add_shift(e, f, mirror, z, w);
+                }
+            }
+        }
+    }
+
+    fn add_shift(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, z: f64, weight: f64) {
+        let order = self.order;
+        let start = self.weights.len();
+        self.shift2.push(z * z);
+        self.weights.resize(start + order * order, 0.0);
+        let (mut of_e, mut of_f) = (vec![0.0; order], vec![0.0; order]);
+        for (x, w) in Rule::gauss_legendre(order).on(e[0].max(f[0] + z), e[1].min(f[1] + z)) {
+            polynomials(e, x, &mut of_e);
+            polynomials(f, x - z, &mut of_f);
+            if mirror {
+                of_f.iter_mut().skip(1).step_by(2).for_each(|value| *value = -*value);
+            }
+            for (b, p) in of_e.iter().enumerate() {
+                for (d, r) in of_f.iter().enumerate() {
+                    self.weights[start + b * order + d] += weight * w * p * r;
+                }
+            }
+        }
+    }
+
+    /// The integrals with `g = 1/(q² + z²)²` into `out[b * order + d]`.
+    pub(super) fn integrate(&self, q2: f64, out: &mut [f64]) {
+        out.fill(0.0);
+        for (z2, weights) in self.shift2.iter().zip(self.weights.chunks_exact(self.order * self.order)) {
+            let g = (q2 + z2).powi(2).recip();
+            out.iter_mut().zip(weights).for_each(|(out, w)| *out += w * g);
+        }
+    }
+}
+
+/// Cuts `[low, high]` at 0 and, towards 0, in geometric steps down to the width of the peak.
+fn towards_peak(low: f64, high: f64, peak: f64) -> Vec<[f64; 2]> {
+    if low < 0.0 && high > 0.0 {
+        return [towards_peak(low, 0.0, peak), towards_peak(0.0, high, peak)].concat();
+    }
+    if high <= 0.0 && low < 0.0 {
+        return towards_peak(-high, -low, peak).into_iter().map(|[a, b]| [-b, -a]).collect();
+    }
+    let mut pieces = Vec::new();
+    let mut end = high;
+    while end > low {
+        let start = if end <= peak { low } else { low.max(end / PEAK_GRADING) };
+        pieces.push([start, end]);
+        end = start;
+    }
+    pieces
+}
