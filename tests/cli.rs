@@ -167,6 +167,14 @@ fn a_reader_that_leaves_is_no_failure() {
     }
 }
 
+/// A device renamed away by a superuser would be gone for everybody.
+#[test]
+fn a_pipe_as_a_file_takes_the_bytes_and_stays_a_pipe() {
+    let script = "mkfifo pipe; cat pipe > copy & vkernel --facets 1x1 --no-history -o pipe; wait
+        vkernel --facets 1x1 --no-history | cmp - copy; test -p pipe && echo pipe";
+    assert_eq!(printed(script), "pipe\n");
+}
+
 #[test]
 fn a_full_disk_is_one_line() {
     for (tool, run) in TOOLS.iter().zip(RUNS) {

@@ -88,3 +88,44 @@ fn matern_5_2(distance_nm: f64) -> f64 {
     let x = 5.0_f64.sqrt() * distance_nm.abs() / MATERN_LENGTH_NM;
     MATERN_SD * MATERN_SD * (1.0 + x + x * x / 3.0) * (-x).exp()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn matern_as_scikit_learn_has_it() {
+        // 0.09 * sklearn.gaussian_process.kernels.Matern(length_scale=40, nu=2.5)([[0.]], [[d]]) for d = 0, 20, 80.
+        for (distance_nm, want) in [(0.0, 0.09), (20.0, 0.074_578_423), (80.0, 0.012_479_420)] {
+            assert!(
+                (matern_5_2(distance_nm) - want).abs() < 1e-8,
+                "{distance_nm}: {}",
+                matern_5_2(distance_nm)
+            );
+        }
+    }
+
+    #[test]
+    fn the_basis_gives_the_covariance_of_the_set() {
+        let wavelengths_nm: Vec<f64> = (0..31).map(|k| 400.0 + 10.0 * f64::from(k)).collect();
+        let spectra: Vec<Vec<f64>> = [0.2, 0.4, 0.9].iter().map(|r| vec![*r; 31]).collect();
+        let prior = Prior::from_spectra(&wavelengths_nm, &spectra).unwrap();
+        let logits = [0.2, 0.4, 0.9_f64].map(|r| (r / (1.0 - r)).ln());
+        let mean = logits.iter().sum::<f64>() / 3.0;
+        let variance = logits.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / 2.0;
+        let covariance = prior.basis() * prior.basis().transpose();
+        let at_mean = prior.logit_at(&DVector::zeros(prior.basis().ncols()));
+        for i in 0..31 {
+            assert!((at_mean[i] - mean).abs() < 1e-12);
+            for j in 0..31 {
+                let want = variance + matern_5_2(wavelengths_nm[i] - wavelengths_nm[j]);
+                assert!((covariance[(i, j)] - want).abs() < 1e-3, "{i} {j}: {} {want}", covariance[(i, j)]);
+            }
+        }
+    }
+
+    #[test]
+    fn one_spectrum_is_no_prior() {
+        assert!(Prior::from_spectra(&[400.0, 500.0], &[vec![0.1, 0.2]]).is_err());
+    }
+}

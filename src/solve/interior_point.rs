@@ -217,3 +217,61 @@ where
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use argmin::core::{Executor, State as _};
+
+    use super::*;
+
+    /// Rosenbrock's valley, whose free minimum is (1, 1).
+    struct Rosenbrock;
+
+    impl CostFunction for Rosenbrock {
+        type Param = DVector<f64>;
+        type Output = f64;
+
+        fn cost(&self, x: &DVector<f64>) -> Result<f64, Error> {
+            Ok((1.0 - x[0]).powi(2) + 100.0 * (x[1] - x[0] * x[0]).powi(2))
+        }
+    }
+
+    impl Gradient for Rosenbrock {
+        type Param = DVector<f64>;
+        type Gradient = DVector<f64>;
+
+        fn gradient(&self, x: &DVector<f64>) -> Result<DVector<f64>, Error> {
+            let off = x[1] - x[0] * x[0];
+            Ok(DVector::from_vec(vec![-2.0 * (1.0 - x[0]) - 400.0 * x[0] * off, 200.0 * off]))
+        }
+    }
+
+    impl Hessian for Rosenbrock {
+        type Param = DVector<f64>;
+        type Hessian = DMatrix<f64>;
+
+        fn hessian(&self, x: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+            let corner = 2.0 - 400.0 * (x[1] - 3.0 * x[0] * x[0]);
+            Ok(DMatrix::from_row_slice(2, 2, &[corner, -400.0 * x[0], -400.0 * x[0], 200.0]))
+        }
+    }
+
+    fn minimum(low: f64, high: f64, start: f64) -> Vec<f64> {
+        let run = Executor::new(Rosenbrock, InteriorPoint::new(low, high, 1e-10))
+            .configure(|state| state.param(DVector::from_element(2, start)).max_iters(200))
+            .run()
+            .unwrap();
+        run.state().get_best_param().unwrap().as_slice().to_vec()
+    }
+
+    #[test]
+    fn a_minimum_on_a_bound_and_one_inside() {
+        // On x ≤ 0.8 the valley ends at (0.8, 0.64), cost (1 − 0.8)².
+        for (low, high, start, [x, y]) in
+            [(0.0, 0.8, 0.1, [0.8, 0.64]), (-2.0, 2.0, -1.5, [1.0, 1.0]), (1.2, 2.0, 1.9, [1.2, 1.44])]
+        {
+            let found = minimum(low, high, start);
+            assert!((found[0] - x).abs() < 1e-7 && (found[1] - y).abs() < 1e-7, "{low}..{high}: {found:?}");
+        }
+    }
+}

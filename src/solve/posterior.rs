@@ -131,3 +131,48 @@ impl<M: Model> Search<'_, M> {
         Some(Cholesky::new(hessian - weight * self.model.curvature(&self.w)).map_or(first, solve))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One unknown w seen as `scale·exp(w)`, in units of the noise.
+    struct Exponential {
+        data: f64,
+        scale: f64,
+    }
+
+    impl Model for Exponential {
+        fn unknowns(&self) -> usize {
+            1
+        }
+
+        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+            DVector::from_element(1, self.data - self.scale * w[0].exp())
+        }
+
+        fn linearise(&self, w: &DVector<f64>) -> Linearised {
+            let jacobian = DMatrix::from_element(1, 1, self.scale * w[0].exp());
+            Linearised { residuals: self.residuals(w), jacobian }
+        }
+
+        fn curvature(&self, w: &DVector<f64>) -> DMatrix<f64> {
+            self.residuals(w)[0] * DMatrix::from_element(1, 1, self.scale * w[0].exp())
+        }
+    }
+
+    #[test]
+    fn the_gradient_vanishes_where_it_says_so() {
+        for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {
+            let model = Exponential { data, scale };
+            let found = maximise(&model, &[], 1e-6, 100);
+            let w = found.w[0];
+            let slope = w - (data - scale * w.exp()) * scale * w.exp();
+            let information = 1.0 + (scale * w.exp()).powi(2);
+            assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
+            assert!(slope.abs() < 2e-6 * information.sqrt(), "{data} {scale}: {slope}");
+            let factor = found.information.unwrap().l()[(0, 0)];
+            assert!((factor * factor / information - 1.0).abs() < 1e-12);
+        }
+    }
+}
