@@ -17,6 +17,8 @@ use super::Termination;
 const STEPS_A_STAGE: u32 = 2;
 /// Gradient, in the metric of the Hessian, below which second derivatives are trusted.
 const NEAR: f64 = 1.0;
+/// Longest step, in standard deviations of the prior: further out the model is not the one that was linearised.
+const LONGEST: f64 = 10.0;
 /// Most halvings of a step.
 const HALVINGS: usize = 20;
 
@@ -105,7 +107,7 @@ impl<M: Model> Search<'_, M> {
         let cost =
             |w: &DVector<f64>, residuals: &DVector<f64>| weight * residuals.norm_squared() + w.norm_squared();
         let before = cost(&self.w, &at.residuals);
-        let next = std::iter::successors(Some(1.0), |length| Some(0.5 * length))
+        let next = std::iter::successors(Some((LONGEST / direction.norm()).min(1.0)), |length| Some(0.5 * length))
             .take(HALVINGS)
             .map(|length| &self.w + length * &direction)
             .find(|next| cost(next, &self.model.residuals(next)) < before);
