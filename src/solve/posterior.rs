@@ -107,10 +107,11 @@ impl<M: Model> Search<'_, M> {
         let cost =
             |w: &DVector<f64>, residuals: &DVector<f64>| weight * residuals.norm_squared() + w.norm_squared();
         let before = cost(&self.w, &at.residuals);
-        let next = std::iter::successors(Some((LONGEST / direction.norm()).min(1.0)), |length| Some(0.5 * length))
-            .take(HALVINGS)
-            .map(|length| &self.w + length * &direction)
-            .find(|next| cost(next, &self.model.residuals(next)) < before);
+        let next =
+            std::iter::successors(Some((LONGEST / direction.norm()).min(1.0)), |length| Some(0.5 * length))
+                .take(HALVINGS)
+                .map(|length| &self.w + length * &direction)
+                .find(|next| cost(next, &self.model.residuals(next)) < before);
         let moved = next.is_some();
         self.w = next.unwrap_or_else(|| self.w.clone());
         (decrement, moved)
