@@ -1,4 +1,4 @@
-//! Gauss–Legendre rules.
+//! Gauss–Legendre rules and interpolation through their nodes.
 
 use std::f64::consts::PI;
 
@@ -69,6 +69,38 @@ pub fn legendre_series(x: f64, values: &mut [f64]) {
         *out = value;
         let k = k as f64;
         (previous, value) = (value, ((2.0 * k + 1.0) * x * value - k * previous) / (k + 1.0));
+    }
+}
+
+/// Lagrange interpolation through fixed nodes.
+#[derive(Clone, Debug)]
+pub struct Lagrange {
+    nodes: Vec<f64>,
+    scale: Vec<f64>,
+}
+
+impl Lagrange {
+    /// Interpolation through `nodes`, all different.
+    #[must_use]
+    pub fn new(nodes: &[f64]) -> Self {
+        let others = |k: usize| nodes.iter().enumerate().filter(move |(m, _)| *m != k);
+        let scale = |k: usize| others(k).map(|(_, x)| nodes[k] - x).product::<f64>().recip();
+        Self { nodes: nodes.to_vec(), scale: (0..nodes.len()).map(scale).collect() }
+    }
+
+    /// Weights of the nodes' values at `x`.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::kernel::quadrature::Lagrange;
+    /// let weights = Lagrange::new(&[0.0, 1.0, 2.0]).at(1.5); // of values 0, 1, 4 at the nodes
+    /// assert!((weights[1] + 4.0 * weights[2] - 2.25).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn at(&self, x: f64) -> Vec<f64> {
+        let others = |k: usize| self.nodes.iter().enumerate().filter(move |(m, _)| *m != k);
+        let weight = |k: usize| others(k).map(|(_, node)| x - node).product::<f64>() * self.scale[k];
+        (0..self.nodes.len()).map(weight).collect()
     }
 }
 

@@ -22,23 +22,23 @@ impl Correlation {
     pub(super) fn add(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, peak: f64) {
         let mut kinks = [e[0] - f[1], e[0] - f[0], e[1] - f[1], e[1] - f[0]];
         kinks.sort_by(f64::total_cmp);
-        let rule = Rule::gauss_legendre(self.order + 6);
+        let (rule, exact) = (Rule::gauss_legendre(self.order + 6), Rule::gauss_legendre(self.order));
         for piece in kinks.windows(2) {
             for [low, high] in towards_peak(piece[0], piece[1], peak) {
                 for (z, w) in rule.on(low, high) {
-                    self.add_shift(e, f, mirror, z, w);
+                    self.add_shift(e, f, mirror, z, w, &exact);
                 }
             }
         }
     }
 
-    fn add_shift(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, z: f64, weight: f64) {
+    fn add_shift(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, z: f64, weight: f64, exact: &Rule) {
         let order = self.order;
         let start = self.weights.len();
         self.shift2.push(z * z);
         self.weights.resize(start + order * order, 0.0);
         let (mut of_e, mut of_f) = (vec![0.0; order], vec![0.0; order]);
-        for (x, w) in Rule::gauss_legendre(order).on(e[0].max(f[0] + z), e[1].min(f[1] + z)) {
+        for (x, w) in exact.on(e[0].max(f[0] + z), e[1].min(f[1] + z)) {
             polynomials(e, x, &mut of_e);
             polynomials(f, x - z, &mut of_f);
             if mirror {

@@ -16,12 +16,14 @@
 mod correlation;
 mod crease;
 mod rows;
+mod table;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use self::crease::Crease;
 use self::rows::Rows;
+use self::table::Table;
 use super::panel::{PanelOperator, mirrored};
 use crate::geometry::{FacetGrid, Fold};
 
@@ -119,21 +121,20 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn assemble(rows: &Rows, crease: &Crease) -> DMatrix<f64> {
     let (count, order) = (rows.len(), crease.order);
     let block = crease.strips.len() * order;
-    let peak = rows.angle.half_sin * rows.distance[0];
-    let pairs: Vec<_> =
-        (0..crease.strips.len()).flat_map(|e| (e..crease.strips.len()).map(move |f| (e, f))).collect();
-    let correlations: Vec<_> =
-        pairs.into_par_iter().map(|(e, f)| (e, f, crease.correlation(e, f, peak))).collect();
+    let (nearest, furthest) = rows.distances();
+    let table = Table::new(crease, nearest, furthest);
     let mut matrix = DMatrix::zeros(count * block, count * block);
     // Column blocks of one row node each: the upper half first, mirrored below.
     matrix.as_mut_slice().par_chunks_exact_mut(block * count * block).enumerate().for_each(|(j, columns)| {
         let mut integrals = vec![0.0; order * order];
         for i in 0..=j {
-            let (q2, factor) = (rows.angle.q2(rows.distance[i], rows.distance[j]), rows.factor(i, j));
-            for (e, f, correlation) in &correlations {
-                correlation.integrate(q2, &mut integrals);
+            let place = table.place(rows.q2(i, j));
+            let factor = rows.factor(i, j);
+            for pair in table.pairs() {
+                pair.at(&place, &mut integrals);
+                let [e, f] = pair.strips.map(|strip| strip * order);
                 for (n, value) in integrals.iter().enumerate() {
-                    let (at_e, at_f) = (e * order + n / order, f * order + n % order);
+                    let (at_e, at_f) = (e + n / order, f + n % order);
                     columns[at_f * count * block + i * block + at_e] = factor * value;
                     columns[at_e * count * block + i * block + at_f] = factor * value;
                 }

@@ -6,29 +6,29 @@ use nalgebra::DMatrix;
 
 use super::Resolution;
 use crate::geometry::Fold;
-use crate::kernel::quadrature::Rule;
+use crate::kernel::quadrature::{Lagrange, Rule};
 
 /// Nodes across a panel, from the crease outwards; the first stands for the strip next to the crease.
 pub(super) struct Rows {
-    pub(super) angle: Angle,
+    angle: Angle,
     /// Ends of the rule's panels in ln s, from the crease strip to the outer edge at 0.
     ends: Vec<f64>,
     rule: Rule,
-    pub(super) distance: Vec<f64>,
+    distance: Vec<f64>,
     weight: Vec<f64>,
 }
 
 /// Trigonometry of the opening angle, in forms that keep their digits.
 #[derive(Clone, Copy)]
-pub(super) struct Angle {
+struct Angle {
     sin: f64,
     cos: f64,
-    pub(super) half_sin: f64,
+    half_sin: f64,
 }
 
 impl Angle {
     /// Squared distance across the crease.
-    pub(super) fn q2(self, s: f64, t: f64) -> f64 {
+    fn q2(self, s: f64, t: f64) -> f64 {
         (s - t).powi(2) + 4.0 * s * t * self.half_sin * self.half_sin
     }
 
@@ -71,6 +71,18 @@ impl Rows {
     /// Coordinates of the function 1.
     pub(super) fn uniform(&self) -> impl Iterator<Item = f64> + '_ {
         self.weight.iter().map(|w| w.sqrt())
+    }
+
+    /// Squared distance across the crease between nodes `i` and `j`.
+    pub(super) fn q2(&self, i: usize, j: usize) -> f64 {
+        self.angle.q2(self.distance[i], self.distance[j])
+    }
+
+    /// Least and largest distance between nodes of the two panels.
+    pub(super) fn distances(&self) -> (f64, f64) {
+        let pairs = (0..self.len()).flat_map(|i| (i..self.len()).map(move |j| self.q2(i, j)));
+        let (least, largest) = pairs.fold((f64::INFINITY, 0.0_f64), |(a, b), q2| (a.min(q2), b.max(q2)));
+        (least.sqrt(), largest.sqrt())
     }
 
     /// Factor of the correlation integral for nodes `i` and `j`.
@@ -145,27 +157,4 @@ fn graded_ends(start: f64, longest: f64, theta: f64) -> Vec<f64> {
     ends.push(start);
     ends.reverse();
     ends
-}
-
-/// Lagrange interpolation through fixed nodes.
-struct Lagrange<'a> {
-    nodes: &'a [f64],
-    scale: Vec<f64>,
-}
-
-impl<'a> Lagrange<'a> {
-    fn new(nodes: &'a [f64]) -> Self {
-        let others = |k: usize| nodes.iter().enumerate().filter(move |(m, _)| *m != k);
-        let scale =
-            (0..nodes.len()).map(|k| others(k).map(|(_, x)| nodes[k] - x).product::<f64>().recip()).collect();
-        Self { nodes, scale }
-    }
-
-    /// Values of the basis polynomials at `x`.
-    fn at(&self, x: f64) -> Vec<f64> {
-        let others = |k: usize| self.nodes.iter().enumerate().filter(move |(m, _)| *m != k);
-        (0..self.nodes.len())
-            .map(|k| others(k).map(|(_, node)| x - node).product::<f64>() * self.scale[k])
-            .collect()
-    }
 }
