@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, ValueEnum};
 
 use crate::error::{Error, Result};
+use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
@@ -27,6 +28,9 @@ pub struct Common {
     /// Say what was decided, measured and skipped
     #[arg(short, long, conflicts_with = "quiet")]
     pub verbose: bool,
+    /// Count samples on standard error while they pass; auto: on a terminal, when the records go to a file
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub progress: ProgressWhen,
     /// Also write a field of the records as an NPY array, samples stacked
     #[arg(long, value_name = "FIELD=FILE", value_parser = field_and_file)]
     pub save: Vec<(String, PathBuf)>,
@@ -39,6 +43,17 @@ pub struct Common {
     /// Print the built-in spectra of a kind
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
+}
+
+/// What `--progress` takes.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ProgressWhen {
+    /// On a terminal, when the records go to a file.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
 }
 
 /// What `--generate` prints.
@@ -63,6 +78,18 @@ pub enum ListWhat {
     Illuminants,
     /// Reflectances and sets of them.
     Reflectances,
+}
+
+impl Common {
+    /// When to show progress: `--quiet` means never.
+    fn when(&self) -> When {
+        match self.progress {
+            _ if self.quiet => When::Never,
+            ProgressWhen::Auto => When::Auto,
+            ProgressWhen::Always => When::Always,
+            ProgressWhen::Never => When::Never,
+        }
+    }
 }
 
 /// A tool's arguments.
@@ -96,6 +123,7 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     let mut out = Output::to(common.output.as_deref(), &common.save)?;
+    out.show(Progress::new(A::command().get_name(), common.when(), common.output.is_some()));
     match (common.generate, common.list) {
         (Some(what), _) => generate::<A>(what, &mut out)?,
         (None, Some(what)) => print_list(what, &mut out)?,

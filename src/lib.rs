@@ -42,6 +42,7 @@ pub mod geometry;
 pub mod image;
 pub mod kernel;
 pub mod plot;
+pub mod progress;
 pub mod response;
 pub mod score;
 pub mod solve;

@@ -167,6 +167,17 @@ fn a_reader_that_leaves_is_no_failure() {
     }
 }
 
+#[test]
+fn progress_counts_the_samples_when_asked() {
+    let run = after_setup(
+        "vestimate estimates.ndjson --progress always > out.ndjson; grep -c '\"kind\":\"sample\"' out.ndjson",
+    );
+    let count = run.stdout.trim();
+    assert!(run.stderr.ends_with(&format!("\rvestimate: {count} samples\n")), "{run:?}");
+    let run = after_setup("vestimate estimates.ndjson --progress always --quiet > out.ndjson");
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+}
+
 /// A device renamed away by a superuser would be gone for everybody.
 #[test]
 fn a_pipe_as_a_file_takes_the_bytes_and_stays_a_pipe() {

@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 use super::{Fields, Sample, Saves, Scene};
 use crate::error::{Error, Result};
 use crate::files::Saved;
+use crate::progress::Progress;
 
 /// Where a tool's records go: standard output, or a file that appears when it is whole.
 pub struct Output {
     sink: Sink,
     /// Fields that are also written as arrays.
     pub saves: Saves,
+    progress: Option<Progress>,
     failed: usize,
 }
 
@@ -30,7 +32,12 @@ impl Output {
             Some(path) if path != Path::new("-") => Sink::File(BufWriter::new(Saved::new(path)?)),
             _ => Sink::Stdout(BufWriter::new(io::stdout())),
         };
-        Ok(Self { sink, saves: Saves::new(saves), failed: 0 })
+        Ok(Self { sink, saves: Saves::new(saves), progress: None, failed: 0 })
+    }
+
+    /// Shows how many samples have been written.
+    pub fn show(&mut self, progress: Progress) {
+        self.progress = Some(progress);
     }
 
     /// Writes a scene.
@@ -47,6 +54,9 @@ impl Output {
     /// As [`Output::fields`].
     pub fn sample(&mut self, sample: &Sample) -> Result<()> {
         self.failed += usize::from(sample.error()?.is_some());
+        if let Some(progress) = &mut self.progress {
+            progress.tick();
+        }
         self.fields(&sample.fields)
     }
 
@@ -91,7 +101,10 @@ impl Output {
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.
-    pub fn finish(self) -> Result<usize> {
+    pub fn finish(mut self) -> Result<usize> {
+        if let Some(progress) = &mut self.progress {
+            progress.finish();
+        }
         self.saves.finish()?;
         match self.sink {
             Sink::Stdout(mut out) => out.flush().map_err(Error::Output)?,
