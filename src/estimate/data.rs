@@ -121,12 +121,6 @@ impl<'a> FacetData<'a> {
         self.values.is_empty()
     }
 
-    /// Size of the data in units of their noise: root mean square over all facet values.
-    #[must_use]
-    pub fn signal_to_noise(&self) -> f64 {
-        ((self.values.norm_squared() + self.outside.max(0.0)) / self.count as f64).sqrt()
-    }
-
     /// Root mean square of all residuals, those outside the compressed data included.
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {

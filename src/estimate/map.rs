@@ -20,9 +20,8 @@ const ITERATION_LIMIT: u32 = 500;
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
 pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
-    let inflations = inflations(data.signal_to_noise());
     let facets = Facets { data, prior };
-    let solution = maximise(&facets, &inflations, TOLERANCE, ITERATION_LIMIT);
+    let solution = maximise(&facets, TOLERANCE, ITERATION_LIMIT);
     let reflectance = facets.reflectance(&solution.w);
     let at = data.residuals(&reflectance);
     Estimate {
@@ -33,14 +32,6 @@ pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
         termination: solution.termination,
         reflectance,
     }
-}
-
-/// Factors by which the noise starts larger: from a tenth of the signal down by tens to its true size.
-fn inflations(signal_to_noise: f64) -> Vec<f64> {
-    let first = 0.1 * signal_to_noise;
-    std::iter::successors(Some(first), |inflation| Some(inflation / 10.0))
-        .take_while(|inflation| *inflation > 1.0)
-        .collect()
 }
 
 /// The facets as a model of the whitened logit of reflectance.

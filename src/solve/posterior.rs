@@ -13,7 +13,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
 
-/// Steps at each inflation of the noise.
+/// Share of the misfit at the start that the noise is first taken for.
+const MISFIT: f64 = 0.3;
+/// Most steps at each inflation of the noise.
 const STEPS_A_STAGE: u32 = 2;
 /// Gradient, in the metric of the Hessian, below which second derivatives are trusted.
 const NEAR: f64 = 1.0;
@@ -54,17 +56,23 @@ pub struct Solution {
     pub termination: Termination,
 }
 
-/// Minimises from the prior's mean, first with the noise inflated by each of `inflations` for two steps, then at its true
-/// size until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then within
-/// `tolerance` standard deviations of the minimum.
+/// Minimises from the prior's mean, the noise first inflated to a third of the misfit there and then, by tens, down to its
+/// true size, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
+/// within `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise(model: &impl Model, inflations: &[f64], tolerance: f64, limit: u32) -> Solution {
+pub fn maximise(model: &impl Model, tolerance: f64, limit: u32) -> Solution {
     let mut search = Search { model, w: DVector::zeros(model.unknowns()), iterations: 0 };
-    for inflation in inflations {
+    let misfit = model.residuals(&search.w);
+    let mut inflation = MISFIT * misfit.norm() / (misfit.len().max(1) as f64).sqrt();
+    while inflation > 1.0 {
         for _ in 0..STEPS_A_STAGE {
-            search.step(inflation.powi(-2));
+            let (decrement, moved) = search.step(inflation.powi(-2));
+            if decrement < 1.0 || !moved {
+                break;
+            }
         }
+        inflation /= 10.0;
     }
     let termination = loop {
         let (decrement, moved) = search.step(1.0);
@@ -107,31 +115,39 @@ impl<M: Model> Search<'_, M> {
         let cost =
             |w: &DVector<f64>, residuals: &DVector<f64>| weight * residuals.norm_squared() + w.norm_squared();
         let before = cost(&self.w, &at.residuals);
-        let next =
-            std::iter::successors(Some((LONGEST / direction.norm()).min(1.0)), |length| Some(0.5 * length))
-                .take(HALVINGS)
-                .map(|length| &self.w + length * &direction)
-                .find(|next| cost(next, &self.model.residuals(next)) < before);
+        let next = std::iter::successors(Some(1.0), |length| Some(0.5 * length))
+            .take(HALVINGS)
+            .map(|length| &self.w + length * &direction)
+            .find(|next| cost(next, &self.model.residuals(next)) < before);
         let moved = next.is_some();
         self.w = next.unwrap_or_else(|| self.w.clone());
         (decrement, moved)
     }
 
-    /// Gauss and Newton's direction, or near the minimum Newton's where the Hessian is positive; and the gradient's norm in
-    /// the metric of that Hessian.
+    /// Gauss and Newton's direction, damped until it is no longer than [`LONGEST`], or near the minimum Newton's where the
+    /// Hessian is positive; and the gradient's norm in the metric of the undamped Hessian.
     fn direction(&self, at: &Linearised, weight: f64) -> Option<(DVector<f64>, f64)> {
         let descent = weight * at.jacobian.tr_mul(&at.residuals) - &self.w;
-        let solve = |factor: Cholesky<f64, Dyn>| {
-            let direction = factor.solve(&descent);
+        let solve = |hessian: &DMatrix<f64>| {
+            let direction = Cholesky::new(hessian.clone())?.solve(&descent);
             let decrement = descent.dot(&direction).max(0.0).sqrt();
-            (direction, decrement)
+            Some((direction, decrement))
         };
-        let hessian = gauss_newton(&at.jacobian, weight);
-        let first = solve(Cholesky::new(hessian.clone())?);
-        if first.1 > NEAR {
-            return Some(first);
+        let mut hessian = gauss_newton(&at.jacobian, weight);
+        let (mut direction, decrement) = solve(&hessian)?;
+        if decrement <= NEAR {
+            let newton = solve(&(hessian - weight * self.model.curvature(&self.w)));
+            return Some(newton.unwrap_or((direction, decrement)));
         }
-        Some(Cholesky::new(hessian - weight * self.model.curvature(&self.w)).map_or(first, solve))
+        let mut damping = 1.0;
+        while direction.norm() > LONGEST {
+            for i in 0..direction.len() {
+                hessian[(i, i)] += damping;
+            }
+            (direction, _) = solve(&hessian)?;
+            damping *= 10.0;
+        }
+        Some((direction, decrement))
     }
 }
 
@@ -168,7 +184,7 @@ mod tests {
     fn the_gradient_vanishes_where_it_says_so() {
         for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {
             let model = Exponential { data, scale };
-            let found = maximise(&model, &[], 1e-6, 100);
+            let found = maximise(&model, 1e-6, 100);
             let w = found.w[0];
             let slope = w - (data - scale * w.exp()) * scale * w.exp();
             let information = 1.0 + (scale * w.exp()).powi(2);
