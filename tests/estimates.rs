@@ -19,7 +19,7 @@ fn scores(script: &str) -> Vec<(String, f64, f64)> {
     records.filter(|record| record["kind"] == "sample").map(score).collect()
 }
 
-/// Deeb et al., table 1, "Our Method" on ColorChecker24: RMSE 0.017, CIEDE2000 0.29, one light.
+/// Deeb et al., table 1, "Our Method" on the 24 patches: RMSE 0.017, CIEDE2000 0.29, one light.
 #[test]
 fn one_light_is_better_than_the_paper_on_its_chart() {
     for camera in ["canon-5d-mark-ii", "sigma-sd-merrill", "nikon-d5100"] {
