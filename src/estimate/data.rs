@@ -71,27 +71,12 @@ impl<'a> FacetData<'a> {
         let samples = sample_terms(model);
         let (mut values, mut models, mut outside) = (Vec::new(), Vec::new(), 0.0);
         for channel in 0..channels {
-            let column = |of: &[Option<Vec<f64>>], facet: usize| {
-                of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel])
-            };
-            let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
-            let data = DVector::from_iterator(
-                usable.len(),
-                usable.iter().zip(&weight).map(|(facet, w)| w * column(measured.rgb, *facet)),
-            );
-            let sources = model.sources().iter().map(|source| {
-                DMatrix::from_fn(usable.len(), model.terms(), |row, term| {
-                    weight[row] * source.facets[(usable[row], term)]
-                })
-            });
-            let (kept, compressed) = compress(&data, sources.collect(), &samples, cutoff);
+            let (data, sources) = weighted(model, measured, &usable, channel);
+            let (kept, sources) = compress(&data, &sources, &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
             values.extend(kept.iter());
-            let weights = model
-                .sources()
-                .iter()
-                .map(|source| DVector::from_column_slice(source.camera.channel(channel)));
-            models.push(ChannelModel { sources: compressed, weights: weights.collect() });
+            let camera = model.sources().iter().map(|source| source.camera.channel(channel));
+            models.push(ChannelModel { sources, weights: camera.map(DVector::from_column_slice).collect() });
         }
         let sums = SumRule {
             measured: usable.iter().filter_map(|facet| measured.rgb[*facet].as_ref()).flatten().sum(),
@@ -266,6 +251,24 @@ fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> 
     Ok(usable)
 }
 
+/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
+fn weighted(
+    model: &FacetModel,
+    measured: &Measured,
+    usable: &[usize],
+    channel: usize,
+) -> (DVector<f64>, Vec<DMatrix<f64>>) {
+    let column =
+        |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
+    let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
+    let data = usable.iter().zip(&weight).map(|(facet, weight)| weight * column(measured.rgb, *facet));
+    let entry = |facets: &DMatrix<f64>, row: usize, term| weight[row] * facets[(usable[row], term)];
+    let sources = model.sources().iter().map(|source| {
+        DMatrix::from_fn(usable.len(), model.terms(), |row, term| entry(&source.facets, row, term))
+    });
+    (DVector::from_iterator(usable.len(), data), sources.collect())
+}
+
 fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
     rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
 }
@@ -284,7 +287,7 @@ fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
 /// Rotates data and models to the directions that reflectance can move by more than the noise.
 fn compress(
     data: &DVector<f64>,
-    sources: Vec<DMatrix<f64>>,
+    sources: &[DMatrix<f64>],
     samples: &DMatrix<f64>,
     cutoff: f64,
 ) -> (DVector<f64>, Vec<DMatrix<f64>>) {
@@ -296,11 +299,13 @@ fn compress(
     let reach =
         DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
     let directions = nalgebra::SymmetricEigen::new(&reach * reach.transpose());
+    // Below that share of the largest, squares of singular values are rounding.
+    let least = (cutoff * cutoff).max(1e-15 * directions.eigenvalues.max());
     let kept: Vec<_> = directions
         .eigenvalues
         .iter()
         .zip(directions.eigenvectors.column_iter())
-        .filter(|(square, _)| **square > cutoff * cutoff)
+        .filter(|(square, _)| **square > least)
         .map(|(_, direction)| direction)
         .collect();
     if kept.is_empty() {
