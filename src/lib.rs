@@ -23,11 +23,12 @@
 //! Use runs one way:
 //!
 //! ```text
-//! bin -> cli, stream, plot
-//!        stream -> estimate -> forward -> camera -> spectrum
-//!                  estimate -> solve     forward -> response -> kernel -> geometry
-//!                                        forward -> image -> files
-//!        score, colorimetry -> spectrum                            all -> error
+//! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
+//!               stream -> plot, score, progress, files
+//!                         estimate -> solve
+//!                                     forward -> camera -> spectrum
+//!                                     forward -> image -> files
+//!               score, colorimetry -> spectrum                          all -> error
 //! ```
 //! JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 
 /// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
 const MARGIN: f64 = 2e-3;
-/// Directions of less than this share of the largest variance are left out: spectra do not move along them, and half of the
+/// Directions of less than this share of the largest variance are left out: spectra do not move along them, and two thirds of the
 /// directions of a smooth prior are such.
 const VARIANCE_CUTOFF: f64 = 1e-5;
 /// Correlation length and standard deviation, in logit, of what spectra do that the training set does not.
