@@ -128,6 +128,30 @@ proptest! {
         prop_assert!(worst_relative(&short, &dense) < 1e-10, "{}", worst_relative(&short, &dense));
     }
 
+    /// The model behind the tools, one waveband and one channel: what it sees is reflectance times dense irradiance, under sun
+    /// and sky together, for one sheet and for a sheet beside a card.
+    #[test]
+    fn the_facet_model_sees_the_dense_solution(
+        fold in folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
+    ) {
+        let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
+        let (k, half) = (matrix(&fold), fold.facets().len());
+        let open = k.column_sum().map(|sum| 1.0 - sum);
+        let direct = DVector::from_fn(2 * half, |facet, _| light.panel_irradiance()[facet / half] + sky * open[facet]);
+        let eye = CameraResponse::from_weights(vec![vec![1.0]]);
+        let lighting = Lighting { light, sun: eye.clone(), sky: eye };
+        let response = response(&fold);
+        for (model, r1) in [
+            (FacetModel::one_sheet(&response, &lighting), r),
+            (FacetModel::with_card(&response, &lighting, vec![card]), card),
+        ] {
+            let seen = model.facet_rgb(&[r]).column(0).into_owned();
+            let lit = dense_irradiance(&k, &direct, r, r1);
+            let want = DVector::from_fn(2 * half, |facet, _| if facet < half { r } else { r1 } * lit[facet]);
+            prop_assert!(worst_relative(&seen, &want) < 1e-9, "{}", worst_relative(&seen, &want));
+        }
+    }
+
     /// Each facet sees the sky that the other panel does not hide: its share is one less its row of K.
     #[test]
     fn a_sky_lights_what_the_other_panel_leaves_open(fold in folds(), r in 0.0..=1.0) {

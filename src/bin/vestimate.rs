@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
@@ -10,7 +9,7 @@ use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map, smooth};
 use vfold::forward::FacetModel;
-use vfold::plot::spectra::draw;
+use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Output, Reader, Record, ReferencePanel, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
@@ -89,7 +88,13 @@ enum Method {
 struct Context {
     grid: WavelengthGrid,
     model: FacetModel,
-    prior: Option<Arc<Prior>>,
+    method: SceneMethod,
+}
+
+/// The method on the wavelengths of a scene.
+enum SceneMethod {
+    Map(Prior),
+    Smooth(f64),
 }
 
 struct Estimator<'a> {
@@ -107,7 +112,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     pipe(&mut Reader::open(&args.samples)?, &estimator, |record| {
         if let Record::Sample(sample) = &record {
             warn_of_misfit(args, sample)?;
-            if args.plot.is_some() {
+            if args.plot.is_some() && curves.len() < CURVES_MAX {
                 curves.extend(sample.curve()?);
             }
         }
@@ -165,18 +170,18 @@ impl Transform for Estimator<'_> {
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
         }
-        let prior = match &self.method {
+        let method = match &self.method {
             Method::Map(spectra) => {
                 let on_grid: Vec<_> =
                     spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
-                Some(Arc::new(Prior::from_spectra(grid.wavelengths_nm(), &on_grid)?))
+                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid)?)
             }
-            Method::Smooth(_) => None,
+            Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
         }
-        Ok(Context { grid, model: scene.model()?, prior })
+        Ok(Context { grid, model: scene.model()?, method })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
@@ -185,16 +190,13 @@ impl Transform for Estimator<'_> {
             Some(exposure) => exposure,
             None => sample.exposure()?.map_or(Exposure::Free, Exposure::Known),
         };
-        let estimate = match (&self.method, &context.prior) {
-            (Method::Map(_), Some(prior)) => {
+        let estimate = match &context.method {
+            SceneMethod::Map(prior) => {
                 let sd = self.deviations(&rgb, sample)?;
                 let measured = Measured { rgb: &rgb, sd: &sd };
                 map::estimate(&FacetData::new(&context.model, &measured, exposure, CUTOFF)?, prior)
             }
-            (Method::Smooth(smoothness), _) => self.smooth(context, &rgb, exposure, *smoothness)?,
-            (Method::Map(_), None) => {
-                return Err(Error::Numeric("no prior was made for the scene".to_owned()));
-            }
+            SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, exposure, *smoothness)?,
         };
         sample.set_estimate("interreflection", &self.args.prior, context.grid.wavelengths_nm(), &estimate)
     }

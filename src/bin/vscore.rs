@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::colorimetry::{Colorimeter, Observer};
-use vfold::plot::spectra::draw;
+use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::score::{Metrics, Summary, pearson_distance, rmse};
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Output, Reader, Record, ReflectanceRecord, Sample, Scene, Transform, pipe};
@@ -76,7 +76,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     pipe(&mut Reader::open(&args.samples)?, &scorer, |record| {
         if let Record::Sample(sample) = &record {
             summary.add(sample.metrics()?);
-            if args.plot.is_some() {
+            if args.plot.is_some() && curves.len() < CURVES_MAX {
                 curves.extend(sample.curve()?);
             }
         }

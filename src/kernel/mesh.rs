@@ -104,25 +104,26 @@ fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
         let response = Response::lanczos(&Continuum::new(fold, &resolution), 0.1 * aim)?;
         Ok(Some((response, resolution.unknowns(fold))))
     };
-    let Some((mut response, mut unknowns)) = solve()? else {
+    let (Some((coarse, _)), Some((mut response, mut unknowns))) = (solve()?, solve()?) else {
         return Err(Error::usage(
             "--tolerance",
             format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
         ));
     };
-    let (mut before, mut error) = (f64::INFINITY, f64::INFINITY);
+    let mut before = difference(&coarse, &response);
+    let mut error = before;
     while error > tolerance
         && let Some(finer) = solve()?
     {
         let last = difference(&response, &finer.0);
         // A difference is the error of the coarser solution. The finer one gains as much again as the one before did, but
-        // is not believed to gain more than it was asked to; the first gain of all is not known.
-        error = last * if before.is_finite() { (last / before).clamp(1.0 / STEP, 1.0) } else { 1.0 };
+        // is not believed to gain more than it was asked to.
+        error = last * (last / before).clamp(1.0 / STEP, 1.0);
         before = last;
         (response, unknowns) = finer;
     }
-    Ok((response, Accuracy { unknowns, facet_mean_error: error.is_finite().then_some(error) }))
+    Ok((response, Accuracy { unknowns, facet_mean_error: Some(error) }))
 }
 
 fn flat(fold: &Fold) -> bool {

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 
 /// Most curves in one drawing: more could not be told apart.
-const CURVES_MAX: usize = 8;
+pub const CURVES_MAX: usize = 8;
 const SIZE: (u32, u32) = (760, 460);
 /// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
 const COLOURS: [RGBColor; 7] = [

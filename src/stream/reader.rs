@@ -115,8 +115,7 @@ pub trait Transform {
     fn sample(&self, context: &Self::Context, sample: &mut Sample) -> Result<()>;
 }
 
-/// Passes all records of `reader` through `transform`, samples in parallel, to `output` in their order; `done` sees each
-/// record as it leaves.
+/// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order.
 ///
 /// # Errors
 /// From the stream itself or from a scene; samples carry their own.
