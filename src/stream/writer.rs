@@ -109,7 +109,8 @@ impl Output {
         match self.sink {
             Sink::Stdout(mut out) => out.flush().map_err(Error::Output)?,
             Sink::File(out) => {
-                out.into_inner().map_err(io::IntoInnerError::into_error).map_err(Error::Output)?.keep()?;
+                let path = out.get_ref().path().display().to_string();
+                out.into_inner().map_err(|e| Error::file(path, e.into_error()))?.keep()?;
             }
         }
         Ok(self.failed)
