@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
 use vfold::geometry::FacetGrid;
 use vfold::image::{Homography, PANEL_CORNERS, Photograph, ReadOptions, Transfer, measure, parse_corners};
@@ -40,8 +40,8 @@ struct Args {
     #[command(flatten)]
     optics: OpticsArgs,
     /// Curve of the stored numbers; auto: sRGB for 8 bits, linear for the rest
-    #[arg(long, value_enum, default_value_t = TransferArg::Auto)]
-    transfer: TransferArg,
+    #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]
+    transfer: Transfer,
     /// Stored number that means no light
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     black_level: Option<f64>,
@@ -62,14 +62,6 @@ impl ToolArgs for Args {
     fn common(&self) -> &Common {
         &self.common
     }
-}
-
-/// The curves a user can name.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum TransferArg {
-    Auto,
-    Linear,
-    Srgb,
 }
 
 fn main() -> ExitCode {
@@ -154,14 +146,13 @@ fn check(args: &Args) -> Result<()> {
 }
 
 fn open(args: &Args, path: &Path) -> Result<Photograph> {
-    let transfer = match args.transfer {
-        TransferArg::Auto => Transfer::Auto,
-        TransferArg::Linear => Transfer::Linear,
-        TransferArg::Srgb => Transfer::Srgb,
-    };
     Photograph::open(
         path,
-        &ReadOptions { transfer, black_level: args.black_level, white_level: args.white_level },
+        &ReadOptions {
+            transfer: args.transfer,
+            black_level: args.black_level,
+            white_level: args.white_level,
+        },
     )
 }
 
@@ -227,4 +218,8 @@ fn failed(scene: &str, path: &Path, error: &Error) -> Result<Sample> {
 /// A sample is called after its photograph.
 fn name(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn transfer(text: &str) -> std::result::Result<Transfer, String> {
+    text.parse().map_err(|e: Error| e.to_string())
 }

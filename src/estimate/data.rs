@@ -95,15 +95,8 @@ impl<'a> FacetData<'a> {
     }
 
     /// Compressed data left of all facet values.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    fn len(&self) -> usize {
         self.values.len()
-    }
-
-    /// Whether nothing is left: no reflectance changes any facet by more than the noise.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
     }
 
     /// Root mean square of all residuals, those outside the compressed data included.
