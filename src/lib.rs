@@ -10,9 +10,9 @@
 //! | equation | what it says | here |
 //! |---|---|---|
 //! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
-//! | eq. (2) | geometrical kernel of two points | [`kernel::exact`], averaged over facets |
-//! | eq. (10) | kernel matrix of the facets | [`kernel::exact::FoldKernel::matrix_row`] |
-//! | eq. (16) | radiance after all bounces | [`response::Response::lanczos`] |
+//! | eq. (2) | geometrical kernel of two points | [`kernel::exact::form_factors`], averaged over facets |
+//! | eq. (10) | kernel matrix of the facets | [`kernel::FoldKernel::matrix_row`] |
+//! | eq. (16) | radiance after all bounces | [`response::Response::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
 //! | eq. (24) | facet RGB | [`forward::FacetModel::facet_rgb`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |

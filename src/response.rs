@@ -2,30 +2,73 @@
 //!
 //! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
 //! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
-//! light does not excite. For two equal panels the poles of one panel's exchange F with its twin give everything, since
-//! K = [0 F; F 0]: unequal panels, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
+//! light does not excite. Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on
+//! one panel give everything: panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::error::{Error, Result};
 use crate::kernel::panel::PanelOperator;
 
-/// Most Lanczos steps: a 1° fold takes about 230.
-const STEPS_MAX: usize = 400;
+/// Most Lanczos steps: a 0.1° fold takes about 500.
+const STEPS_MAX: usize = 1000;
+/// Poles nearer to zero than this have no twin of the other sign.
+const NO_POLE: f64 = 1e-13;
 
-/// Poles and residues of one panel under even light.
-///
-/// The irradiance of facet i under unit irradiance on both panels, both of reflectance r, is
-/// `Σ_k residues[i][k] / (1 − r·poles[k])`.
+/// What the bounces make of even light on either panel, as poles and residues for every facet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    poles: Vec<f64>,
-    /// Facet by pole, facets row by row from the crease.
-    residues: Vec<f64>,
+    modes: Modes,
+    /// Facets of one panel.
+    facets: usize,
+}
+
+/// Modes that even light excites.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Modes {
+    /// Of a fold whose panels are alike: on any panel, whichever panel the light falls on.
+    Shared(ModeSet),
+    /// Light on panel 0, light on panel 1: each set has the facets of panel 0, then those of panel 1.
+    Separate([ModeSet; 2]),
+}
+
+/// Poles, and residues facet by pole.
+///
+/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on that panel, and
+/// the same with `r·pole_k·residue_k` on the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModeSet {
+    /// Poles g, in (−1, 1): shares of its light that a mode hands on.
+    pub poles: Vec<f64>,
+    /// Facet by pole.
+    pub residues: Vec<f64>,
+}
+
+impl ModeSet {
+    fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let count = self.poles.len();
+        self.poles.iter().copied().zip(self.residues[facet * count..][..count].iter().copied())
+    }
+}
+
+/// What a light gives to one mode at one facet: unit reflectances aside, `irradiance = (own + r_other·pole·other) /
+/// (1 − r_own·r_other·pole²)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excitation {
+    /// Pole of the mode.
+    pub pole: f64,
+    /// From the light on the facet's own panel.
+    pub own: f64,
+    /// From the light on the other panel.
+    pub other: f64,
 }
 
 impl Response {
-    /// Reduces `operator` to the poles and residues that reach `tolerance` for every reflectance in [0, 1].
+    /// Reduces `operator` to poles and residues whose residual in the system of eq. (15) is at most `tolerance`, relative
+    /// to the light, for every reflectance in [0, 1].
+    ///
+    /// # Returns
+    /// The response and the residual that it reached.
     ///
     /// # Source
     /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with full reorthogonalisation (Golub and Van Loan, *Matrix
@@ -33,15 +76,195 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::Numeric`] if the light does not leave the fold: an operator that hands on all it receives.
-    pub fn lanczos(operator: &impl PanelOperator, tolerance: f64) -> Result<Self> {
-        let start = operator.uniform();
-        let norm = dot(&start, &start).sqrt();
-        let mut basis: Vec<Vec<f64>> = vec![start.iter().map(|x| x / norm).collect()];
+    pub fn solve(operator: &impl PanelOperator, tolerance: f64) -> Result<(Self, f64)> {
+        if operator.is_symmetric() {
+            let one = Excited {
+                start: operator.uniform(0),
+                apply: |x: &[f64], out: &mut [f64]| operator.apply(0, x, out),
+                means: |x: &[f64]| operator.facet_means(0, x),
+            };
+            let (set, residual) = one.lanczos(tolerance)?;
+            let facets = set.residues.len() / set.poles.len();
+            return Ok((Self { modes: Modes::Shared(set), facets }, residual));
+        }
+        let (set0, residual0) = both_panels(operator, 0, tolerance)?;
+        let (set1, residual1) = both_panels(operator, 1, tolerance)?;
+        let facets = set0.residues.len() / set0.poles.len() / 2;
+        Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
+    }
+
+    /// A response from its modes.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the shapes disagree, a pole is not inside (−1, 1), or the residues are not those of even light.
+    pub fn new(modes: Modes) -> Result<Self> {
+        let (sets, panels): (&[ModeSet], _) = match &modes {
+            Modes::Shared(set) => (std::slice::from_ref(set), 1),
+            Modes::Separate(sets) => (sets, 2),
+        };
+        let facets = sets[0].residues.len() / sets[0].poles.len().max(1) / panels;
+        for (source, set) in sets.iter().enumerate() {
+            let poles = set.poles.len();
+            if poles == 0 || facets == 0 || set.residues.len() != facets * panels * poles {
+                return Err(Error::field(
+                    "response.residues",
+                    "needs one row a facet with one number a pole",
+                ));
+            }
+            if !set.poles.iter().all(|g| g.abs() < 1.0) {
+                return Err(Error::field(
+                    "response.poles",
+                    "a pole outside (-1, 1): the bounces would not end",
+                ));
+            }
+            // Without a bounce, even light is even.
+            let lit = &set.residues[source * facets * poles..][..facets * poles];
+            if !lit.chunks_exact(poles).all(|facet| (facet.iter().sum::<f64>() - 1.0).abs() < 1e-3) {
+                return Err(Error::field(
+                    "response.residues",
+                    "those of a facet do not add up to 1: make the scene again",
+                ));
+            }
+        }
+        Ok(Self { modes, facets })
+    }
+
+    /// The modes behind it.
+    #[must_use]
+    pub fn modes(&self) -> &Modes {
+        &self.modes
+    }
+
+    /// All poles, in the order of [`Response::excitations`].
+    #[must_use]
+    pub fn poles(&self) -> Vec<f64> {
+        match &self.modes {
+            Modes::Shared(set) => set.poles.clone(),
+            Modes::Separate([set0, set1]) => [set0.poles.as_slice(), &set1.poles].concat(),
+        }
+    }
+
+    /// Facets on one panel.
+    #[must_use]
+    pub fn facets(&self) -> usize {
+        self.facets
+    }
+
+    /// What `light` gives to each mode at a facet of `panel`.
+    #[must_use]
+    pub fn excitations(&self, panel: usize, facet: usize, light: ModeLight) -> Vec<Excitation> {
+        match &self.modes {
+            Modes::Shared(set) => {
+                let excite = |(pole, residue)| {
+                    let (own, other) = light.on_both(panel, pole);
+                    Excitation { pole, own: residue * own, other: residue * other }
+                };
+                set.of_facet(facet).map(excite).collect()
+            }
+            Modes::Separate(sets) => {
+                let of_source = |source: usize| {
+                    sets[source].of_facet(panel * self.facets + facet).map(move |(pole, residue)| {
+                        let (lit, facing) = light.on_one(source, pole);
+                        let (own, other) = if source == panel { (lit, facing) } else { (facing, lit) };
+                        Excitation { pole, own: residue * own, other: residue * other }
+                    })
+                };
+                of_source(0).chain(of_source(1)).collect()
+            }
+        }
+    }
+
+    /// Irradiance of a facet of `panel` in `light` with all bounces, the panels' reflectances being `reflectances`.
+    #[must_use]
+    pub fn irradiance(&self, panel: usize, facet: usize, light: ModeLight, reflectances: [f64; 2]) -> f64 {
+        let (both, r_other) = (reflectances[0] * reflectances[1], reflectances[1 - panel]);
+        let at = |mode: &Excitation| {
+            (mode.own + r_other * mode.pole * mode.other) / (1.0 - both * mode.pole * mode.pole)
+        };
+        self.excitations(panel, facet, light).iter().map(at).sum()
+    }
+}
+
+/// A light as the modes of the panels receive it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModeLight {
+    /// Parallel light: irradiance on panel 0 and on panel 1.
+    Sun([f64; 2]),
+    /// A uniform sky with this irradiance on an unobstructed plane: each panel gets what the other does not hide, `1 − F·1`.
+    Sky(f64),
+}
+
+impl ModeLight {
+    /// What a mode that both panels share gets on `panel` and on the other.
+    fn on_both(self, panel: usize, pole: f64) -> (f64, f64) {
+        match self {
+            Self::Sun(sun) => (sun[panel], sun[1 - panel]),
+            Self::Sky(sky) => (sky * (1.0 - pole), sky * (1.0 - pole)),
+        }
+    }
+
+    /// What a mode of the light on panel `source` gets there, and what its twin gets on the other panel.
+    fn on_one(self, source: usize, pole: f64) -> (f64, f64) {
+        match self {
+            Self::Sun(sun) => (sun[source], 0.0),
+            Self::Sky(sky) => (sky, -sky * pole),
+        }
+    }
+}
+
+/// A symmetric operator, the light it starts from, and how its vectors are read.
+struct Excited<A, M> {
+    start: Vec<f64>,
+    apply: A,
+    means: M,
+}
+
+/// Modes of even light on panel `source`, seen on both panels.
+fn both_panels(operator: &impl PanelOperator, source: usize, tolerance: f64) -> Result<(ModeSet, f64)> {
+    let lengths = [0, 1].map(|panel| operator.uniform(panel).len());
+    let mut start = vec![0.0; lengths[0] + lengths[1]];
+    let (of_0, of_1) = start.split_at_mut(lengths[0]);
+    [of_0, of_1][source].copy_from_slice(&operator.uniform(source));
+    let apply = |x: &[f64], out: &mut [f64]| {
+        let ((x0, x1), (out0, out1)) = (x.split_at(lengths[0]), out.split_at_mut(lengths[0]));
+        operator.apply(0, x1, out0);
+        operator.apply(1, x0, out1);
+    };
+    let means = |x: &[f64]| {
+        let (x0, x1) = x.split_at(lengths[0]);
+        [operator.facet_means(0, x0), operator.facet_means(1, x1)].concat()
+    };
+    let (set, residual) = Excited { start, apply, means }.lanczos(tolerance)?;
+    Ok((fold_pairs(&set), residual))
+}
+
+/// Poles of panels that see only each other come in pairs ±g, of which one is enough.
+fn fold_pairs(set: &ModeSet) -> ModeSet {
+    let weight = |pole: f64| match pole {
+        pole if pole.abs() < NO_POLE => 1.0,
+        pole if pole > 0.0 => 2.0,
+        _ => 0.0,
+    };
+    let weights: Vec<f64> = set.poles.iter().map(|pole| weight(*pole)).collect();
+    let kept = |k: &usize| weights[*k] > 0.0;
+    let count = set.poles.len();
+    let row = |facet: &[f64]| (0..count).filter(kept).map(|k| weights[k] * facet[k]).collect::<Vec<_>>();
+    ModeSet {
+        poles: (0..count).filter(kept).map(|k| set.poles[k]).collect(),
+        residues: set.residues.chunks_exact(count).flat_map(row).collect(),
+    }
+}
+
+impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
+    /// Steps until the residual at r = 1 is within `tolerance`; the modes and the residual reached.
+    fn lanczos(&self, tolerance: f64) -> Result<(ModeSet, f64)> {
+        let norm = dot(&self.start, &self.start).sqrt();
+        let mut basis: Vec<Vec<f64>> = vec![self.start.iter().map(|x| x / norm).collect()];
         let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
         loop {
-            let mut next = vec![0.0; start.len()];
+            let mut next = vec![0.0; self.start.len()];
             let last = &basis[basis.len() - 1];
-            operator.apply(last, &mut next);
+            (self.apply)(last, &mut next);
             diagonal.push(dot(last, &next));
             orthogonalise(&mut next, &basis);
             let length = dot(&next, &next).sqrt();
@@ -50,108 +273,25 @@ impl Response {
                     "the fold hands on more light than it receives: refine the mesh".to_owned(),
                 ));
             };
-            if residual <= tolerance || basis.len() == start.len() || basis.len() == STEPS_MAX {
-                break;
+            if residual <= tolerance || basis.len() == self.start.len() || basis.len() == STEPS_MAX {
+                return Ok((self.modes(norm, &basis, &diagonal, &beside), residual));
             }
             next.iter_mut().for_each(|x| *x /= length);
             beside.push(length);
             basis.push(next);
         }
-        Ok(Self::from_tridiagonal(operator, norm, &basis, &diagonal, &beside))
     }
 
     /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
-    fn from_tridiagonal(
-        operator: &impl PanelOperator,
-        norm: f64,
-        basis: &[Vec<f64>],
-        diagonal: &[f64],
-        beside: &[f64],
-    ) -> Self {
+    fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
         let eigen = SymmetricEigen::new(tridiagonal(diagonal, beside));
         let steps = diagonal.len();
-        let means: Vec<Vec<f64>> = basis.iter().map(|x| operator.facet_means(x)).collect();
-        let facets = means[0].len();
-        let mut residues = vec![0.0; facets * steps];
-        for (facet, residues) in residues.chunks_exact_mut(steps).enumerate() {
-            for (k, residue) in residues.iter_mut().enumerate() {
-                let mode: f64 = (0..steps).map(|l| means[l][facet] * eigen.eigenvectors[(l, k)]).sum();
-                *residue = norm * eigen.eigenvectors[(0, k)] * mode;
-            }
-        }
-        Self { poles: eigen.eigenvalues.as_slice().to_vec(), residues }
-    }
-
-    /// A response from its parts, `residues` facet by pole.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if the shapes disagree or a pole is not inside (−1, 1).
-    pub fn new(poles: Vec<f64>, residues: Vec<f64>) -> Result<Self> {
-        if poles.is_empty() || residues.is_empty() || !residues.len().is_multiple_of(poles.len()) {
-            return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
-        }
-        if !poles.iter().all(|g| g.abs() < 1.0) {
-            return Err(Error::field("response.poles", "a pole outside (-1, 1): the bounces would not end"));
-        }
-        // Without a bounce, even light is even.
-        if !residues.chunks_exact(poles.len()).all(|facet| (facet.iter().sum::<f64>() - 1.0).abs() < 1e-3) {
-            return Err(Error::field(
-                "response.residues",
-                "those of a facet do not add up to 1: make the scene again",
-            ));
-        }
-        Ok(Self { poles, residues })
-    }
-
-    /// Poles g, in (−1, 1): eigenvalues of the panel's exchange that even light excites.
-    #[must_use]
-    pub fn poles(&self) -> &[f64] {
-        &self.poles
-    }
-
-    /// Residues of one facet of a panel, a number a pole.
-    #[must_use]
-    pub fn facet_residues(&self, facet: usize) -> &[f64] {
-        &self.residues[facet * self.poles.len()..][..self.poles.len()]
-    }
-
-    /// Facets on one panel.
-    #[must_use]
-    pub fn facets(&self) -> usize {
-        self.residues.len() / self.poles.len()
-    }
-
-    /// Irradiance of a facet for a light that gives `own` and `other` to the modes of the facet's panel and of the other
-    /// one, whose reflectances are `r_own` and `r_other`, all bounces included.
-    ///
-    /// The two panels' equations `E₁ = e₁ + r₂FE₂`, `E₂ = e₂ + r₁FE₁` solved in the modes of F.
-    #[must_use]
-    pub fn irradiance(&self, facet: usize, light: ModeLight, r_own: f64, r_other: f64) -> f64 {
-        let modes = self.facet_residues(facet).iter().zip(&self.poles);
-        modes
-            .map(|(residue, g)| {
-                let (own, other) = light.on_mode(*g);
-                residue * (own + r_other * other * g) / (1.0 - r_own * r_other * g * g)
-            })
-            .sum()
-    }
-}
-
-/// A light as the modes of a facet's own panel and the other panel receive it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ModeLight {
-    /// Parallel light: irradiance on the own panel and on the other.
-    Sun([f64; 2]),
-    /// A uniform sky with this irradiance on an unobstructed plane: each panel gets what the other does not hide.
-    Sky(f64),
-}
-
-impl ModeLight {
-    fn on_mode(self, pole: f64) -> (f64, f64) {
-        match self {
-            Self::Sun([own, other]) => (own, other),
-            Self::Sky(sky) => (sky * (1.0 - pole), sky * (1.0 - pole)),
-        }
+        let means: Vec<f64> = basis.iter().flat_map(|x| (self.means)(x)).collect();
+        let facets = means.len() / steps;
+        let seen = DMatrix::from_vec(facets, steps, means) * &eigen.eigenvectors;
+        let excited = eigen.eigenvectors.row(0) * norm;
+        let residues = (0..facets * steps).map(|n| seen[(n / steps, n % steps)] * excited[n % steps]);
+        ModeSet { residues: residues.collect(), poles: eigen.eigenvalues.as_slice().to_vec() }
     }
 }
 

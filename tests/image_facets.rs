@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use image::{ImageBuffer, Rgb};
 use proptest::prelude::*;
 use serde_json::Value;
+use vfold::geometry::Spacing;
 use vfold::image::{FacetMeasurement, Homography, Photograph, Point, ReadOptions, measure, write_linear};
 
 const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
@@ -44,7 +45,11 @@ fn rendered(folder: &str, file: &str) -> Rendered {
     let truth = (0..200)
         .map(|k| numbers(&sidecar["facet_mean_rgb_10x10"][["A", "B"][k / 100]][k / 10 % 10][k % 10]))
         .collect();
-    Rendered { measured: measure(&open(&path), &panels, 10, 10, 0.0).unwrap(), truth, sidecar }
+    Rendered {
+        measured: measure(&open(&path), &panels, &Spacing::Uniform.edges(10), 10, 0.0).unwrap(),
+        truth,
+        sidecar,
+    }
 }
 
 /// Relative errors of one panel's facets in its strongest channel, and their share of the standard error.
@@ -147,7 +152,7 @@ fn a_ramp_in_perspective_has_the_mean_over_the_sheet() {
     let ramp: Vec<f64> = (0..200 * 150 * 3).map(|k| f64::from(k / 600) + 0.5).collect();
     write_linear(&path, 200, 150, &ramp).unwrap();
     let trapezoid = panel([(20.0, 30.0), (180.0, 30.0), (150.0, 120.0), (50.0, 120.0)]);
-    let facets = measure(&open(&path), &[trapezoid], 2, 3, 0.0).unwrap();
+    let facets = measure(&open(&path), &[trapezoid], &Spacing::Uniform.edges(2), 3, 0.0).unwrap();
     for (facet, v0) in facets.iter().zip([0.0, 0.0, 0.0, 0.5, 0.5, 0.5]) {
         let scale = |v: f64| 1.0 + 0.6 * v;
         let want = 270.0 - 800.0 * (scale(v0 + 0.5) / scale(v0)).ln();
@@ -177,7 +182,7 @@ fn a_ramp_on_the_sheet_has_its_middle_value() {
     picture.save(&path).unwrap();
     let photograph = open(&path);
     for (rows, cols, margin_px) in [(1, 1, 0.0), (3, 7, 0.0), (10, 10, 0.0), (5, 5, 3.0)] {
-        let facets = measure(&photograph, &panels, rows, cols, margin_px).unwrap();
+        let facets = measure(&photograph, &panels, &Spacing::Uniform.edges(rows), cols, margin_px).unwrap();
         assert_eq!(facets.len(), 2 * rows * cols);
         for (k, facet) in facets.iter().enumerate() {
             let (row, col) = (k / cols % rows, k % cols);
@@ -205,7 +210,9 @@ fn clipped_and_not_finite_pixels_are_left_out_and_counted() {
     picture.save(&path).unwrap();
     let whole = panel([(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]);
     let options = ReadOptions { white_level: Some(1.0), ..ReadOptions::default() };
-    let facets = measure(&Photograph::open(&path, &options).unwrap(), &[whole], 2, 2, 0.0).unwrap();
+    let facets =
+        measure(&Photograph::open(&path, &options).unwrap(), &[whole], &Spacing::Uniform.edges(2), 2, 0.0)
+            .unwrap();
     let counts: Vec<_> =
         facets.iter().map(|f| (f.pixels.round() as usize, f.clipped, f.not_finite)).collect();
     assert_eq!(counts, [(98, 0, 2), (99, 1, 0), (100, 0, 0), (0, 100, 0)]);
@@ -221,7 +228,7 @@ fn a_corner_outside_the_picture_is_named() {
         panel([(10.0, 10.0), (90.0, 10.0), (90.0, 90.0), (10.0, 90.0)]),
         panel([(10.0, 10.0), (90.0, 10.0), (90.0, 481.5), (10.0, 90.0)]),
     ];
-    let error = measure(&open(&path), &panels, 1, 1, 0.0).unwrap_err().to_string();
+    let error = measure(&open(&path), &panels, &Spacing::Uniform.edges(1), 1, 0.0).unwrap_err().to_string();
     assert!(error.starts_with("panel 1: outer end 1 at (90, 481.5"), "{error}");
     assert!(error.contains("outside the picture of 640 x 480 px"), "{error}");
 }
@@ -234,7 +241,7 @@ fn facets_without_a_whole_pixel_have_no_mean() {
     write_linear(&path, 20, 20, &[0.5; 1200]).unwrap();
     let beyond = panel([(20.1, 2.0), (20.1, 8.0), (20.9, 8.0), (20.9, 2.0)]);
     let sliver = panel([(2.0, 2.2), (9.0, 2.2), (9.0, 2.9), (2.0, 2.9)]);
-    let facets = measure(&open(&path), &[beyond, sliver], 3, 3, 0.0).unwrap();
+    let facets = measure(&open(&path), &[beyond, sliver], &Spacing::Uniform.edges(3), 3, 0.0).unwrap();
     assert!(facets.len() == 18 && facets.iter().all(|facet| facet.mean.is_none() && facet.pixels < 1e-9));
 }
 
@@ -257,7 +264,7 @@ proptest! {
         let photograph = open(&path);
         let sheet = [panel([(60.0, 3.0), (58.0, 44.0), (5.0, 40.0), (9.0, 11.0)])];
         let pixels = |rows, cols| -> f64 {
-            measure(&photograph, &sheet, rows, cols, margin_px).unwrap().iter().map(|facet| facet.pixels).sum()
+            measure(&photograph, &sheet, &Spacing::Uniform.edges(rows), cols, margin_px).unwrap().iter().map(|facet| facet.pixels).sum()
         };
         prop_assert!((pixels(rows, cols) - pixels(1, 1)).abs() < 1e-6);
     }

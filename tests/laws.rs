@@ -13,8 +13,8 @@ use proptest::prelude::*;
 use serde_json::Value;
 use vfold::camera::CameraResponse;
 use vfold::forward::{FacetModel, Lighting};
-use vfold::geometry::{FacetGrid, Fold, Light};
-use vfold::kernel::exact::FoldKernel;
+use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
+use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
 use vfold::response::{ModeLight, Response};
 use vfold::score::pearson_distance;
@@ -30,9 +30,17 @@ fn folds() -> impl Strategy<Value = Fold> {
     })
 }
 
+/// The same, and folds with rows that narrow towards the crease or a panel 1 of another depth.
+fn any_folds() -> impl Strategy<Value = Fold> {
+    (folds(), any::<bool>(), prop::option::of(0.1..10.0)).prop_map(|(fold, graded, depth)| {
+        let fold = depth.map_or(fold, |depth| fold.with_panel1_depth(depth).unwrap());
+        fold.with_spacing(if graded { Spacing::Graded } else { Spacing::Uniform })
+    })
+}
+
 /// K of eq. (10), dense, facet order panel, row, column.
 fn matrix(fold: &Fold) -> DMatrix<f64> {
-    let kernel = FoldKernel::new(fold);
+    let kernel = form_factors(fold);
     let facets = 2 * fold.facets().len();
     let rows: Vec<_> = (0..facets).flat_map(|facet| kernel.matrix_row(facet)).collect();
     DMatrix::from_row_slice(facets, facets, &rows)
@@ -43,18 +51,25 @@ fn response(fold: &Fold) -> Response {
     respond(fold, Mesh::Facets, 1e-12).unwrap().0
 }
 
-/// Irradiance of all facets of both panels, from poles and residues; `light` as panel 0 sees it.
+/// Irradiance of all facets of both panels, from poles and residues.
 fn irradiance(response: &Response, light: ModeLight, r0: f64, r1: f64) -> DVector<f64> {
     let facets = response.facets();
-    let mirrored = match light {
-        ModeLight::Sun([own, other]) => ModeLight::Sun([other, own]),
-        sky @ ModeLight::Sky(_) => sky,
-    };
-    let of = |facet: usize| match facet / facets {
-        0 => response.irradiance(facet, light, r0, r1),
-        _ => response.irradiance(facet - facets, mirrored, r1, r0),
-    };
+    let of = |facet: usize| response.irradiance(facet / facets, facet % facets, light, [r0, r1]);
     DVector::from_fn(2 * facets, |facet, _| of(facet))
+}
+
+/// Areas of all facets, relative.
+fn areas(fold: &Fold) -> DVector<f64> {
+    let (FacetGrid { rows, cols }, edges) = (fold.facets(), fold.row_edges());
+    DVector::from_fn(2 * rows * cols, |facet, _| {
+        let (panel, row) = (facet / (rows * cols), facet / cols % rows);
+        edges[panel][row + 1] - edges[panel][row]
+    })
+}
+
+/// Share of its light that each facet hands on.
+fn handed_on(k: &DMatrix<f64>) -> DVector<f64> {
+    k * DVector::from_element(k.nrows(), 1.0)
 }
 
 /// The same by solving eq. (15) as it stands.
@@ -72,7 +87,7 @@ fn worst_relative(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
 proptest! {
     /// Paper appendix A rests on this: no facet hands on more light than it has, and none takes any away.
     #[test]
-    fn a_facet_hands_on_less_than_it_has(fold in folds()) {
+    fn a_facet_hands_on_less_than_it_has(fold in any_folds()) {
         let k = matrix(&fold);
         prop_assert!(k.iter().all(|factor| (0.0..1.0).contains(factor)));
         for (facet, row) in k.row_iter().enumerate() {
@@ -84,32 +99,33 @@ proptest! {
     #[test]
     fn parts_of_facets_exchange_what_the_facets_do(fold in folds(), split in 2_usize..4) {
         let FacetGrid { rows, cols } = fold.facets();
-        let coarse = FoldKernel::new(&fold);
-        let fine = FoldKernel::new(&fold.with_facets(FacetGrid { rows: split * rows, cols: split * cols }).unwrap());
+        let coarse = form_factors(&fold);
+        let fine = form_factors(&fold.with_facets(FacetGrid { rows: split * rows, cols: split * cols }).unwrap());
         for (i, j, k) in (0..rows * rows * cols).map(|n| (n / cols / rows, n / cols % rows, n % cols)) {
             let parts = |n: usize| split * n..split * (n + 1);
             let mut sum = 0.0;
             for (from_row, to_row) in parts(i).flat_map(|from| parts(j).map(move |to| (from, to))) {
                 for (from, to) in parts(0).flat_map(|from| parts(k).map(move |to| (from, to))) {
-                    sum += fine.form_factor(from_row, to_row, from.abs_diff(to));
+                    sum += fine.form_factor(0, from_row, to_row, from.abs_diff(to));
                 }
             }
-            let whole = coarse.form_factor(i, j, k);
+            let whole = coarse.form_factor(0, i, j, k);
             prop_assert!((sum / (split * split) as f64 - whole).abs() < 1e-13, "rows {i} {j}, shift {k}");
         }
     }
 
-    /// All facets of a fold are of one size, so K is its own transpose.
+    /// What two facets exchange is the same both ways, their areas taken into account.
     #[test]
-    fn exchange_is_mutual(fold in folds()) {
-        let k = matrix(&fold);
-        prop_assert!((&k - k.transpose()).amax() < 1e-15);
+    fn exchange_is_mutual(fold in any_folds()) {
+        let exchange = DMatrix::from_diagonal(&areas(&fold)) * matrix(&fold);
+        prop_assert!((&exchange - exchange.transpose()).amax() < 1e-15);
     }
 
     #[test]
-    fn only_the_shape_matters(fold in folds(), scale in 1e-3..1e3) {
-        let (width, depth) = (scale * fold.width(), scale * fold.depth());
+    fn only_the_shape_matters(fold in any_folds(), scale in 1e-3..1e3) {
+        let (width, depth) = (scale * fold.width(), scale * fold.depths()[0]);
         let scaled = Fold::new(fold.angle_deg(), width, depth, fold.facets()).unwrap();
+        let scaled = scaled.with_panel1_depth(scale * fold.depths()[1]).unwrap().with_spacing(fold.spacing());
         let [a, b] = [&fold, &scaled].map(|fold| irradiance(&response(fold), EVEN, 0.8, 0.8));
         prop_assert!(worst_relative(&a, &b) < 1e-11);
     }
@@ -117,7 +133,7 @@ proptest! {
     /// Two panels of any two reflectances under a sun anywhere between them.
     #[test]
     fn poles_and_residues_solve_the_dense_system(
-        fold in folds(), lean in -0.9..0.9, r0 in 0.0..=1.0, r1 in 0.0..=1.0,
+        fold in any_folds(), lean in -0.9..0.9, r0 in 0.0..=1.0, r1 in 0.0..=1.0,
     ) {
         let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, 0.0).unwrap();
         let sun = light.panel_irradiance();
@@ -132,11 +148,11 @@ proptest! {
     /// and sky together, for one sheet and for a sheet beside a card.
     #[test]
     fn the_facet_model_sees_the_dense_solution(
-        fold in folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
+        fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
     ) {
         let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
         let (k, half) = (matrix(&fold), fold.facets().len());
-        let open = k.column_sum().map(|sum| 1.0 - sum);
+        let open = handed_on(&k).map(|sum| 1.0 - sum);
         let direct = DVector::from_fn(2 * half, |facet, _| light.panel_irradiance()[facet / half] + sky * open[facet]);
         let eye = CameraResponse::from_weights(vec![vec![1.0]]);
         let lighting = Lighting { light, sun: eye.clone(), sky: eye };
@@ -154,9 +170,9 @@ proptest! {
 
     /// Each facet sees the sky that the other panel does not hide: its share is one less its row of K.
     #[test]
-    fn a_sky_lights_what_the_other_panel_leaves_open(fold in folds(), r in 0.0..=1.0) {
+    fn a_sky_lights_what_the_other_panel_leaves_open(fold in any_folds(), r in 0.0..=1.0) {
         let k = matrix(&fold);
-        let open = k.column_sum().map(|sum| 1.0 - sum);
+        let open = handed_on(&k).map(|sum| 1.0 - sum);
         let dense = dense_irradiance(&k, &(0.3 * open), r, r);
         let short = irradiance(&response(&fold), ModeLight::Sky(0.3), r, r);
         prop_assert!(worst_relative(&short, &dense) < 1e-9, "{}", worst_relative(&short, &dense));
@@ -165,30 +181,30 @@ proptest! {
     /// A sheet inside a uniform sky that reflects everything is as bright as the sky, wherever one looks: the white
     /// furnace. The sun is left out.
     #[test]
-    fn a_white_fold_in_a_sky_disappears(fold in folds()) {
+    fn a_white_fold_in_a_sky_disappears(fold in any_folds()) {
         let lit = irradiance(&response(&fold), ModeLight::Sky(1.0), 1.0, 1.0);
         prop_assert!(lit.iter().all(|e| (e - 1.0).abs() < 1e-10), "{lit}");
     }
 
     /// Light absorbed and light that leaves the fold are the light received.
     #[test]
-    fn no_light_is_lost_or_gained(fold in folds(), sun in (0.1..1.0, 0.1..1.0), r0 in 0.0..=1.0, r1 in 0.0..=1.0) {
+    fn no_light_is_lost_or_gained(fold in any_folds(), sun in (0.1..1.0, 0.1..1.0), r0 in 0.0..=1.0, r1 in 0.0..=1.0) {
         let k = matrix(&fold);
         let half = fold.facets().len();
         let lit = irradiance(&response(&fold), ModeLight::Sun([sun.0, sun.1]), r0, r1);
         let r = |facet: usize| if facet < half { r0 } else { r1 };
-        let absorbed: f64 = lit.iter().enumerate().map(|(facet, e)| (1.0 - r(facet)) * e).sum();
-        let leaving: f64 =
-            lit.iter().enumerate().map(|(facet, e)| r(facet) * e * (1.0 - k.row(facet).sum())).sum();
-        let received = half as f64 * (sun.0 + sun.1);
+        let (area, handed_on) = (areas(&fold), handed_on(&k));
+        let absorbed: f64 = (0..2 * half).map(|n| area[n] * (1.0 - r(n)) * lit[n]).sum();
+        let leaving: f64 = (0..2 * half).map(|n| area[n] * r(n) * lit[n] * (1.0 - handed_on[n])).sum();
+        let received: f64 = (0..2 * half).map(|n| area[n] * if n < half { sun.0 } else { sun.1 }).sum();
         prop_assert!((absorbed + leaving - received).abs() < 1e-10 * received);
     }
 
     /// Eq. (14): every bounce adds light, and what n bounces leave out shrinks as the largest row sum to the n.
     #[test]
-    fn bounce_after_bounce_approaches_the_response(fold in folds(), r in 0.05_f64..=1.0) {
+    fn bounce_after_bounce_approaches_the_response(fold in any_folds(), r in 0.05_f64..=1.0) {
         let k: DMatrix<f64> = r * matrix(&fold);
-        let most = k.column_sum().max();
+        let most = handed_on(&k).max();
         let whole = irradiance(&response(&fold), EVEN, r, r);
         let (mut bounce, mut sum) = (DVector::from_element(k.nrows(), 1.0), DVector::zeros(k.nrows()));
         for n in 1..=12 {
@@ -201,7 +217,7 @@ proptest! {
     }
 
     #[test]
-    fn a_lighter_sheet_is_brighter(fold in folds(), darker in 0.0..1.0, step in 1e-3..1.0) {
+    fn a_lighter_sheet_is_brighter(fold in any_folds(), darker in 0.0..1.0, step in 1e-3..1.0) {
         let response = response(&fold);
         let radiance = |r: f64| irradiance(&response, EVEN, r, r) * r;
         let lighter = f64::min(darker + step, 1.0);
@@ -212,7 +228,7 @@ proptest! {
 
     /// A light along the bisecting plane lights both panels by the sine of half the angle.
     #[test]
-    fn no_tilt_is_the_bisector(fold in folds()) {
+    fn no_tilt_is_the_bisector(fold in any_folds()) {
         let [e0, e1] = Light::new(&fold, 0.0, 0.0, 0.0).unwrap().panel_irradiance();
         let half = 0.5 * fold.angle_deg().to_radians();
         prop_assert!((e0 - half.sin()).abs() < 1e-15 && (e1 - half.sin()).abs() < 1e-15);
@@ -221,7 +237,7 @@ proptest! {
     /// What the camera sees of sun and sky together is what it sees of each: the second helping of sky adds as much as
     /// the first.
     #[test]
-    fn sun_and_sky_superpose(fold in folds(), sky in 0.01..2.0, r in 0.0..=1.0, lean in -0.9..0.9) {
+    fn sun_and_sky_superpose(fold in any_folds(), sky in 0.01..2.0, r in 0.0..=1.0, lean in -0.9..0.9) {
         let response = response(&fold);
         let rgb = |sky: f64| {
             let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
@@ -232,7 +248,7 @@ proptest! {
     }
 
     #[test]
-    fn a_black_sheet_is_dark(fold in folds(), sky in 0.0..2.0) {
+    fn a_black_sheet_is_dark(fold in any_folds(), sky in 0.0..2.0) {
         let light = Light::new(&fold, 0.0, 0.0, sky).unwrap();
         let rgb = FacetModel::one_sheet(&response(&fold), &lighting(light)).facet_rgb(&[0.0; 31]);
         prop_assert!(rgb.iter().all(|value| *value == 0.0));
@@ -283,7 +299,7 @@ fn reference_radiances() {
             let r = known["r"].as_f64().unwrap();
             for (row, col) in (0..n).flat_map(|row| (0..n / 2).map(move |col| (row, col))) {
                 let want = known["L"][row][col].as_f64().unwrap();
-                let got = r / PI * response.irradiance(row * n + col, EVEN, r, r);
+                let got = r / PI * response.irradiance(0, row * n + col, EVEN, [r; 2]);
                 assert!((got / want - 1.0).abs() < 1e-11, "{angle_deg}° r {r} ({row}, {col}): {got} {want}");
             }
         }

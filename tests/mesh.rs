@@ -13,7 +13,7 @@ fn fold(angle_deg: f64, width: f64, depth: f64) -> Fold {
 /// Irradiance of every facet under even light at reflectance `r`.
 fn irradiance(response: &Response, r: f64) -> Vec<f64> {
     let even = ModeLight::Sun([1.0, 1.0]);
-    (0..response.facets()).map(|facet| response.irradiance(facet, even, r, r)).collect()
+    (0..response.facets()).map(|facet| response.irradiance(0, facet, even, [r; 2])).collect()
 }
 
 /// Largest relative difference.

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
-use vfold::geometry::FacetGrid;
+use vfold::geometry::Fold;
 use vfold::image::{Homography, PANEL_CORNERS, Photograph, ReadOptions, Transfer, measure, parse_corners};
 use vfold::spectrum;
 use vfold::stream::{ImageRecord, Output, Reader, Record, Sample};
@@ -87,12 +87,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let grid = scene.fold()?.facets();
+    let fold = scene.fold()?;
     let id = scene.id()?;
     let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| open(args, path)));
     let mut made = samples
         .zip(&args.images)
-        .map(|(photograph, path)| sample(args, &id, grid, &panels, path, photograph));
+        .map(|(photograph, path)| sample(args, &id, &fold, &panels, path, photograph));
     if let [_] = args.images.as_slice()
         && let Some(only) = made.next()
     {
@@ -179,13 +179,15 @@ fn camera<'a>(args: &'a Args, first: Option<&Photograph>) -> Result<Option<&'a s
 fn sample(
     args: &Args,
     scene: &str,
-    grid: FacetGrid,
+    fold: &Fold,
     panels: &[Homography],
     path: &Path,
     photograph: Result<Photograph>,
 ) -> Result<Sample> {
     let photograph = photograph?;
-    let facets = measure(&photograph, panels, grid.rows, grid.cols, args.margin)?;
+    let grid = fold.facets();
+    let row_edges = fold.spacing().edges(grid.rows);
+    let facets = measure(&photograph, panels, &row_edges, grid.cols, args.margin)?;
     if args.common.verbose {
         let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
         let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();

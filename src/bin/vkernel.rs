@@ -2,10 +2,10 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 use vfold::cli::{self, Common, ToolArgs};
-use vfold::geometry::{FacetGrid, Fold, Light};
-use vfold::kernel::exact::FoldKernel;
+use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
+use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
 use vfold::stream::{Output, Scene, write_matrix};
 use vfold::{Error, Result};
@@ -28,9 +28,15 @@ struct Args {
     /// Panel along the crease x away from it; only the ratio matters
     #[arg(long, value_name = "WIDTHxDEPTH", default_value = "1x1", value_parser = cli::pair::<f64>)]
     panel: (f64, f64),
+    /// Depth of panel 1, in the unit of --panel, if it is not that of panel 0
+    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
+    panel1_depth: Option<f64>,
     /// Facets of a panel, rows away from the crease x columns along it: where colour is measured
     #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
     facets: (usize, usize),
+    /// Rows of equal depth, or graded: narrow at the crease, where colour varies
+    #[arg(long, value_name = "SPACING", default_value = "uniform")]
+    spacing: SpacingName,
     /// Where the bounces are solved: as fine as needed, one flat patch a facet (the paper's model), or given patches
     #[arg(long, value_name = "auto|facets|ROWSxCOLS", default_value = "auto", value_parser = mesh)]
     mesh: Mesh,
@@ -54,6 +60,15 @@ struct Args {
     common: Common,
 }
 
+/// What `--spacing` takes.
+#[derive(Clone, Copy, ValueEnum)]
+enum SpacingName {
+    /// Rows of equal depth.
+    Uniform,
+    /// Row n ends at (n/rows)² of the depth.
+    Graded,
+}
+
 impl ToolArgs for Args {
     fn common(&self) -> &Common {
         &self.common
@@ -68,8 +83,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let Some(tolerance) = args.tolerance.filter(|tolerance| !(1e-12..=0.1).contains(tolerance)) {
         return Err(Error::usage("--tolerance", format!("{tolerance} is out of range"), "give 1e-12 to 0.1"));
     }
-    let grid = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
-    let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, grid)?;
+    let fold = fold(args)?;
     let light = Light::new(&fold, args.tilt_deg, args.slant_deg, args.sky)?;
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let (response, accuracy) = respond(&fold, args.mesh, tolerance)?;
@@ -97,13 +111,23 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         );
     }
     if let Some(path) = out.saves.take("kernel") {
-        let (kernel, facets) = (FoldKernel::new(&fold), 2 * grid.len());
+        let (kernel, facets) = (form_factors(&fold), 2 * fold.facets().len());
         write_matrix(&path, facets, facets, |facet| kernel.matrix_row(facet))?;
     }
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;
     }
     out.scene(&scene)
+}
+
+fn fold(args: &Args) -> Result<Fold> {
+    let facets = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
+    let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, facets)?;
+    let fold = args.panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth))?;
+    Ok(fold.with_spacing(match args.spacing {
+        SpacingName::Uniform => Spacing::Uniform,
+        SpacingName::Graded => Spacing::Graded,
+    }))
 }
 
 fn mesh(text: &str) -> std::result::Result<Mesh, String> {

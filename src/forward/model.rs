@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use crate::camera::CameraResponse;
 use crate::geometry::Light;
-use crate::response::Response;
+use crate::response::{ModeLight, Modes, Response};
 
 /// The lights of a scene as the camera responds to them.
 #[derive(Clone, Debug)]
@@ -52,7 +52,8 @@ impl FacetModel {
     #[must_use]
     pub fn one_sheet(response: &Response, lighting: &Lighting) -> Self {
         let [e0, e1] = lighting.light.panel_irradiance();
-        Self::new(response, lighting, Panels::One { odd: (e0 - e1).abs() > 0.0 })
+        let even = matches!(response.modes(), Modes::Shared(_)) && e0.total_cmp(&e1).is_eq();
+        Self::new(response, lighting, Panels::One { odd: !even })
     }
 
     /// A fold of a sheet (panel 0) and a card (panel 1) whose reflectance is known on the scene's wavelengths.
@@ -62,41 +63,31 @@ impl FacetModel {
     }
 
     fn new(response: &Response, lighting: &Lighting, panels: Panels) -> Self {
-        let sky = lighting.light.sky();
-        let mut model = Self { poles: response.poles().to_vec(), panels, sources: Vec::new() };
-        let sun = lighting.light.panel_irradiance();
-        model.add_source(response, &lighting.sun, |_| sun);
-        if sky > 0.0 {
-            // A panel sees the sky that the other one does not hide: 1 − F·1, in the modes of F.
-            model.add_source(response, &lighting.sky, |pole| [sky * (1.0 - pole); 2]);
+        let mut model = Self { poles: response.poles(), panels, sources: Vec::new() };
+        model.add_source(response, &lighting.sun, ModeLight::Sun(lighting.light.panel_irradiance()));
+        if lighting.light.sky() > 0.0 {
+            model.add_source(response, &lighting.sky, ModeLight::Sky(lighting.light.sky()));
         }
         model
     }
 
-    fn add_source(
-        &mut self,
-        response: &Response,
-        camera: &CameraResponse,
-        on_mode: impl Fn(f64) -> [f64; 2],
-    ) {
+    fn add_source(&mut self, response: &Response, camera: &CameraResponse, light: ModeLight) {
         let count = response.facets();
         let mut facets = DMatrix::zeros(2 * count, self.terms());
         let poles = self.poles.len();
         for facet in 0..2 * count {
-            let (panel, residues) = (facet / count, response.facet_residues(facet % count));
-            for (k, (residue, pole)) in residues.iter().zip(&self.poles).enumerate() {
-                let light = on_mode(*pole);
-                let (own, other) = (light[panel], light[1 - panel]);
+            let panel = facet / count;
+            for (k, mode) in response.excitations(panel, facet % count, light).iter().enumerate() {
                 match self.panels {
                     Panels::One { odd } => {
-                        facets[(facet, k)] = residue * 0.5 * (own + other);
+                        facets[(facet, k)] = 0.5 * (mode.own + mode.other);
                         if odd {
-                            facets[(facet, poles + k)] = residue * 0.5 * (own - other);
+                            facets[(facet, poles + k)] = 0.5 * (mode.own - mode.other);
                         }
                     }
                     Panels::Card(_) => {
-                        facets[(facet, 2 * panel * poles + k)] = residue * own;
-                        facets[(facet, poles + k)] = residue * other;
+                        facets[(facet, 2 * panel * poles + k)] = mode.own;
+                        facets[(facet, poles + k)] = mode.other;
                     }
                 }
             }

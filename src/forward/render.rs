@@ -149,8 +149,8 @@ fn interpolate(light: &DMatrix<f64>, panel: usize, channel: usize, u: f64, v: f6
 /// Corners of both panels in space: the crease along y, the bisecting plane x = 0, the opening towards +z.
 fn panel_corners(fold: &Fold) -> [[Point3<f64>; 4]; 2] {
     let half = fold.angle_rad() / 2.0;
-    let (half_width, depth) = (fold.width() / 2.0, fold.depth());
-    [-1.0, 1.0].map(|side| {
+    let (half_width, depths) = (fold.width() / 2.0, fold.depths());
+    [(-1.0, depths[0]), (1.0, depths[1])].map(|(side, depth)| {
         let outer = |y: f64| Point3::new(side * depth * half.sin(), y, depth * half.cos());
         [
             Point3::new(0.0, -half_width, 0.0),
@@ -175,7 +175,8 @@ impl Pinhole {
         let aside = (fold.angle_rad() / 6.0).min(0.1);
         let direction = Vector3::new(aside.sin(), -0.12, aside.cos()).normalize();
         let middle = Point3::new(0.0, 0.0, world[0][2].z / 2.0);
-        let position = middle + DISTANCE * fold.width().hypot(fold.depth()) * direction;
+        let position =
+            middle + DISTANCE * fold.width().hypot(fold.depths()[0].max(fold.depths()[1])) * direction;
         let forward = -direction;
         // Upright, but rolled by two degrees: no pixel row runs along an edge.
         let right = forward.cross(&Vector3::new(0.035, 1.0, 0.0)).normalize();

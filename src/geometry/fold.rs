@@ -1,9 +1,11 @@
-//! The V-shaped fold: two equal rectangular panels that share a crease.
+//! The V-shaped fold: two rectangular panels that share a crease.
 
 use crate::error::{Error, Result};
 
-/// Most facets on one panel: the distinct kernel entries of 512 x 512 facets fill half a gigabyte.
-const MAX_FACETS: usize = 512 * 512;
+/// Most facets on one panel.
+const FACETS_MAX: usize = 512 * 512;
+/// Most distinct kernel entries: those of 512 x 512 facets fill half a gigabyte.
+const ENTRIES_MAX: f64 = 0.5 * 512.0 * 513.0 * 512.0;
 
 /// How one panel is divided into facets, where colour is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,19 +30,49 @@ impl FacetGrid {
     }
 }
 
-/// A fold: two panels of equal size, opened by an angle, each divided into a grid of facets.
+/// How the facet rows of a panel are spaced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spacing {
+    /// Rows of equal depth.
+    #[default]
+    Uniform,
+    /// Row n ends at (n/rows)² of the depth: narrow where interreflection varies, at the crease.
+    Graded,
+}
+
+impl Spacing {
+    /// Where rows begin and end, from 0 (the crease) to 1 (the outer edge): `rows + 1` numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::geometry::Spacing;
+    /// assert_eq!(Spacing::Graded.edges(2), [0.0, 0.25, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn edges(self, rows: usize) -> Vec<f64> {
+        let even = (0..=rows).map(|n| n as f64 / rows as f64);
+        match self {
+            Self::Uniform => even.collect(),
+            Self::Graded => even.map(|edge| edge * edge).collect(),
+        }
+    }
+}
+
+/// A fold: two rectangular panels that share the crease, opened by an angle, each divided into a grid of facets.
 ///
-/// Only the ratio of the panel's sides matters: interreflection is free of scale.
+/// Only the ratio of the panels' sides matters: interreflection is free of scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     angle_deg: f64,
     width: f64,
-    depth: f64,
+    depths: [f64; 2],
     facets: FacetGrid,
+    spacing: Spacing,
 }
 
 impl Fold {
-    /// A fold opened by `angle_deg` in (0, 180], panels `width` along the crease by `depth` away from it, any unit.
+    /// A fold opened by `angle_deg` in (0, 180], both panels `width` along the crease by `depth` away from it, any unit, with
+    /// facets of equal size.
     ///
     /// # Errors
     /// Angle outside the range, sides not positive or further apart than 1 : 1000, no facet, or more than 262144 a panel.
@@ -61,34 +93,45 @@ impl Fold {
                 "give degrees above 0 and up to 180 (flat)",
             ));
         }
-        if !(width > 0.0 && depth > 0.0 && (width / depth).ln().abs() <= 1000_f64.ln() + 1e-9) {
+        if !possible(width, depth) {
             return Err(Error::usage(
                 "--panel",
                 format!("{width}x{depth} is not a panel"),
                 "give width along the crease x depth, both positive, at most 1000 times each other",
             ));
         }
-        let Some(count) = facets.rows.checked_mul(facets.cols).filter(|count| *count <= MAX_FACETS) else {
-            let entries = 0.5 * (facets.rows as f64) * (facets.rows as f64 + 1.0) * facets.cols as f64;
+        check_facets(facets)?;
+        Ok(Self { angle_deg, width, depths: [depth; 2], facets, spacing: Spacing::Uniform })
+    }
+
+    /// The same fold with another depth of panel 1, in the unit of the other sides.
+    ///
+    /// # Errors
+    /// A depth that is not positive or further than 1 : 1000 from the width or the other panel's depth.
+    pub fn with_panel1_depth(self, depth: f64) -> Result<Self> {
+        if !(possible(self.width, depth) && possible(self.depths[0], depth)) {
             return Err(Error::usage(
-                "--facets",
-                format!(
-                    "the kernel of {}x{} facets would take {:.3e} GB",
-                    facets.rows,
-                    facets.cols,
-                    8e-9 * entries
-                ),
-                format!("give rows x columns, at most {MAX_FACETS} facets a panel"),
-            ));
-        };
-        if count == 0 {
-            return Err(Error::usage(
-                "--facets",
-                format!("{}x{} is no facet", facets.rows, facets.cols),
-                "give rows x columns, at least 1x1",
+                "--panel1-depth",
+                format!("{depth} is not the depth of a panel"),
+                "give a positive number, at most 1000 times panel 0's sides or a thousandth of them",
             ));
         }
-        Ok(Self { angle_deg, width, depth, facets })
+        Ok(Self { depths: [self.depths[0], depth], ..self })
+    }
+
+    /// The same fold with its facet rows spaced otherwise.
+    #[must_use]
+    pub fn with_spacing(self, spacing: Spacing) -> Self {
+        Self { spacing, ..self }
+    }
+
+    /// The same fold with other facets.
+    ///
+    /// # Errors
+    /// No facet, or more than 262144 a panel.
+    pub fn with_facets(self, facets: FacetGrid) -> Result<Self> {
+        check_facets(facets)?;
+        Ok(Self { facets, ..self })
     }
 
     /// Opening angle between the panels, degrees, in (0, 180].
@@ -103,16 +146,28 @@ impl Fold {
         self.angle_deg.to_radians()
     }
 
+    /// Whether the fold is open to 180°: its panels do not see each other.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        (180.0 - self.angle_deg).abs() < 1e-13
+    }
+
     /// Length of the crease, in the unit the fold was given in.
     #[must_use]
     pub fn width(&self) -> f64 {
         self.width
     }
 
-    /// Distance from the crease to the outer edge, in the same unit.
+    /// Distance from the crease to the outer edge of each panel, in the same unit.
     #[must_use]
-    pub fn depth(&self) -> f64 {
-        self.depth
+    pub fn depths(&self) -> [f64; 2] {
+        self.depths
+    }
+
+    /// Whether each panel is the other's mirror image.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        self.depths[0].total_cmp(&self.depths[1]).is_eq()
     }
 
     /// Facet grid of each panel.
@@ -121,11 +176,40 @@ impl Fold {
         self.facets
     }
 
-    /// The same fold with other facets.
-    ///
-    /// # Errors
-    /// As [`Fold::new`].
-    pub fn with_facets(&self, facets: FacetGrid) -> Result<Self> {
-        Self::new(self.angle_deg, self.width, self.depth, facets)
+    /// How the facet rows are spaced.
+    #[must_use]
+    pub fn spacing(&self) -> Spacing {
+        self.spacing
     }
+
+    /// Distances from the crease at which the facet rows of each panel begin and end: `rows + 1` numbers from 0.
+    #[must_use]
+    pub fn row_edges(&self) -> [Vec<f64>; 2] {
+        let edges = self.spacing.edges(self.facets.rows);
+        self.depths.map(|depth| edges.iter().map(|edge| depth * edge).collect())
+    }
+}
+
+fn possible(a: f64, b: f64) -> bool {
+    a > 0.0 && b > 0.0 && (a / b).ln().abs() <= 1000_f64.ln() + 1e-9
+}
+
+fn check_facets(FacetGrid { rows, cols }: FacetGrid) -> Result<()> {
+    let entries = 0.5 * (rows as f64) * (rows as f64 + 1.0) * cols as f64;
+    let count = rows.checked_mul(cols).filter(|count| *count <= FACETS_MAX && entries <= ENTRIES_MAX);
+    let Some(count) = count else {
+        return Err(Error::usage(
+            "--facets",
+            format!("the kernel of {rows}x{cols} facets would take {:.3e} GB", 8e-9 * entries),
+            format!("give rows x columns, at most {FACETS_MAX} facets a panel and 0.5 GB"),
+        ));
+    };
+    if count == 0 {
+        return Err(Error::usage(
+            "--facets",
+            format!("{rows}x{cols} is no facet"),
+            "give rows x columns, at least 1x1",
+        ));
+    }
+    Ok(())
 }

@@ -3,5 +3,5 @@
 pub mod fold;
 pub mod light;
 
-pub use fold::{FacetGrid, Fold};
+pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;

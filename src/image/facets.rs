@@ -35,7 +35,7 @@ pub struct FacetMeasurement {
 ///
 /// # Arguments
 /// - `panels`: where each panel lies, by the order of [`PANEL_CORNERS`]; the crease is v = 0.
-/// - `rows`, `cols`: facets from the crease outwards, and along it.
+/// - `row_edges`: where facet rows begin and end, from 0 at the crease to 1 at the outer edge; `cols`: facets along it.
 /// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a little off
 ///   ask for one or two.
 ///
@@ -53,7 +53,7 @@ pub struct FacetMeasurement {
 /// let ramp: Vec<f64> = (0..300).map(|k| (k / 3 % 10) as f64 / 16.0).collect(); // 10 x 10 px, brighter to the right
 /// write_linear(&path, 10, 10, &ramp)?;
 /// let panel = Homography::from_unit_square([(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y)))?;
-/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[panel], 1, 2, 0.0)?;
+/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[panel], &[0.0, 1.0], 2, 0.0)?;
 /// let means: Vec<f64> = facets.iter().map(|facet| facet.mean.as_ref().unwrap()[0]).collect();
 /// assert!((means[0] - 2.0 / 16.0).abs() < 1e-12 && (means[1] - 7.0 / 16.0).abs() < 1e-12);
 /// # Ok::<(), vfold::Error>(())
@@ -61,7 +61,7 @@ pub struct FacetMeasurement {
 pub fn measure(
     photograph: &Photograph,
     panels: &[Homography],
-    rows: usize,
+    row_edges: &[f64],
     cols: usize,
     margin_px: f64,
 ) -> Result<Vec<FacetMeasurement>> {
@@ -69,29 +69,28 @@ pub fn measure(
         let (width, height) = (photograph.width(), photograph.height());
         check_inside(&format!("panel {k}"), panel.corners(), &PANEL_CORNERS, width, height)?;
     }
+    let rows = row_edges.len() - 1;
     // one task a facet: each is summed in one order whatever the threads
     let facet = |k: usize| {
         let (panel, row, col) = (&panels[k / (rows * cols)], k / cols % rows, k % cols);
-        Facet { panel, row, col, rows, cols }.measure(photograph, margin_px)
+        let u = [col, col + 1].map(|edge| edge as f64 / cols as f64);
+        Facet { panel, u, v: [row_edges[row], row_edges[row + 1]] }.measure(photograph, margin_px)
     };
     Ok((0..panels.len() * rows * cols).into_par_iter().map(facet).collect())
 }
 
-/// One facet of a panel divided into `rows` x `cols`.
+/// A rectangle of a panel: its ends along the crease and away from it.
 struct Facet<'a> {
     panel: &'a Homography,
-    row: usize,
-    col: usize,
-    rows: usize,
-    cols: usize,
+    u: [f64; 2],
+    v: [f64; 2],
 }
 
 impl Facet<'_> {
     fn measure(&self, photograph: &Photograph, margin_px: f64) -> FacetMeasurement {
         let mut tally = Tally::default();
         let panel = Quadrilateral::new(self.panel.corners(), margin_px);
-        let facet =
-            Quadrilateral::new(&self.panel.facet_corners(self.row, self.col, self.rows, self.cols), 0.0);
+        let facet = Quadrilateral::new(&self.panel.rectangle(self.u, self.v), 0.0);
         let (width, height) = (photograph.width(), photograph.height());
         let run_length = facet.columns(width).len().div_ceil(RUNS).max(1);
         for y in facet.rows(height) {
@@ -122,8 +121,8 @@ impl Facet<'_> {
         if run.pixels() > 0.0 {
             let centre = Point::new(run.x(), y as f64 + 0.5);
             let (u, v, area) = self.panel.to_panel_with_area(centre);
-            let u_from_centre = u * self.cols as f64 - self.col as f64 - 0.5;
-            let v_from_centre = v * self.rows as f64 - self.row as f64 - 0.5;
+            let u_from_centre = (u - self.u[0]) / (self.u[1] - self.u[0]) - 0.5;
+            let v_from_centre = (v - self.v[0]) / (self.v[1] - self.v[0]) - 0.5;
             tally.pixels += overlap * run.pixels();
             tally.sums.add(overlap * area, u_from_centre, v_from_centre, &run);
         }

@@ -89,12 +89,11 @@ impl Homography {
         &self.corners
     }
 
-    /// The images of a facet's corners, in the same order, on a panel divided into `rows` (from the crease outwards)
-    /// times `cols` (along it).
+    /// The images of the corners of the panel's rectangle from `u[0]` to `u[1]` along the crease and from `v[0]` to `v[1]` away
+    /// from it, in the order of the panel's own corners.
     #[must_use]
-    pub fn facet_corners(&self, row: usize, col: usize, rows: usize, cols: usize) -> [Point; 4] {
-        [(col, row), (col + 1, row), (col + 1, row + 1), (col, row + 1)]
-            .map(|(col, row)| self.to_image(col as f64 / cols as f64, row as f64 / rows as f64))
+    pub fn rectangle(&self, u: [f64; 2], v: [f64; 2]) -> [Point; 4] {
+        [(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])].map(|(u, v)| self.to_image(u, v))
     }
 
     /// Area in the picture, px², of a unit of panel area at (u, v); negative where the map mirrors.
@@ -234,7 +233,7 @@ mod tests {
             let panel = Homography::from_unit_square(corners).unwrap();
             let (u2, v2) = panel.to_panel(panel.to_image(u, v));
             prop_assert!((u - u2).abs() < 1e-10 && (v - v2).abs() < 1e-10, "({u}, {v}) became ({u2}, {v2})");
-            for (got, want) in panel.facet_corners(0, 0, 1, 1).iter().zip(&corners) {
+            for (got, want) in panel.rectangle([0.0, 1.0], [0.0, 1.0]).iter().zip(&corners) {
                 prop_assert!(got.distance(*want) < 1e-9 * want.x.abs().max(want.y.abs()));
             }
         }

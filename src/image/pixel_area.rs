@@ -217,7 +217,9 @@ mod tests {
         #[test]
         fn facets_share_out_a_pixel(corners in quadrilateral(), rows in 1_usize..5, cols in 1_usize..5) {
             let panel = Homography::from_unit_square(corners).unwrap();
-            let facets: Vec<_> = (0..rows * cols).map(|k| Quadrilateral::new(&panel.facet_corners(k / cols, k % cols, rows, cols), 0.0)).collect();
+            let ends = |k: usize, count: usize| [k as f64 / count as f64, (k + 1) as f64 / count as f64];
+            let facet = |k: usize| panel.rectangle(ends(k % cols, cols), ends(k / cols, rows));
+            let facets: Vec<_> = (0..rows * cols).map(|k| Quadrilateral::new(&facet(k), 0.0)).collect();
             let whole_panel = Quadrilateral::new(&corners, 0.0);
             for y in whole_panel.rows(30) {
                 for x in whole_panel.whole_columns(y, 30) {

@@ -12,8 +12,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use rayon::prelude::*;
-
+use super::fold_kernel::FoldKernel;
 use super::quadrature::Rule;
 use crate::geometry::Fold;
 
@@ -25,121 +24,24 @@ const NEAR_PANEL: f64 = 1.5;
 /// Truncation error asked of the far rules, relative.
 const FAR_TOLERANCE: f64 = 1e-15;
 
-/// The distinct form factors of a fold with equal panels.
+/// The exact form factors between the facets of `fold`.
 ///
-/// Column shift, mirror image and reciprocity leave `rows (rows + 1)/2 · cols` numbers of the
-/// `(2 · rows · cols)²` of the full matrix.
-#[derive(Clone, Debug)]
-pub struct FoldKernel {
-    row_edges: Vec<f64>,
-    cols: usize,
-    /// `A·F` of facet pairs in units of the facet width squared, `[pair of rows][column shift]`.
-    exchange: Vec<f64>,
-}
-
-impl FoldKernel {
-    /// The exact form factors between the facets of `fold`, rows of equal depth.
-    ///
-    /// # Source
-    /// Deeb et al., eqs. (2) and (10), averaged over both facets.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::geometry::{FacetGrid, Fold};
-    /// use vfold::kernel::exact::FoldKernel;
-    /// // Two squares at a right angle exchange 0.20004 of their light (Howell, configuration C-14).
-    /// let kernel = FoldKernel::new(&Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?);
-    /// assert!((kernel.form_factor(0, 0, 0) - 0.20004377607540316).abs() < 1e-14);
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    #[must_use]
-    pub fn new(fold: &Fold) -> Self {
-        let grid = fold.facets();
-        let height = fold.depth() / grid.rows as f64 / (fold.width() / grid.cols as f64);
-        let row_edges = (0..=grid.rows).map(|i| i as f64 * height).collect();
-        Self::with_rows(fold.angle_rad(), row_edges, grid.cols)
-    }
-
-    /// The form factors of a fold whose rows end at `row_edges` (from 0, increasing, in facet widths).
-    fn with_rows(angle_rad: f64, row_edges: Vec<f64>, cols: usize) -> Self {
-        let wedge = Wedge::new(angle_rad);
-        let rows = row_edges.len() - 1;
-        let pairs: Vec<_> = (0..rows).flat_map(|i| (i..rows).map(move |j| (i, j))).collect();
-        let row = |i: usize| row_edges[i]..row_edges[i + 1];
-        let entry = |(i, j): (usize, usize)| (0..cols).map(move |k| (i, j, k));
-        let fill = |(i, j, k): (usize, usize, usize)| wedge.exchange(&row(i), &row(j), k as f64);
-        // Threads cost more to start than the few thousand entries of a small grid.
-        let exchange = if pairs.len() * cols < 4000 {
-            pairs.into_iter().flat_map(entry).map(fill).collect()
-        } else {
-            pairs.into_par_iter().flat_map_iter(entry).map(fill).collect()
-        };
-        Self { row_edges, cols, exchange }
-    }
-
-    /// Rows of facets on one panel.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.row_edges.len() - 1
-    }
-
-    /// Columns of facets on one panel.
-    #[must_use]
-    pub fn cols(&self) -> usize {
-        self.cols
-    }
-
-    /// Area times form factor between a facet of row `i` and one of row `j` on the other panel, `shift` columns apart,
-    /// in units of the facet width squared. Symmetric in `i` and `j`: reciprocity.
-    #[must_use]
-    pub fn exchange(&self, i: usize, j: usize, shift: usize) -> f64 {
-        self.shifts(i, j)[shift]
-    }
-
-    /// [`FoldKernel::exchange`] of two rows for every shift, 0 to `cols − 1`.
-    #[must_use]
-    pub fn shifts(&self, i: usize, j: usize) -> &[f64] {
-        let (i, j) = (i.min(j), i.max(j));
-        let pair = i * self.rows() - i * (i + 1) / 2 + j;
-        &self.exchange[pair * self.cols..][..self.cols]
-    }
-
-    /// Depth of row `i` in units of the facet width: the area of its facets.
-    #[must_use]
-    pub fn row_height(&self, i: usize) -> f64 {
-        self.row_edges[i + 1] - self.row_edges[i]
-    }
-
-    /// Fraction of the light leaving a facet of row `i` that reaches one of row `j` on the other panel, `shift` columns
-    /// apart: K of eq. (10), in [0, 1].
-    #[must_use]
-    pub fn form_factor(&self, i: usize, j: usize, shift: usize) -> f64 {
-        self.exchange(i, j, shift) / self.row_height(i)
-    }
-
-    /// Share of its light that the facet in row `i`, column `col` hands to the other panel, below 1.
-    #[must_use]
-    pub fn row_sum(&self, i: usize, col: usize) -> f64 {
-        (0..self.rows())
-            .flat_map(|j| (0..self.cols).map(move |other| (j, other)))
-            .map(|(j, other)| self.form_factor(i, j, col.abs_diff(other)))
-            .sum()
-    }
-
-    /// One row of the full matrix K of eq. (10), facet order panel, row, column: `2 · rows · cols` numbers.
-    #[must_use]
-    pub fn matrix_row(&self, facet: usize) -> Vec<f64> {
-        let panel_facets = self.rows() * self.cols;
-        let (panel, row, col) = (facet / panel_facets, facet % panel_facets / self.cols, facet % self.cols);
-        let mut out = vec![0.0; 2 * panel_facets];
-        let other = (1 - panel) * panel_facets;
-        for j in 0..self.rows() {
-            for c in 0..self.cols {
-                out[other + j * self.cols + c] = self.form_factor(row, j, col.abs_diff(c));
-            }
-        }
-        out
-    }
+/// # Source
+/// Deeb et al., eqs. (2) and (10), averaged over both facets.
+///
+/// # Example
+/// ```
+/// use vfold::geometry::{FacetGrid, Fold};
+/// use vfold::kernel::exact::form_factors;
+/// // Two squares at a right angle exchange 0.20004 of their light (Howell, configuration C-14).
+/// let kernel = form_factors(&Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?);
+/// assert!((kernel.form_factor(0, 0, 0, 0) - 0.20004377607540316).abs() < 1e-14);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+#[must_use]
+pub fn form_factors(fold: &Fold) -> FoldKernel {
+    let wedge = Wedge::new(fold.angle_rad(), fold.is_flat());
+    FoldKernel::from_rows(fold, |row0, row1, shift| wedge.exchange(row0, row1, shift as f64))
 }
 
 /// The opening angle of a fold and the rules that integrate over it.
@@ -153,11 +55,10 @@ struct Wedge {
 }
 
 impl Wedge {
-    fn new(angle_rad: f64) -> Self {
+    fn new(angle_rad: f64, flat: bool) -> Self {
         let half_sin = (angle_rad / 2.0).sin();
-        // A flat sheet exchanges nothing with itself: sin π would leave 1e-16 of nothing.
-        let flat = (PI - angle_rad).abs() < 1e-15;
         Self {
+            // A flat sheet exchanges nothing with itself: sin π would leave 1e-16 of nothing.
             sin: if flat { 0.0 } else { angle_rad.sin() },
             cos: angle_rad.cos(),
             one_minus_cos: 2.0 * half_sin * half_sin,
@@ -306,16 +207,11 @@ fn small_shift(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::FacetGrid;
-
-    fn fold(angle_deg: f64, rows: usize, cols: usize) -> Fold {
-        Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows, cols }).unwrap()
-    }
 
     #[test]
     fn near_and_far_formulas_agree_where_both_hold() {
         for angle_deg in [5.0_f64, 45.0, 120.0, 170.0] {
-            let wedge = Wedge::new(angle_deg.to_radians());
+            let wedge = Wedge::new(angle_deg.to_radians(), false);
             for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3.0), (2.0..3.0, 2.0..3.0, 4.0), (7.0..8.0, 3.0..4.0, 2.0)]
             {
                 let Some(orders) = wedge.far_orders(&s, &t, k) else { continue };
@@ -324,20 +220,6 @@ mod tests {
                     - wedge.side(t.start, &s, k);
                 assert!((near - far).abs() < 1e-11 * far, "{angle_deg}° {s:?} {t:?} {k}: {near} {far}");
             }
-        }
-    }
-
-    #[test]
-    fn a_flat_sheet_exchanges_nothing() {
-        assert_eq!(FoldKernel::new(&fold(180.0, 3, 3)).row_sum(0, 0).to_bits(), 0.0_f64.to_bits());
-    }
-
-    #[test]
-    fn the_matrix_row_sums_to_the_row_sum() {
-        let kernel = FoldKernel::new(&fold(45.0, 4, 3));
-        for facet in 0..24 {
-            let sum: f64 = kernel.matrix_row(facet).iter().sum();
-            assert!((sum - kernel.row_sum(facet % 12 / 3, facet % 3)).abs() < 1e-14);
         }
     }
 }

@@ -2,73 +2,115 @@
 
 use rayon::prelude::*;
 
-use super::exact::FoldKernel;
-use super::panel::{PanelOperator, mirrored};
+use super::fold_kernel::FoldKernel;
+use super::panel::PanelOperator;
+use super::spectra::Spectra;
 use crate::geometry::FacetGrid;
 
-/// Exchange between facets, eq. (10), as block-Toeplitz products with the distinct entries: the dense matrix is not formed.
+/// Columns from which products by FFT along the crease are faster than by the entries themselves.
+const FFT_FROM: usize = 24;
+/// Unknowns that are worth a second thread.
+const THREADS_FROM: usize = 1000;
+
+/// Exchange between facets, eq. (10), as products with the distinct entries: the dense matrix is not formed.
 pub struct FacetOperator<'a> {
     kernel: &'a FoldKernel,
     facets: FacetGrid,
-    half_cols: usize,
-    /// The middle column of an odd number is its own mirror image: 1/√2 there keeps the operator symmetric.
-    col_scale: Vec<f64>,
+    spectra: Option<Spectra>,
+    /// Square roots of the rows' depths on each panel.
+    scale: [Vec<f64>; 2],
 }
 
 impl<'a> FacetOperator<'a> {
-    /// The operator of a kernel whose patches are the facets or divide them evenly.
+    /// The operator of a kernel whose patches are the facets or divide each into as many of equal size.
     #[must_use]
     pub fn new(kernel: &'a FoldKernel, facets: FacetGrid) -> Self {
-        let half_cols = kernel.cols().div_ceil(2);
-        let mut col_scale = vec![1.0; half_cols];
-        if kernel.cols() % 2 == 1 {
-            col_scale[half_cols - 1] = 0.5_f64.sqrt();
-        }
-        Self { kernel, facets, half_cols, col_scale }
+        let FacetGrid { rows, cols } = kernel.facets();
+        let scale = [0, 1].map(|panel| (0..rows).map(|i| kernel.row_height(panel, i).sqrt()).collect());
+        let spectra = (cols >= FFT_FROM).then(|| Spectra::new(kernel));
+        Self { kernel, facets, spectra, scale }
     }
 
-    /// Irradiance on row `i` from all rows of the other panel.
-    fn apply_row(&self, i: usize, x: &[f64], out: &mut [f64]) {
-        let last = self.kernel.cols() - 1;
-        out.fill(0.0);
-        for (j, x_row) in x.chunks_exact(self.half_cols).enumerate() {
-            let factors = self.kernel.shifts(i, j);
+    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves.
+    fn add_up(&self, panel: usize, i: usize, x: &[f64], out: &mut [f64]) {
+        for (j, x) in x.chunks_exact(out.len()).enumerate() {
+            let factors = self.kernel.shifts_from(panel, i, j);
             for (c, out) in out.iter_mut().enumerate() {
-                let mut sum = 0.0;
-                for (d, (x, scale)) in x_row.iter().zip(&self.col_scale).enumerate() {
-                    sum += (factors[c.abs_diff(d)] + factors[last - d - c]) * scale * x;
-                }
-                *out += sum;
+                let below: f64 = factors[1..=c].iter().zip(x[..c].iter().rev()).map(|(f, x)| f * x).sum();
+                let above: f64 = factors.iter().zip(&x[c..]).map(|(f, x)| f * x).sum();
+                *out += below + above;
             }
         }
-        let height = self.kernel.row_height(i);
-        out.iter_mut().zip(&self.col_scale).for_each(|(out, scale)| *out *= scale / height);
     }
 }
 
 impl PanelOperator for FacetOperator<'_> {
-    fn uniform(&self) -> Vec<f64> {
-        self.col_scale.iter().copied().cycle().take(self.kernel.rows() * self.half_cols).collect()
+    fn is_symmetric(&self) -> bool {
+        self.kernel.is_symmetric()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
-        let rows_of = out.par_chunks_exact_mut(self.half_cols).enumerate();
+    fn uniform(&self, panel: usize) -> Vec<f64> {
+        let cols = self.kernel.facets().cols;
+        self.scale[panel].iter().flat_map(|scale| std::iter::repeat_n(*scale, cols)).collect()
+    }
+
+    fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
+        let cols = self.kernel.facets().cols;
+        let mut exitance = x.to_vec();
+        for (row, scale) in exitance.chunks_exact_mut(cols).zip(&self.scale[1 - panel]) {
+            row.iter_mut().for_each(|x| *x /= scale);
+        }
+        let transformed = self.spectra.as_ref().map(|spectra| (spectra, spectra.transform(&exitance)));
+        let rows = out.par_chunks_exact_mut(cols).enumerate();
         // Small grids are done before a second thread has woken up.
-        rows_of
-            .with_min_len(if x.len() < 1000 { x.len() } else { 1 })
-            .for_each(|(i, out)| self.apply_row(i, x, out));
+        rows.with_min_len(if x.len() < THREADS_FROM { x.len() } else { 1 }).for_each(|(i, out)| {
+            out.fill(0.0);
+            match &transformed {
+                Some((spectra, x)) => spectra.add_up(self.kernel, panel, i, x, out),
+                None => self.add_up(panel, i, &exitance, out),
+            }
+            out.iter_mut().for_each(|light| *light /= self.scale[panel][i]);
+        });
     }
 
-    fn facet_means(&self, x: &[f64]) -> Vec<f64> {
-        let cols = self.kernel.cols();
-        let patch = |row: usize, col: usize| {
-            let col = col.min(cols - 1 - col);
-            x[row * self.half_cols + col] / self.col_scale[col]
+    fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
+        let FacetGrid { rows, cols } = self.kernel.facets();
+        let (high, wide) = (rows / self.facets.rows, cols / self.facets.cols);
+        let facet = |facet: usize| {
+            let (row, col) = (facet / self.facets.cols * high, facet % self.facets.cols * wide);
+            let on_row =
+                |row: usize| self.scale[panel][row] * x[row * cols + col..][..wide].iter().sum::<f64>();
+            let area: f64 = (row..row + high).map(|row| wide as f64 * self.scale[panel][row].powi(2)).sum();
+            (row..row + high).map(on_row).sum::<f64>() / area
         };
-        let (high, wide) = (self.kernel.rows() / self.facets.rows, cols / self.facets.cols);
-        mirrored(self.facets, |row, col| {
-            let patches = (0..high * wide).map(|n| patch(row * high + n / wide, col * wide + n % wide));
-            patches.sum::<f64>() / (high * wide) as f64
-        })
+        (0..self.facets.len()).map(facet).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Fold, Spacing};
+    use crate::kernel::exact::form_factors;
+
+    #[test]
+    fn products_by_fft_are_those_with_the_entries() {
+        for (cols, depth1) in [(24, 1.0), (25, 0.6)] {
+            let fold = Fold::new(40.0, 2.0, 1.0, FacetGrid { rows: 3, cols }).unwrap();
+            let fold = fold.with_spacing(Spacing::Graded).with_panel1_depth(depth1).unwrap();
+            let kernel = form_factors(&fold);
+            let operator = FacetOperator::new(&kernel, fold.facets());
+            let direct = FacetOperator { spectra: None, ..FacetOperator::new(&kernel, fold.facets()) };
+            let x: Vec<f64> = (0..3 * cols).map(|k| (k as f64).sin()).collect();
+            for panel in [0, 1] {
+                let [mut a, mut b] = [vec![0.0; x.len()], vec![0.0; x.len()]];
+                operator.apply(panel, &x, &mut a);
+                direct.apply(panel, &x, &mut b);
+                assert!(
+                    a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-15),
+                    "{cols} columns, panel {panel}"
+                );
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::continuum::{Continuum, Resolution};
-use crate::kernel::exact::FoldKernel;
+use crate::kernel::exact::form_factors;
 use crate::kernel::facets::FacetOperator;
 use crate::response::{ModeLight, Response};
 
@@ -84,8 +84,8 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
             "give multiples of the facets, or auto",
         ));
     }
-    let kernel = FoldKernel::new(&fold.with_facets(patches)?);
-    let response = Response::lanczos(&FacetOperator::new(&kernel, facets), 0.1 * tolerance)?;
+    let kernel = form_factors(&fold.with_facets(patches)?);
+    let response = Response::solve(&FacetOperator::new(&kernel, facets), 0.1 * tolerance)?.0;
     Ok((response, Accuracy { unknowns: patches.rows * patches.cols.div_ceil(2), facet_mean_error: None }))
 }
 
@@ -101,7 +101,7 @@ fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
         aims.map(|aim| (aim, resolution(aim))).take_while(|(_, r)| r.unknowns(fold) <= UNKNOWNS_MAX);
     let mut solve = || -> Result<Option<(Response, usize)>> {
         let Some((aim, resolution)) = solutions.next() else { return Ok(None) };
-        let response = Response::lanczos(&Continuum::new(fold, &resolution), 0.1 * aim)?;
+        let response = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim)?.0;
         Ok(Some((response, resolution.unknowns(fold))))
     };
     let (Some((coarse, _)), Some((mut response, mut unknowns))) = (solve()?, solve()?) else {
@@ -147,7 +147,7 @@ fn resolution(aim: f64) -> Resolution {
 fn difference(a: &Response, b: &Response) -> f64 {
     let even = ModeLight::Sun([1.0, 1.0]);
     let relative = |facet: usize, r: f64| {
-        (a.irradiance(facet, even, r, r) / b.irradiance(facet, even, r, r) - 1.0).abs()
+        (a.irradiance(0, facet, even, [r; 2]) / b.irradiance(0, facet, even, [r; 2]) - 1.0).abs()
     };
     (0..a.facets()).flat_map(|facet| PROBES.map(|r| relative(facet, r))).fold(0.0, f64::max)
 }

@@ -7,9 +7,9 @@ use super::fields::{Fields, finite};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{FacetModel, Lighting};
-use crate::geometry::{FacetGrid, Fold, Light};
+use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::mesh::{Accuracy, Mesh, respond};
-use crate::response::Response;
+use crate::response::{ModeSet, Modes, Response};
 use crate::spectrum::WavelengthGrid;
 
 /// The stream's format, in every scene.
@@ -73,6 +73,9 @@ struct GeometryRecord {
     shape: String,
     angle_deg: f64,
     panel: [f64; 2],
+    /// Where it differs from panel 0's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    panel1_depth: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -80,6 +83,16 @@ struct FacetsRecord {
     panels: usize,
     rows: usize,
     cols: usize,
+    /// Uniform if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    spacing: Option<SpacingRecord>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum SpacingRecord {
+    Uniform,
+    Graded,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -91,10 +104,40 @@ struct LightRecord {
     panel_irradiance: [f64; 2],
 }
 
+/// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
+/// panel, residues for the facets of both.
 #[derive(Serialize, Deserialize)]
-struct ResponseRecord {
+#[serde(untagged)]
+enum ResponseRecord {
+    Shared(ModesRecord),
+    Separate { panels: [ModesRecord; 2] },
+}
+
+#[derive(Serialize, Deserialize)]
+struct ModesRecord {
     poles: Vec<f64>,
     residues: Vec<Vec<f64>>,
+}
+
+impl From<&ModeSet> for ModesRecord {
+    fn from(set: &ModeSet) -> Self {
+        let residues = set.residues.chunks(set.poles.len()).map(<[f64]>::to_vec).collect();
+        Self { poles: set.poles.clone(), residues }
+    }
+}
+
+impl ModesRecord {
+    fn into_modes(self, facets: usize) -> Result<ModeSet> {
+        let poles = self.poles.len();
+        if self.residues.len() != facets || self.residues.iter().any(|row| row.len() != poles) {
+            return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
+        }
+        Ok(ModeSet { poles: self.poles, residues: self.residues.concat() })
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = &f64> {
+        self.poles.iter().chain(self.residues.iter().flatten())
+    }
 }
 
 impl Scene {
@@ -106,25 +149,38 @@ impl Scene {
         let mut fields = Fields::of_kind("scene");
         fields.set("format", FORMAT)?;
         fields.set("id", id)?;
+        let [depth0, depth1] = fold.depths();
         fields.set(
             "geometry",
             GeometryRecord {
                 shape: "fold".to_owned(),
                 angle_deg: fold.angle_deg(),
-                panel: [fold.width(), fold.depth()],
+                panel: [fold.width(), depth0],
+                panel1_depth: (!fold.is_symmetric()).then_some(depth1),
             },
         )?;
         let FacetGrid { rows, cols } = fold.facets();
-        fields.set("facets", FacetsRecord { panels: 2, rows, cols })?;
+        let spacing = match fold.spacing() {
+            Spacing::Uniform => None,
+            Spacing::Graded => Some(SpacingRecord::Graded),
+        };
+        fields.set("facets", FacetsRecord { panels: 2, rows, cols, spacing })?;
         let (tilt_deg, slant_deg, sky) = (light.tilt_deg(), light.slant_deg(), light.sky());
         fields.set(
             "light",
             LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() },
         )?;
-        let residues: Vec<_> =
-            (0..response.facets()).map(|facet| response.facet_residues(facet).to_vec()).collect();
-        finite("response", response.poles().iter().chain(residues.iter().flatten()))?;
-        fields.set("response", ResponseRecord { poles: response.poles().to_vec(), residues })?;
+        let record = match response.modes() {
+            Modes::Shared(set) => ResponseRecord::Shared(set.into()),
+            Modes::Separate(sets) => ResponseRecord::Separate { panels: sets.each_ref().map(Into::into) },
+        };
+        match &record {
+            ResponseRecord::Shared(modes) => finite("response", modes.numbers())?,
+            ResponseRecord::Separate { panels } => {
+                finite("response", panels.iter().flat_map(ModesRecord::numbers))?;
+            }
+        }
+        fields.set("response", record)?;
         Ok(Self { fields })
     }
 
@@ -165,7 +221,14 @@ impl Scene {
         }
         let facets: FacetsRecord = self.fields.require("facets", "make the scene with vkernel")?;
         let grid = FacetGrid { rows: facets.rows, cols: facets.cols };
-        Fold::new(geometry.angle_deg, geometry.panel[0], geometry.panel[1], grid)
+        let [width, depth] = geometry.panel;
+        let spacing = match facets.spacing {
+            None | Some(SpacingRecord::Uniform) => Spacing::Uniform,
+            Some(SpacingRecord::Graded) => Spacing::Graded,
+        };
+        Fold::new(geometry.angle_deg, width, depth, grid)
+            .and_then(|fold| geometry.panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth)))
+            .map(|fold| fold.with_spacing(spacing))
             .map_err(|e| Error::field("geometry", e))
     }
 
@@ -185,16 +248,13 @@ impl Scene {
     /// [`Error::Field`] if they are missing or their shapes disagree.
     pub fn response(&self) -> Result<Response> {
         let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
-        let poles = record.poles.len();
-        if record.residues.len() != self.fold()?.facets().len()
-            || record.residues.iter().any(|row| row.len() != poles)
-        {
-            return Err(Error::field(
-                "response.residues",
-                "needs one row a facet of a panel with one number a pole",
-            ));
-        }
-        Response::new(record.poles, record.residues.concat())
+        let facets = self.fold()?.facets().len();
+        Response::new(match record {
+            ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
+            ResponseRecord::Separate { panels: [on_0, on_1] } => {
+                Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
+            }
+        })
     }
 
     /// Says how good the response is and which mesh gave it.
@@ -272,7 +332,8 @@ impl Scene {
     /// # Errors
     /// As [`Scene::model`].
     pub fn fine_model(&self, grid: FacetGrid, lighting: &Lighting) -> Result<FacetModel> {
-        let (response, _) = respond(&self.fold()?.with_facets(grid)?, Mesh::Auto, PICTURE_TOLERANCE)?;
+        let fold = self.fold()?.with_facets(grid)?.with_spacing(Spacing::Uniform);
+        let (response, _) = respond(&fold, Mesh::Auto, PICTURE_TOLERANCE)?;
         self.model_with(&response, lighting)
     }
 

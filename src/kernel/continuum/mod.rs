@@ -24,7 +24,7 @@ use rayon::prelude::*;
 use self::crease::Crease;
 use self::rows::Rows;
 use self::table::Table;
-use super::panel::{PanelOperator, mirrored};
+use super::panel::PanelOperator;
 use crate::geometry::{FacetGrid, Fold};
 
 /// How finely the radiosity of a panel is resolved.
@@ -48,7 +48,7 @@ impl Resolution {
     /// Unknowns that a fold's panel takes.
     #[must_use]
     pub fn unknowns(&self, fold: &Fold) -> usize {
-        let crease = Crease::new(fold.width() / fold.depth(), self);
+        let crease = Crease::new(fold.width() / fold.depths()[0], self);
         Rows::new(fold, self).len() * crease.strips.len() * crease.order
     }
 }
@@ -72,7 +72,7 @@ impl Continuum {
     #[must_use]
     pub fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let rows = Rows::new(fold, resolution);
-        let crease = Crease::new(fold.width() / fold.depth(), resolution);
+        let crease = Crease::new(fold.width() / fold.depths()[0], resolution);
         let facets = fold.facets();
         Self {
             matrix: assemble(&rows, &crease),
@@ -85,20 +85,25 @@ impl Continuum {
 }
 
 impl PanelOperator for Continuum {
-    fn uniform(&self) -> Vec<f64> {
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+
+    fn uniform(&self, _panel: usize) -> Vec<f64> {
         self.uniform.clone()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
+    fn apply(&self, _panel: usize, x: &[f64], out: &mut [f64]) {
         // The matrix is symmetric, so its contiguous columns serve as rows.
         let columns = self.matrix.as_slice().par_chunks_exact(x.len());
         columns.zip(out).with_min_len(100_000 / x.len()).for_each(|(column, out)| *out = dot(column, x));
     }
 
-    fn facet_means(&self, x: &[f64]) -> Vec<f64> {
+    fn facet_means(&self, _panel: usize, x: &[f64]) -> Vec<f64> {
         let x = DMatrix::from_column_slice(self.col_pool.ncols(), self.row_pool.ncols(), x);
         let means = &self.col_pool * x * self.row_pool.transpose();
-        mirrored(self.facets, |row, col| means[(col, row)])
+        let FacetGrid { rows, cols } = self.facets;
+        (0..rows * cols).map(|n| means[((n % cols).min(cols - 1 - n % cols), n / cols)]).collect()
     }
 }
 

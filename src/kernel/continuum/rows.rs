@@ -52,7 +52,7 @@ impl Rows {
     pub(super) fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let theta = fold.angle_rad();
         let angle = Angle { sin: theta.sin(), cos: theta.cos(), half_sin: (theta / 2.0).sin() };
-        let start = (resolution.crease_strip * (fold.width() / fold.depth()).min(1.0)).ln();
+        let start = (resolution.crease_strip * (fold.width() / fold.depths()[0]).min(1.0)).ln();
         let ends = graded_ends(start, resolution.row_panel, theta);
         let rule = Rule::gauss_legendre(resolution.row_order);
         let strip = start.exp();
