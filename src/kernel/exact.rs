@@ -23,6 +23,8 @@ const NEAR_ORDER: usize = 13;
 const NEAR_PANEL: f64 = 1.5;
 /// Truncation error asked of the far rules, relative.
 const FAR_TOLERANCE: f64 = 1e-15;
+/// Shifts, relative to the distance of two facets, over which the far rules keep their orders.
+const SAME_ORDERS: f64 = 0.15;
 
 /// The exact form factors between the facets of `fold`.
 ///
@@ -41,7 +43,7 @@ const FAR_TOLERANCE: f64 = 1e-15;
 #[must_use]
 pub fn form_factors(fold: &Fold) -> FoldKernel {
     let wedge = Wedge::new(fold.angle_rad(), fold.is_flat());
-    FoldKernel::from_rows(fold, |row0, row1, shift| wedge.exchange(row0, row1, shift as f64))
+    FoldKernel::from_rows(fold, |row0, row1, shifts| wedge.exchange(row0, row1, shifts))
 }
 
 /// The opening angle of a fold and the rules that integrate over it.
@@ -51,7 +53,10 @@ struct Wedge {
     /// `1 − cosθ`, which would lose digits as a difference when θ is small.
     one_minus_cos: f64,
     near: Rule,
+    /// Rules of order 1, 2, and so on.
     far: Vec<Rule>,
+    /// Rules for the weight `1 − |z|`, the overlap of two facets along the crease.
+    hats: Vec<Rule>,
 }
 
 impl Wedge {
@@ -63,24 +68,40 @@ impl Wedge {
             cos: angle_rad.cos(),
             one_minus_cos: 2.0 * half_sin * half_sin,
             near: Rule::gauss_legendre(NEAR_ORDER),
-            far: (0..=FAR_ORDER_MAX).map(Rule::gauss_legendre).collect(),
+            far: (1..=FAR_ORDER_MAX).map(Rule::gauss_legendre).collect(),
+            hats: (1..=FAR_ORDER_MAX).map(Rule::gauss_hat).collect(),
         }
     }
 
-    /// Area times form factor of two facets of width 1, rows `s` and `t`, `k` columns apart.
-    fn exchange(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> f64 {
+    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease.
+    fn exchange(&self, s: &Range<f64>, t: &Range<f64>, shifts: &mut [f64]) {
         if self.sin == 0.0 {
-            return 0.0;
+            return shifts.fill(0.0);
+        }
+        let across = self.nearest(s, t);
+        let mut k = 0;
+        while k < shifts.len() {
+            let gap = (k as f64 - 1.0).max(0.0);
+            match self.far_orders(s, t, gap, across) {
+                Some(orders) => {
+                    // Orders fall slowly with the distance: those found here serve for the next few shifts.
+                    let end = (k + 1 + (SAME_ORDERS * across.hypot(gap)) as usize).min(shifts.len());
+                    self.far(s, t, k, orders, &mut shifts[k..end]);
+                    k = end;
+                }
+                None => {
+                    shifts[k] = self.near(s, t, k as f64);
+                    k += 1;
+                }
+            }
         }
         let scale = self.sin * self.sin / PI;
-        let product = match self.far_orders(s, t, k) {
-            Some(orders) => self.far(s, t, k, orders),
-            None => {
-                self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k)
-                    - self.side(t.start, s, k)
-            }
-        };
-        scale * product
+        shifts.iter_mut().for_each(|value| *value *= scale);
+    }
+
+    /// `∫∫∫ (1 − |z|) s t / r⁴ dz ds dt` with the shift and one row direction in closed form.
+    fn near(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> f64 {
+        self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k) - self.side(t.start, s, k)
     }
 
     /// `J(a) = a² ∫ b·W₂(q)/q⁴ db` over the other facet's row: what the side at distance `a` adds.
@@ -104,15 +125,12 @@ impl Wedge {
         a * a * sum
     }
 
-    /// Orders of the Gauss rules in s, t and along the crease that reach rounding, if all are moderate.
-    fn far_orders(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> Option<[usize; 3]> {
-        let gap = (k - 1.0).max(0.0);
-        let along_s = self.order_across(s, t, gap)?;
-        let along_t = self.order_across(t, s, gap)?;
-        let q = self.nearest(s, t);
-        // Each half of the hat 1 − |z| has its own rule; the nearer half decides.
-        let along_z = gauss_order(gap, gap + 1.0, q)?;
-        Some([along_s, along_t, along_z])
+    /// Orders of the Gauss rules in s, t and along the crease that reach rounding for facets whose columns leave `gap`
+    /// between them and whose rows are `across` apart, if all are moderate.
+    fn far_orders(&self, s: &Range<f64>, t: &Range<f64>, gap: f64, across: f64) -> Option<[usize; 3]> {
+        // z runs over two widths from the nearer ends of the facets.
+        let along_z = gauss_order(gap, gap + 2.0, across)?;
+        Some([self.order_across(s, t, gap)?, self.order_across(t, s, gap)?, along_z])
     }
 
     /// Order for integrating over `row` with the other distance anywhere in `other`.
@@ -138,23 +156,23 @@ impl Wedge {
         from_s.into_iter().chain(from_t).fold(f64::INFINITY, f64::min)
     }
 
-    /// `∫∫∫ (1 − |z|) s t / r⁴ dz ds dt` by Gauss rules of the given orders.
-    fn far(&self, s: &Range<f64>, t: &Range<f64>, k: f64, orders: [usize; 3]) -> f64 {
-        let [rule_s, rule_t, rule_z] = orders.map(|order| &self.far[order]);
-        let hat: Vec<(f64, f64)> = [(-1.0, 0.0), (0.0, 1.0)]
-            .into_iter()
-            .flat_map(|(low, high)| rule_z.on(low, high))
-            .map(|(z, w)| ((k + z).powi(2), w * (1.0 - z.abs())))
-            .collect();
-        let mut sum = 0.0;
+    /// The same by Gauss rules of the given orders, for shifts from `k` on.
+    fn far(&self, s: &Range<f64>, t: &Range<f64>, k: usize, orders: [usize; 3], shifts: &mut [f64]) {
+        let [rule_s, rule_t, hat] =
+            [&self.far[orders[0] - 1], &self.far[orders[1] - 1], &self.hats[orders[2] - 1]];
+        shifts.fill(0.0);
         for (s, weight_s) in rule_s.on(s.start, s.end) {
             for (t, weight_t) in rule_t.on(t.start, t.end) {
                 let q2 = (s - t).powi(2) + 2.0 * s * t * self.one_minus_cos;
-                let line: f64 = hat.iter().map(|(z2, w)| w / (q2 + z2).powi(2)).sum();
-                sum += weight_s * s * weight_t * t * line;
+                for (z, weight_z) in hat.nodes.iter().zip(&hat.weights) {
+                    let weight = weight_s * s * weight_t * t * weight_z;
+                    for (n, value) in shifts.iter_mut().enumerate() {
+                        let r2 = q2 + ((k + n) as f64 + z).powi(2);
+                        *value += weight / (r2 * r2);
+                    }
+                }
             }
         }
-        sum
     }
 }
 
@@ -212,13 +230,13 @@ mod tests {
     fn near_and_far_formulas_agree_where_both_hold() {
         for angle_deg in [5.0_f64, 45.0, 120.0, 170.0] {
             let wedge = Wedge::new(angle_deg.to_radians(), false);
-            for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3.0), (2.0..3.0, 2.0..3.0, 4.0), (7.0..8.0, 3.0..4.0, 2.0)]
-            {
-                let Some(orders) = wedge.far_orders(&s, &t, k) else { continue };
-                let far = wedge.far(&s, &t, k, orders);
-                let near = wedge.side(s.end, &t, k) - wedge.side(s.start, &t, k) + wedge.side(t.end, &s, k)
-                    - wedge.side(t.start, &s, k);
-                assert!((near - far).abs() < 1e-11 * far, "{angle_deg}° {s:?} {t:?} {k}: {near} {far}");
+            for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3), (2.0..3.0, 2.0..3.0, 4), (7.0..8.0, 3.0..4.0, 2)] {
+                let across = wedge.nearest(&s, &t);
+                let Some(orders) = wedge.far_orders(&s, &t, k as f64 - 1.0, across) else { continue };
+                let mut far = [0.0];
+                wedge.far(&s, &t, k, orders, &mut far);
+                let near = wedge.near(&s, &t, k as f64);
+                assert!((near - far[0]).abs() < 1e-11 * near, "{angle_deg}° {s:?} {t:?} {k}: {near} {far:?}");
             }
         }
     }

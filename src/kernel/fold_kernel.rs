@@ -23,29 +23,27 @@ pub struct FoldKernel {
 }
 
 impl FoldKernel {
-    /// The kernel whose entry for rows `i` of panel 0 and `j` of panel 1 and a column shift is `exchange(i, j, shift)`: area
-    /// times form factor in units of the facet width squared. Where the panels are alike, only `i ≤ j` is asked for.
+    /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are what `exchange(i, j, shifts)` fills in for every
+    /// shift along the crease: area times form factor in units of the facet width squared. Where the panels are alike,
+    /// only `i ≤ j` is asked for.
     #[must_use]
-    pub fn from_exchange(fold: &Fold, exchange: impl Fn(usize, usize, usize) -> f64 + Sync) -> Self {
+    pub fn from_exchange(fold: &Fold, exchange: impl Fn(usize, usize, &mut [f64]) + Sync) -> Self {
         let (facets, symmetric) = (fold.facets(), fold.is_symmetric());
         let FacetGrid { rows, cols } = facets;
         let first = |i: usize| if symmetric { i } else { 0 };
         let pairs: Vec<_> = (0..rows).flat_map(|i| (first(i)..rows).map(move |j| (i, j))).collect();
-        let entry = |(i, j): (usize, usize)| (0..cols).map(move |shift| (i, j, shift));
-        let fill = |(i, j, shift)| exchange(i, j, shift);
-        let exchange = if pairs.len() * cols < THREADS_FROM {
-            pairs.into_iter().flat_map(entry).map(fill).collect()
-        } else {
-            pairs.into_par_iter().flat_map_iter(entry).map(fill).collect()
-        };
-        Self { facets, row_edges: row_edges(fold), symmetric, exchange }
+        let mut entries = vec![0.0; pairs.len() * cols];
+        let threads = if entries.len() < THREADS_FROM { pairs.len() } else { 1 };
+        let all = pairs.into_par_iter().zip(entries.par_chunks_exact_mut(cols)).with_min_len(threads);
+        all.for_each(|((i, j), shifts)| exchange(i, j, shifts));
+        Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }
     }
 
     /// The same from a function of the two rows' extents away from the crease.
     #[must_use]
-    pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, usize) -> f64 + Sync) -> Self {
+    pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, &mut [f64]) + Sync) -> Self {
         let [rows0, rows1] = row_edges(fold).map(|edges| ranges(&edges));
-        Self::from_exchange(fold, |i, j, shift| exchange(&rows0[i], &rows1[j], shift))
+        Self::from_exchange(fold, |i, j, shifts| exchange(&rows0[i], &rows1[j], shifts))
     }
 
     /// Facets of a panel.

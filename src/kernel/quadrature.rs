@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{DMatrix, SymmetricEigen};
+
 /// A quadrature rule: `∫ f ≈ Σ weights[i] f(nodes[i])`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rule {
@@ -26,6 +28,45 @@ impl Rule {
     #[must_use]
     pub fn gauss_legendre(order: usize) -> Self {
         let (nodes, weights) = (0..order).rev().map(|i| legendre_root(order, i)).unzip();
+        Self { nodes, weights }
+    }
+
+    /// The `order`-point Gauss rule for the weight `1 − |x|` on [-1, 1].
+    ///
+    /// Stieltjes' procedure on an exact discretisation of the weight, then the eigenvalues of the Jacobi matrix
+    /// (Gautschi, *Orthogonal Polynomials*, sections 2.2.3 and 3.1.1).
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::kernel::quadrature::Rule;
+    /// let rule = Rule::gauss_hat(2); // nodes ±1/√6, weights 1/2
+    /// assert!((rule.nodes[1] - 6.0_f64.sqrt().recip()).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn gauss_hat(order: usize) -> Self {
+        let legendre = Self::gauss_legendre(order + 1);
+        let halves = [(-1.0, 0.0), (0.0, 1.0)].into_iter().flat_map(|(low, high)| legendre.on(low, high));
+        let measure: Vec<(f64, f64)> = halves.map(|(x, w)| (x, w * (1.0 - x.abs()))).collect();
+        // Orthonormal polynomials at the nodes; the weight is even, so that their recurrence has no diagonal.
+        let (mut before, mut now) = (vec![0.0; measure.len()], vec![1.0; measure.len()]);
+        let mut beside = Vec::new();
+        for _ in 1..order {
+            let last = beside.last().copied().unwrap_or(0.0);
+            let next = measure.iter().zip(now.iter().zip(&before)).map(|((x, _), (p, q))| x * p - last * q);
+            let next: Vec<f64> = next.collect();
+            let norm = measure.iter().zip(&next).map(|((_, w), p)| w * p * p).sum::<f64>().sqrt();
+            before = std::mem::replace(&mut now, next.iter().map(|p| p / norm).collect());
+            beside.push(norm);
+        }
+        let jacobi = DMatrix::from_fn(order, order, |i, j| match i.abs_diff(j) {
+            1 => beside[i.min(j)],
+            _ => 0.0,
+        });
+        let eigen = SymmetricEigen::new(jacobi);
+        let mut rule: Vec<(f64, f64)> =
+            (0..order).map(|k| (eigen.eigenvalues[k], eigen.eigenvectors[(0, k)].powi(2))).collect();
+        rule.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (nodes, weights) = rule.into_iter().unzip();
         Self { nodes, weights }
     }
 
@@ -117,6 +158,18 @@ mod tests {
         for i in 0..5 {
             assert!((rule.nodes[i] - nodes[i]).abs() < 1e-15);
             assert!((rule.weights[i] - weights[i]).abs() < 1e-15);
+        }
+    }
+
+    /// `∫ (1 − |x|) x^d dx = 2/((d + 1)(d + 2))` for even d.
+    #[test]
+    fn hat_rules_integrate_their_highest_power() {
+        for order in 1..=14 {
+            let rule = Rule::gauss_hat(order);
+            let degree = 2 * order as i32 - 2;
+            let sum: f64 = rule.nodes.iter().zip(&rule.weights).map(|(x, w)| w * x.powi(degree)).sum();
+            let want = 2.0 / f64::from((degree + 1) * (degree + 2));
+            assert!((sum / want - 1.0).abs() < 1e-13, "order {order}: {sum}");
         }
     }
 
