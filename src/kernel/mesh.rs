@@ -7,12 +7,12 @@ use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::continuum::{Continuum, Resolution};
 use crate::kernel::exact::form_factors;
 use crate::kernel::facets::FacetOperator;
-use crate::response::{ModeLight, Response};
+use crate::response::{ModeLight, Modes, Response};
 
-/// Most unknowns of one solution: its matrix then takes 200 MB.
-const UNKNOWNS_MAX: usize = 5000;
+/// Most unknowns of one solution: its matrix then takes 800 MB.
+const UNKNOWNS_MAX: usize = 10_000;
 /// How much the error is asked to fall from one solution to the next.
-const STEP: f64 = 10.0;
+const STEP: f64 = 20.0;
 /// Reflectances at which two solutions are compared; the last is the hardest.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
 
@@ -49,7 +49,7 @@ pub struct Accuracy {
 
 /// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`.
 ///
-/// The error stays above the tolerance, and says so, where 5000 unknowns do not reach it.
+/// The error stays above the tolerance, and says so, where 10000 unknowns do not reach it.
 ///
 /// # Errors
 /// A mesh that does not divide into the facets, or a fold so narrow that no solution fits.
@@ -92,16 +92,17 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
 /// Refines until the error, extrapolated from the last three solutions, is within the tolerance, or the next solution would
 /// take too many unknowns.
 fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
-    if flat(fold) {
+    if fold.is_flat() {
         return respond_patches(fold, fold.facets(), tolerance);
     }
     // Half the tolerance is asked for, so that the first fine solution meets it more often than not.
     let aims = std::iter::successors(Some(0.5 * tolerance * STEP * STEP), |aim| Some(aim / STEP));
-    let mut solutions =
-        aims.map(|aim| (aim, resolution(aim))).take_while(|(_, r)| r.unknowns(fold) <= UNKNOWNS_MAX);
+    let mut solutions = aims
+        .map(|aim| (aim, Resolution::reaching(aim, fold)))
+        .take_while(|(_, r)| r.unknowns(fold) <= UNKNOWNS_MAX);
     let mut solve = || -> Result<Option<(Response, usize)>> {
         let Some((aim, resolution)) = solutions.next() else { return Ok(None) };
-        let response = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim)?.0;
+        let (response, _) = Response::solve(&Continuum::new(fold, &resolution), residual(fold, aim))?;
         Ok(Some((response, resolution.unknowns(fold))))
     };
     let (Some((coarse, _)), Some((mut response, mut unknowns))) = (solve()?, solve()?) else {
@@ -126,28 +127,20 @@ fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
     Ok((response, Accuracy { unknowns, facet_mean_error: Some(error) }))
 }
 
-fn flat(fold: &Fold) -> bool {
-    (fold.angle_deg() - 180.0).abs() < f64::EPSILON
-}
-
-/// The resolution that reaches about `aim` on a 45° fold of square panels at reflectance 1, found by trying.
-fn resolution(aim: f64) -> Resolution {
-    let order = |base: f64, at: f64, gain: f64| (base + (at / aim).ln() / gain.ln()).ceil().max(2.0) as usize;
-    Resolution {
-        crease_strip: (1e-3 * (aim / 8e-5).powf(0.6)).min(0.2),
-        row_panel: 1.75,
-        row_order: order(6.0, 1.7e-4, 2.6),
-        end_strip: (0.1 * (aim / 1e-4).powf(0.35)).min(0.25),
-        strip_growth: 5.0,
-        strip_order: order(4.0, 4e-4, 5.0),
-    }
+/// The residual that leaves a tenth of `aim`: bounces enlarge it by at most about `1/sin(θ/2)`, the least share of light that
+/// a bounce loses.
+fn residual(fold: &Fold, aim: f64) -> f64 {
+    0.1 * aim * (0.5 * fold.angle_rad()).sin()
 }
 
 /// Largest relative difference of the facets' irradiances between two responses, over [`PROBES`].
 fn difference(a: &Response, b: &Response) -> f64 {
     let even = ModeLight::Sun([1.0, 1.0]);
-    let relative = |facet: usize, r: f64| {
-        (a.irradiance(0, facet, even, [r; 2]) / b.irradiance(0, facet, even, [r; 2]) - 1.0).abs()
+    let relative = |panel: usize, facet: usize, r: f64| {
+        let [a, b] = [a, b].map(|response| response.irradiance(panel, facet, even, [r; 2]));
+        (a / b - 1.0).abs()
     };
-    (0..a.facets()).flat_map(|facet| PROBES.map(|r| relative(facet, r))).fold(0.0, f64::max)
+    let panels = 0..if matches!(a.modes(), Modes::Shared(_)) { 1 } else { 2 };
+    let facets = panels.flat_map(|panel| (0..a.facets()).map(move |facet| (panel, facet)));
+    facets.flat_map(|(panel, facet)| PROBES.map(|r| relative(panel, facet, r))).fold(0.0, f64::max)
 }

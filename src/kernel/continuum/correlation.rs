@@ -1,6 +1,6 @@
 //! Pairs of strips along the crease: the kernel depends on the shift between two points alone.
 
-use super::crease::polynomials;
+use super::strips::polynomials;
 use crate::kernel::quadrature::Rule;
 
 /// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0.

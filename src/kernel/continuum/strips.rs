@@ -1,0 +1,106 @@
+//! One direction of a panel: Legendre polynomials on strips.
+
+use nalgebra::DMatrix;
+
+use crate::kernel::quadrature::{Rule, legendre_series};
+
+/// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across them.
+#[derive(Clone, Debug)]
+pub(super) struct Strips {
+    pub(super) ends: Vec<[f64; 2]>,
+    pub(super) order: usize,
+}
+
+impl Strips {
+    /// Strips between consecutive `edges`.
+    pub(super) fn new(edges: &[f64], order: usize) -> Self {
+        Self { ends: edges.windows(2).map(|ends| [ends[0], ends[1]]).collect(), order }
+    }
+
+    /// Number of basis functions.
+    pub(super) fn len(&self) -> usize {
+        self.ends.len() * self.order
+    }
+
+    /// Coordinates of the function 1.
+    pub(super) fn uniform(&self) -> impl Iterator<Item = f64> + '_ {
+        let one = |[low, high]: [f64; 2]| {
+            (0..self.order).map(move |b| if b == 0 { (high - low).sqrt() } else { 0.0 })
+        };
+        self.ends.iter().copied().flat_map(one)
+    }
+
+    /// Means over intervals: interval by basis function.
+    pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
+        let mut pool = DMatrix::zeros(intervals.len(), self.len());
+        let rule = Rule::gauss_legendre(self.order);
+        let mut values = vec![0.0; self.order];
+        for (row, [low, high]) in intervals.iter().enumerate() {
+            for (n, strip) in self.ends.iter().enumerate() {
+                let (from, to) = (strip[0].max(*low), strip[1].min(*high));
+                if from >= to {
+                    continue;
+                }
+                for (x, w) in rule.on(from, to) {
+                    polynomials(*strip, x, &mut values);
+                    for (b, value) in values.iter().enumerate() {
+                        pool[(row, n * self.order + b)] += w * value / (high - low);
+                    }
+                }
+            }
+        }
+        pool
+    }
+}
+
+/// Normalised Legendre polynomials of a strip at `x`.
+pub(super) fn polynomials(strip: [f64; 2], x: f64, values: &mut [f64]) {
+    let length = strip[1] - strip[0];
+    legendre_series((2.0 * x - strip[0] - strip[1]) / length, values);
+    for (b, value) in values.iter_mut().enumerate() {
+        *value *= ((2 * b + 1) as f64 / length).sqrt();
+    }
+}
+
+/// Edges of strips from `low` to `high`, the first and the last at most as wide as asked for, and each at most `growth` times
+/// as wide as all before it from its end.
+pub(super) fn graded(low: f64, high: f64, first: f64, last: f64, growth: f64) -> Vec<f64> {
+    let middle = match (first < high - low, last < high - low) {
+        (_, false) => high,
+        (false, true) => low,
+        // A strip is as wide as its distance from the end that it is graded to allows: both do in the middle.
+        (true, true) => 0.5 * (low + high),
+    };
+    let from = |end: f64, towards: f64, narrowest: f64| {
+        let length = (towards - end).abs();
+        let steps = ((length / narrowest).ln() / growth.ln()).ceil().max(0.0);
+        let ratio = if steps > 0.0 { (length / narrowest).powf(steps.recip()) } else { 1.0 };
+        (0..=steps as usize).map(move |k| end + (towards - end) * ratio.powf(k as f64 - steps))
+    };
+    let mut edges = vec![low];
+    if middle > low {
+        edges.extend(from(low, middle, first));
+    }
+    if middle < high {
+        let falling: Vec<f64> = from(high, middle, last).collect();
+        edges.extend(falling.into_iter().rev().skip(1));
+        edges.push(high);
+    }
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_are_graded_to_both_ends() {
+        for (first, last) in [(1e-4, 0.02), (0.1, 5.0), (5.0, 0.1), (5.0, 5.0)] {
+            let edges = graded(0.0, 1.0, first, last, 4.0);
+            assert_eq!((edges[0], edges[edges.len() - 1]), (0.0, 1.0), "{edges:?}");
+            assert!(edges.windows(2).all(|ends| ends[1] > ends[0]), "{edges:?}");
+            assert!(edges[1] <= first * (1.0 + 1e-9));
+            assert!(1.0 - edges[edges.len() - 2] <= last * (1.0 + 1e-9));
+        }
+    }
+}
