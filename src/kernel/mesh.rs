@@ -4,9 +4,10 @@ use std::fmt;
 
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
+use crate::kernel::check::spectral_radius;
 use crate::kernel::continuum::{Continuum, Resolution};
-use crate::kernel::exact::form_factors;
 use crate::kernel::facets::FacetOperator;
+use crate::kernel::method::Method;
 use crate::response::{ModeLight, Response};
 
 /// Most unknowns of one solution: its matrix then takes 200 MB.
@@ -45,6 +46,17 @@ pub struct Accuracy {
     /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where the mesh was
     /// given and no second solution made.
     pub facet_mean_error: Option<f64>,
+    /// The form factors between flat patches; none where the panels were not divided.
+    pub kernel: Option<KernelSource>,
+}
+
+/// Where form factors come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelSource {
+    /// How they were found.
+    pub method: Method,
+    /// Largest standard error of one, if they are estimates.
+    pub entry_sd: Option<f64>,
 }
 
 /// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`.
@@ -65,14 +77,32 @@ pub struct Accuracy {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn respond(fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
+    respond_by(Method::Exact, fold, mesh, tolerance)
+}
+
+/// The same with form factors found by `method`.
+///
+/// # Errors
+/// As [`respond`]; a method other than exact on undivided panels, or one whose kernel makes the bounces diverge.
+pub fn respond_by(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
     match mesh {
+        Mesh::Auto if method != Method::Exact => Err(Error::usage(
+            "--mesh",
+            format!("auto divides the panels into no facets whose form factors could be {method}"),
+            "give --mesh facets, patches such as 40x40, or --method exact",
+        )),
         Mesh::Auto => respond_auto(fold, tolerance),
-        Mesh::Facets => respond_patches(fold, fold.facets(), tolerance),
-        Mesh::Patches(patches) => respond_patches(fold, patches, tolerance),
+        Mesh::Facets => respond_patches(method, fold, fold.facets(), tolerance),
+        Mesh::Patches(patches) => respond_patches(method, fold, patches, tolerance),
     }
 }
 
-fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(Response, Accuracy)> {
+fn respond_patches(
+    method: Method,
+    fold: &Fold,
+    patches: FacetGrid,
+    tolerance: f64,
+) -> Result<(Response, Accuracy)> {
     let facets = fold.facets();
     if !(patches.rows.is_multiple_of(facets.rows) && patches.cols.is_multiple_of(facets.cols)) {
         return Err(Error::usage(
@@ -84,16 +114,38 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
             "give multiples of the facets, or auto",
         ));
     }
-    let kernel = form_factors(&fold.with_facets(patches)?);
-    let response = Response::solve(&FacetOperator::new(&kernel, facets), 0.1 * tolerance)?.0;
-    Ok((response, Accuracy { unknowns: patches.rows * patches.cols.div_ceil(2), facet_mean_error: None }))
+    let (kernel, entry_sd) = method.form_factors(&fold.with_facets(patches)?);
+    let operator = FacetOperator::new(&kernel, facets);
+    if method != Method::Exact {
+        check_convergence(method, &operator)?;
+    }
+    let response = Response::solve(&operator, 0.1 * tolerance)?.0;
+    let unknowns = patches.rows * patches.cols.div_ceil(2);
+    let kernel = Some(KernelSource { method, entry_sd });
+    Ok((response, Accuracy { unknowns, facet_mean_error: None, kernel }))
+}
+
+/// Refuses a kernel with which white sheets would shine.
+fn check_convergence(method: Method, operator: &FacetOperator) -> Result<()> {
+    let radius = spectral_radius(operator);
+    if radius < 1.0 {
+        return Ok(());
+    }
+    Err(Error::usage(
+        "--method",
+        format!(
+            "the {method} kernel has spectral radius {radius:.2}: bounces diverge at reflectances from {:.2}",
+            1.0 / radius
+        ),
+        "give --method exact, or --save kernel=FILE.npy --check to study it",
+    ))
 }
 
 /// Refines until the error, extrapolated from the last three solutions, is within the tolerance, or the next solution would
 /// take too many unknowns.
 fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
     if flat(fold) {
-        return respond_patches(fold, fold.facets(), tolerance);
+        return respond_patches(Method::Exact, fold, fold.facets(), tolerance);
     }
     // Half the tolerance is asked for, so that the first fine solution meets it more often than not.
     let aims = std::iter::successors(Some(0.5 * tolerance * STEP * STEP), |aim| Some(aim / STEP));
@@ -123,7 +175,7 @@ fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
         before = last;
         (response, unknowns) = finer;
     }
-    Ok((response, Accuracy { unknowns, facet_mean_error: Some(error) }))
+    Ok((response, Accuracy { unknowns, facet_mean_error: Some(error), kernel: None }))
 }
 
 fn flat(fold: &Fold) -> bool {
