@@ -182,8 +182,9 @@ impl MonteCarlo {
                 // The ray reaches the other panel's plane `reach·sinθ` further on, unless it leads away from it.
                 let reach = s / (up * cos - away * sin);
                 let t = reach * up;
-                let shift = (x + reach * sin * along).floor().abs();
-                if reach > 0.0 && t < onto[rows - 1].end && shift < cols as f64 {
+                // Both signs of the shift are alike, and so are x and 1 − x.
+                let shift = x + reach * sin * along.abs();
+                if (reach > 0.0) & (t < onto[rows - 1].end) & (shift < cols as f64) {
                     let row = onto.partition_point(|row| row.end <= t);
                     hits[row * cols + shift as usize] += 1;
                 }
