@@ -43,7 +43,7 @@ fn spread(estimates: &[Vec<f64>], entry: usize) -> (f64, f64) {
 }
 
 /// The mean of 100 estimates is within five of its standard errors of the exact entry, all errors measured from the
-/// estimates themselves. Facets that meet at the crease have no variance when sampled by area: they are left out there.
+/// estimates themselves. Facets that meet at the crease have no finite variance when sampled by area: they are left out there.
 #[test]
 fn both_samplings_are_unbiased() {
     for (fold, sampling) in folds().iter().flat_map(|fold| [(fold, Sampling::Area), (fold, Sampling::Cosine)])
@@ -133,7 +133,7 @@ fn midpoint_converges_for_facets_far_apart() {
         (midpoint / exact - 1.0).abs()
     };
     let [coarse, fine] = [16, 32].map(error);
-    assert!(coarse < 1e-3 && (3.0..5.0).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
+    assert!(coarse < 3e-3 && (3.0..5.0).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
 }
 
 /// Lanczos' radius is the largest singular value of the dense matrix.

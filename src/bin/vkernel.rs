@@ -57,7 +57,7 @@ struct Args {
     /// Seed of the samples [default: 0]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Instead of a scene, print what the form factors of the facets or of --mesh ROWSxCOLS make of the laws of light; exit
+    /// Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit
     /// status 1 if one is broken
     #[arg(long)]
     check: bool,

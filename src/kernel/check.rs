@@ -69,10 +69,9 @@ impl fmt::Display for Bound {
 /// One line of a report: law, measured, bound, `ok` or `BROKEN`.
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let measured = match self.measured.abs() {
-            0.0 => "0".to_owned(),
-            small if small < 1e-3 => format!("{:.2e}", self.measured),
-            _ => format!("{:.6}", self.measured),
+        let measured = match self.measured {
+            small if small.abs() < 1e-3 => format!("{small:.2e}"),
+            number => format!("{number:.6}"),
         };
         let verdict = match self.bound {
             Bound::Nothing => "-",
