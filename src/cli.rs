@@ -124,12 +124,15 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     }
     let mut out = Output::to(common.output.as_deref(), &common.save)?;
     out.show(Progress::new(A::command().get_name(), common.when(), common.output.is_some()));
-    match (common.generate, common.list) {
-        (Some(what), _) => generate::<A>(what, &mut out)?,
-        (None, Some(what)) => print_list(what, &mut out)?,
-        (None, None) => tool(args, &mut out)?,
+    let done = match (common.generate, common.list) {
+        (Some(what), _) => generate::<A>(what, &mut out),
+        (None, Some(what)) => print_list(what, &mut out),
+        (None, None) => tool(args, &mut out),
+    };
+    match done {
+        Err(e) if !e.is_finding() => Err(e),
+        done => out.finish().and_then(|failed| done.map(|()| failed)),
     }
-    out.finish()
 }
 
 /// Writes a line to standard error; unlike `eprintln!` it survives a closed one.

@@ -134,6 +134,9 @@ pub enum Error {
     },
 
     // ---- numbers ----
+    /// A check ran and found a law broken.
+    #[error("the kernel breaks a law: {0}")]
+    BrokenLaw(String),
     /// A computation cannot give a meaningful number.
     #[error("{0}")]
     Numeric(String),
@@ -148,6 +151,12 @@ impl Error {
             Self::Located { source, .. } => source.exit_status(),
             _ => 1,
         }
+    }
+
+    /// Whether this is what a check found: its report is whole, and kept.
+    #[must_use]
+    pub fn is_finding(&self) -> bool {
+        matches!(self, Self::BrokenLaw(_))
     }
 
     /// Whether the reader of our output has gone, which is no failure of ours.

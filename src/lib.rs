@@ -11,7 +11,8 @@
 //! |---|---|---|
 //! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
 //! | eq. (2) | geometrical kernel of two points | [`kernel::exact::form_factors`], averaged over facets |
-//! | eq. (10) | kernel matrix of the facets | [`kernel::FoldKernel::matrix_row`] |
+//! | eq. (2) | the same as printed, at facet centres | [`kernel::midpoint::form_factors`] |
+//! | eq. (10) | kernel matrix of the facets | [`kernel::fold_kernel::FoldKernel::matrix_row`] |
 //! | eq. (16) | radiance after all bounces | [`response::Response::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
 //! | eq. (24) | facet RGB | [`forward::FacetModel::facet_rgb`] |

@@ -295,7 +295,8 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// Dot product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -307,7 +308,8 @@ fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
     }
 }
 
-fn tridiagonal(diagonal: &[f64], beside: &[f64]) -> DMatrix<f64> {
+/// The symmetric matrix with `diagonal` and the elements `beside` it.
+pub(crate) fn tridiagonal(diagonal: &[f64], beside: &[f64]) -> DMatrix<f64> {
     DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
         0 => diagonal[i],
         1 => beside[i.min(j)],

@@ -143,6 +143,16 @@ fn a_failing_run_leaves_no_file() {
 }
 
 #[test]
+fn a_check_that_finds_something_keeps_its_report() {
+    let folder = Workdir::new();
+    let run = folder.sh("vkernel --method midpoint --check -o report.txt --save kernel=K.npy");
+    assert_eq!((run.status, run.stdout.as_str()), (1, ""));
+    assert!(run.stderr.starts_with("vkernel: the kernel breaks a law: "), "{}", run.stderr);
+    assert!(folder.sh("cat report.txt").stdout.contains("BROKEN"));
+    assert_eq!(folder.sh("ls").stdout, "K.npy\nreport.txt\n");
+}
+
+#[test]
 fn a_failing_run_keeps_the_file_that_was_there() {
     for run in FAILING {
         let after = after_setup(&format!("echo before > out.ndjson; {run} -o out.ndjson || cat out.ndjson"));

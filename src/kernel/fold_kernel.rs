@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use crate::geometry::{FacetGrid, Fold};
 
-/// Entries that are worth a second thread: a few thousand are done before it has started.
-const THREADS_FROM: usize = 4000;
+/// Entries that are worth a thread: a few thousand are done before a second one has started.
+const ENTRIES_A_THREAD: usize = 2000;
 
 /// The distinct form factors of a fold, K of eq. (10).
 ///
@@ -25,25 +25,32 @@ pub struct FoldKernel {
 impl FoldKernel {
     /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are what `exchange(i, j, shifts)` fills in for every
     /// shift along the crease: area times form factor in units of the facet width squared. Where the panels are alike,
-    /// only `i ≤ j` is asked for.
+    /// only `i ≤ j` is asked for. No thread is woken for fewer than `pairs_a_thread` pairs of rows.
+    ///
+    /// # Returns
+    /// The kernel, and what `exchange` said about each pair of rows.
     #[must_use]
-    pub fn from_exchange(fold: &Fold, exchange: impl Fn(usize, usize, &mut [f64]) + Sync) -> Self {
+    pub fn from_exchange<T: Send>(
+        fold: &Fold,
+        pairs_a_thread: usize,
+        exchange: impl Fn(usize, usize, &mut [f64]) -> T + Sync,
+    ) -> (Self, Vec<T>) {
         let (facets, symmetric) = (fold.facets(), fold.is_symmetric());
         let FacetGrid { rows, cols } = facets;
         let first = |i: usize| if symmetric { i } else { 0 };
         let pairs: Vec<_> = (0..rows).flat_map(|i| (first(i)..rows).map(move |j| (i, j))).collect();
         let mut entries = vec![0.0; pairs.len() * cols];
-        let threads = if entries.len() < THREADS_FROM { pairs.len() } else { 1 };
-        let all = pairs.into_par_iter().zip(entries.par_chunks_exact_mut(cols)).with_min_len(threads);
-        all.for_each(|((i, j), shifts)| exchange(i, j, shifts));
-        Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }
+        let all = pairs.into_par_iter().zip(entries.par_chunks_exact_mut(cols)).with_min_len(pairs_a_thread);
+        let said = all.map(|((i, j), shifts)| exchange(i, j, shifts)).collect();
+        (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, said)
     }
 
-    /// The same from a function of the two rows' extents away from the crease.
+    /// The same from a function of the two rows' extents away from the crease, a microsecond an entry.
     #[must_use]
     pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, &mut [f64]) + Sync) -> Self {
-        let [rows0, rows1] = row_edges(fold).map(|edges| ranges(&edges));
-        Self::from_exchange(fold, |i, j, shifts| exchange(&rows0[i], &rows1[j], shifts))
+        let [rows0, rows1] = row_ranges(fold);
+        let pairs_a_thread = ENTRIES_A_THREAD.div_ceil(fold.facets().cols);
+        Self::from_exchange(fold, pairs_a_thread, |i, j, shifts| exchange(&rows0[i], &rows1[j], shifts)).0
     }
 
     /// Facets of a panel.
@@ -136,8 +143,9 @@ fn row_edges(fold: &Fold) -> [Vec<f64>; 2] {
     fold.row_edges().map(|edges| edges.iter().map(|edge| edge / facet).collect())
 }
 
-fn ranges(edges: &[f64]) -> Vec<Range<f64>> {
-    edges.windows(2).map(|ends| ends[0]..ends[1]).collect()
+/// Where the facet rows of both panels begin and end, in units of the facet width.
+pub(super) fn row_ranges(fold: &Fold) -> [Vec<Range<f64>>; 2] {
+    row_edges(fold).map(|edges| edges.windows(2).map(|ends| ends[0]..ends[1]).collect())
 }
 
 #[cfg(test)]

@@ -4,17 +4,11 @@ use std::fmt;
 
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
-use crate::kernel::continuum::{Continuum, Resolution};
-use crate::kernel::exact::form_factors;
+use crate::kernel::check::spectral_radius;
 use crate::kernel::facets::FacetOperator;
-use crate::response::{ModeLight, Modes, Response};
-
-/// Most unknowns of one solution: its matrix then takes 800 MB.
-const UNKNOWNS_MAX: usize = 10_000;
-/// How much the error is asked to fall from one solution to the next.
-const STEP: f64 = 20.0;
-/// Reflectances at which two solutions are compared; the last is the hardest.
-const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
+use crate::kernel::method::Method;
+use crate::kernel::refinement::{Refined, refine};
+use crate::response::Response;
 
 /// The mesh on which the bounces of light are solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,16 +34,27 @@ impl fmt::Display for Mesh {
 /// What the solution of a scene's bounces is worth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// Unknowns of the last solution.
+    /// Unknowns of a panel in the last solution.
     pub unknowns: usize,
     /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where the mesh was
     /// given and no second solution made.
     pub facet_mean_error: Option<f64>,
+    /// The form factors between flat patches; none where the panels were not divided.
+    pub kernel: Option<KernelSource>,
+}
+
+/// Where form factors come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelSource {
+    /// How they were found.
+    pub method: Method,
+    /// Largest standard error of one, if they are estimates.
+    pub entry_sd: Option<f64>,
 }
 
 /// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`.
 ///
-/// The error stays above the tolerance, and says so, where 10000 unknowns do not reach it.
+/// The error stays above the tolerance, and says so, where reaching it would take too long.
 ///
 /// # Errors
 /// A mesh that does not divide into the facets, or a fold so narrow that no solution fits.
@@ -65,14 +70,36 @@ pub struct Accuracy {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn respond(fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
+    respond_by(Method::Exact, fold, mesh, tolerance)
+}
+
+/// The same with form factors found by `method`.
+///
+/// # Errors
+/// As [`respond`]; a method other than exact on undivided panels, or one whose kernel makes the bounces diverge.
+pub fn respond_by(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
     match mesh {
-        Mesh::Auto => respond_auto(fold, tolerance),
-        Mesh::Facets => respond_patches(fold, fold.facets(), tolerance),
-        Mesh::Patches(patches) => respond_patches(fold, patches, tolerance),
+        Mesh::Auto if method != Method::Exact => Err(Error::usage(
+            "--mesh",
+            format!("auto divides the panels into no facets whose form factors could be {method}"),
+            "give --mesh facets, patches such as 40x40, or --method exact",
+        )),
+        Mesh::Auto if fold.is_flat() => respond_patches(method, fold, fold.facets(), tolerance),
+        Mesh::Auto => {
+            let Refined { response, unknowns, error } = refine(fold, tolerance)?;
+            Ok((response, Accuracy { unknowns, facet_mean_error: Some(error), kernel: None }))
+        }
+        Mesh::Facets => respond_patches(method, fold, fold.facets(), tolerance),
+        Mesh::Patches(patches) => respond_patches(method, fold, patches, tolerance),
     }
 }
 
-fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(Response, Accuracy)> {
+fn respond_patches(
+    method: Method,
+    fold: &Fold,
+    patches: FacetGrid,
+    tolerance: f64,
+) -> Result<(Response, Accuracy)> {
     let facets = fold.facets();
     if !(patches.rows.is_multiple_of(facets.rows) && patches.cols.is_multiple_of(facets.cols)) {
         return Err(Error::usage(
@@ -84,63 +111,28 @@ fn respond_patches(fold: &Fold, patches: FacetGrid, tolerance: f64) -> Result<(R
             "give multiples of the facets, or auto",
         ));
     }
-    let kernel = form_factors(&fold.with_facets(patches)?);
-    let response = Response::solve(&FacetOperator::new(&kernel, facets), 0.1 * tolerance)?.0;
-    Ok((response, Accuracy { unknowns: patches.rows * patches.cols.div_ceil(2), facet_mean_error: None }))
-}
-
-/// Refines until the error, extrapolated from the last three solutions, is within the tolerance, or the next solution would
-/// take too many unknowns.
-fn respond_auto(fold: &Fold, tolerance: f64) -> Result<(Response, Accuracy)> {
-    if fold.is_flat() {
-        return respond_patches(fold, fold.facets(), tolerance);
+    let (kernel, entry_sd) = method.form_factors(&fold.with_facets(patches)?);
+    let operator = FacetOperator::new(&kernel, facets);
+    if method != Method::Exact {
+        check_convergence(method, &operator)?;
     }
-    // Half the tolerance is asked for, so that the first fine solution meets it more often than not.
-    let aims = std::iter::successors(Some(0.5 * tolerance * STEP * STEP), |aim| Some(aim / STEP));
-    let mut solutions = aims
-        .map(|aim| (aim, Resolution::reaching(aim, fold)))
-        .take_while(|(_, r)| r.unknowns(fold) <= UNKNOWNS_MAX);
-    let mut solve = || -> Result<Option<(Response, usize)>> {
-        let Some((aim, resolution)) = solutions.next() else { return Ok(None) };
-        let (response, _) = Response::solve(&Continuum::new(fold, &resolution), residual(fold, aim))?;
-        Ok(Some((response, resolution.unknowns(fold))))
-    };
-    let (Some((coarse, _)), Some((mut response, mut unknowns))) = (solve()?, solve()?) else {
-        return Err(Error::usage(
-            "--tolerance",
-            format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
-            "give a larger tolerance or --mesh facets",
-        ));
-    };
-    let mut before = difference(&coarse, &response);
-    let mut error = before;
-    while error > tolerance
-        && let Some(finer) = solve()?
-    {
-        let last = difference(&response, &finer.0);
-        // A difference is the error of the coarser solution. The finer one gains as much again as the one before did, but
-        // is not believed to gain more than it was asked to.
-        error = last * (last / before).clamp(1.0 / STEP, 1.0);
-        before = last;
-        (response, unknowns) = finer;
+    let (response, _) = Response::solve(&operator, 0.1 * tolerance)?;
+    let kernel = Some(KernelSource { method, entry_sd });
+    Ok((response, Accuracy { unknowns: patches.len(), facet_mean_error: None, kernel }))
+}
+
+/// Refuses a kernel with which white sheets would shine.
+fn check_convergence(method: Method, operator: &FacetOperator) -> Result<()> {
+    let radius = spectral_radius(operator);
+    if radius < 1.0 {
+        return Ok(());
     }
-    Ok((response, Accuracy { unknowns, facet_mean_error: Some(error) }))
-}
-
-/// The residual that leaves a tenth of `aim`: bounces enlarge it by at most about `1/sin(θ/2)`, the least share of light that
-/// a bounce loses.
-fn residual(fold: &Fold, aim: f64) -> f64 {
-    0.1 * aim * (0.5 * fold.angle_rad()).sin()
-}
-
-/// Largest relative difference of the facets' irradiances between two responses, over [`PROBES`].
-fn difference(a: &Response, b: &Response) -> f64 {
-    let even = ModeLight::Sun([1.0, 1.0]);
-    let relative = |panel: usize, facet: usize, r: f64| {
-        let [a, b] = [a, b].map(|response| response.irradiance(panel, facet, even, [r; 2]));
-        (a / b - 1.0).abs()
-    };
-    let panels = 0..if matches!(a.modes(), Modes::Shared(_)) { 1 } else { 2 };
-    let facets = panels.flat_map(|panel| (0..a.facets()).map(move |facet| (panel, facet)));
-    facets.flat_map(|(panel, facet)| PROBES.map(|r| relative(panel, facet, r))).fold(0.0, f64::max)
+    Err(Error::usage(
+        "--method",
+        format!(
+            "the {method} kernel has spectral radius {radius:.2}: bounces diverge at reflectances from {:.2}",
+            1.0 / radius
+        ),
+        "give --method exact, or --save kernel=FILE.npy --check to study it",
+    ))
 }

@@ -1,14 +1,15 @@
 //! The scene record: geometry, light, response, and the camera and illuminant that look at it.
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::fields::{Fields, finite};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
-use crate::kernel::mesh::{Accuracy, Mesh, respond};
+use crate::kernel::Method;
+use crate::kernel::mesh::{Accuracy, KernelSource, Mesh, respond};
 use crate::response::{ModeSet, Modes, Response};
 use crate::spectrum::WavelengthGrid;
 
@@ -262,15 +263,16 @@ impl Scene {
     /// # Errors
     /// As [`Fields::set`].
     pub fn set_accuracy(&mut self, mesh: &str, tolerance: f64, accuracy: &Accuracy) -> Result<()> {
-        self.fields.set(
-            "accuracy",
-            json!({
-                "mesh": mesh,
-                "tolerance": tolerance,
-                "unknowns": accuracy.unknowns,
-                "facet_mean_error": accuracy.facet_mean_error,
-            }),
-        )
+        let mut record = json!({
+            "mesh": mesh,
+            "tolerance": tolerance,
+            "unknowns": accuracy.unknowns,
+            "facet_mean_error": accuracy.facet_mean_error,
+        });
+        if let Some(source) = &accuracy.kernel {
+            record["kernel"] = kernel_record(source);
+        }
+        self.fields.set("accuracy", record)
     }
 
     /// The wavelengths of the scene.
@@ -381,6 +383,19 @@ impl Scene {
         };
         Ok(Lighting { light, sun, sky })
     }
+}
+
+/// The method that found the form factors, with what it was asked for and reached.
+fn kernel_record(source: &KernelSource) -> Value {
+    let method = source.method.to_string();
+    let Method::MonteCarlo(estimate) = source.method else { return json!({ "method": method }) };
+    json!({
+        "method": method,
+        "sampling": estimate.sampling().to_string(),
+        "samples": estimate.samples(),
+        "seed": estimate.seed(),
+        "entry_sd": source.entry_sd,
+    })
 }
 
 /// Checks that powers or sensitivities are possible ones.

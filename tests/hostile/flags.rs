@@ -16,6 +16,9 @@ fn geometry() {
             case("vkernel --panel 1", 2, &["--panel", "10x10"]),
             case("vkernel --panel 1x1001", 2, &["--panel", "1000"]),
             case("vkernel --panel infxinf", 2, &["--panel"]),
+            case("vkernel --panel1-depth 0", 2, &["--panel1-depth", "positive"]),
+            case("vkernel --panel1-depth NaN", 2, &["--panel1-depth", "NaN"]),
+            case("vkernel --panel1-depth 1001", 2, &["--panel1-depth", "1000"]),
             case("vkernel --facets 0x10", 2, &["--facets", "at least 1x1"]),
             case("vkernel --facets 1000000x1000000", 2, &["--facets", "4.000e9 GB"]),
             case("vkernel --facets 99999999999999999x3", 2, &["--facets", "GB"]),
@@ -38,6 +41,31 @@ fn geometry() {
             case("vkernel -j 0", 2, &["--threads", "1024"]),
             case("vkernel -j 1000000", 2, &["--threads", "1024"]),
             case("vkernel surplus", 2, &["surplus"]),
+        ],
+    );
+}
+
+#[test]
+fn kernel_methods() {
+    assert_refused(
+        "",
+        &[
+            case("vkernel --method guess", 2, &["--method", "monte-carlo"]),
+            case("vkernel --method monte-carlo --samples 0", 2, &["--samples", "give 2"]),
+            case("vkernel --method monte-carlo --samples 1", 2, &["--samples", "standard error"]),
+            case("vkernel --method monte-carlo --samples=-5", 2, &["--samples"]),
+            case("vkernel --method monte-carlo --samples 1e4", 2, &["--samples"]),
+            case("vkernel --method monte-carlo --seed=-1", 2, &["--seed"]),
+            case("vkernel --method monte-carlo --sampling volume", 2, &["--sampling", "cosine"]),
+            case("vkernel --method monte-carlo --mesh auto", 2, &["--mesh", "facets", "--method exact"]),
+            case("vkernel --samples 100", 2, &["--samples", "--method monte-carlo"]),
+            case("vkernel --method midpoint --seed 1", 2, &["--seed", "--method monte-carlo"]),
+            case("vkernel --method midpoint", 2, &["radius 1.93", "0.52", "--method exact", "--check"]),
+            case("vkernel --method midpoint --check --save kernel=no/K.npy", 1, &["no/K.npy"]),
+            case("vkernel --method midpoint --check", 1, &["largest row sum", "spectral radius"]),
+            case("vkernel --check --save nothing=x.npy", 1, &["x.npy", "no record has the field"]),
+            case("vkernel --check --facets 0x1", 2, &["--facets", "at least 1x1"]),
+            case("vkernel --check --tolerance 0", 2, &["--tolerance", "1e-12"]),
         ],
     );
 }

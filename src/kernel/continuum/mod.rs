@@ -29,16 +29,21 @@ use crate::geometry::{FacetGrid, Fold};
 /// Distances below this share of the nearest strips' count as one: nothing changes there any more.
 const NEAREST: f64 = 0.05;
 
-/// The most that the far end of a strip moves away from one to the next, as a ratio.
+/// How much further away the end of a strip is from one to the next, as a ratio.
 const GROWTH: f64 = 6.0;
+
+/// Width of the first of so many strips that reach 0.5.
+fn first_strip(strips: usize) -> f64 {
+    0.5 * GROWTH.powf(1.0 - strips as f64)
+}
 
 /// How finely the radiosity of a panel is resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
-    /// Width of the strip next to the crease, relative to the lesser side of the panel.
-    pub crease_strip: f64,
-    /// Width of the strip at each end of the crease, relative to the lesser side of the panel.
-    pub end_strip: f64,
+    /// Strips from the crease to the middle of a square panel.
+    pub crease_strips: usize,
+    /// Strips from the end of the crease to its middle, on a square panel opened by a radian.
+    pub end_strips: usize,
     /// Polynomials on a strip across and along the crease.
     pub orders: [usize; 2],
     /// Nodes an e-fold of the distance.
@@ -64,7 +69,7 @@ impl Layout {
             let (own, other) = (depths[panel], depths[1 - panel]);
             // At the outer edge light varies over as much as the other panel is away.
             let edge = |depth: f64| narrow * depth;
-            let first = resolution.crease_strip * own.min(other).min(width);
+            let first = first_strip(resolution.crease_strips) * own.min(other).min(width);
             let mut edges = graded(0.0, own.min(other), first, edge(own.min(other)), GROWTH);
             if other < own {
                 // The other panel's edge is seen from beyond it as sharply as from below.
@@ -72,7 +77,7 @@ impl Layout {
             }
             Strips::new(&edges, resolution.orders[0])
         };
-        let end = resolution.end_strip * narrow * width.min(depths[0]).min(depths[1]);
+        let end = first_strip(resolution.end_strips) * narrow * width.min(depths[0]).min(depths[1]);
         let along = graded(0.0, 0.5 * width, end, width, GROWTH);
         let along = Strips::new(&along, resolution.orders[1]);
         Self { width, depths, across: [across(0), across(1)], along }
@@ -97,15 +102,14 @@ impl Resolution {
     pub fn reaching(aim: f64, fold: &Fold) -> Self {
         // Light bounces longer in narrow folds, and errors with it.
         let aim = aim * fold.angle_rad().min(FRAC_PI_4).sqrt();
-        // Two polynomials more on strips and one strip more at each end leave a twentieth of the error.
+        // What a twentieth of the error takes.
         let levels = (1e-5 / aim).ln() / 20_f64.ln();
-        let order = |at_1e5: f64| (at_1e5 + 2.0 * levels).ceil().max(2.0) as usize;
-        let narrower = |at_1e5: f64, most: f64| (at_1e5 * GROWTH.powf(-levels)).min(most);
+        let count = |at_1e5: f64, a_level: f64| (at_1e5 + a_level * levels).ceil().max(2.0) as usize;
         Self {
-            crease_strip: narrower(5e-3, 0.2),
-            end_strip: narrower(2e-2, 0.25),
-            orders: [order(7.5), order(6.5)],
-            nodes: (10.0 + 1.6 * levels).ceil().max(4.0) as usize,
+            crease_strips: count(3.0, 1.0),
+            end_strips: count(1.8, 0.7),
+            orders: [count(8.2, 2.4), count(6.5, 2.0)],
+            nodes: count(10.0, 1.6).max(4),
         }
     }
 

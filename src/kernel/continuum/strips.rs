@@ -73,7 +73,8 @@ pub(super) fn graded(low: f64, high: f64, first: f64, last: f64, growth: f64) ->
     };
     let from = |end: f64, towards: f64, narrowest: f64| {
         let length = (towards - end).abs();
-        let steps = ((length / narrowest).ln() / growth.ln()).ceil().max(0.0);
+        // Whole numbers of steps are not to be missed by rounding.
+        let steps = ((length / narrowest).ln() / growth.ln() - 1e-9).ceil().max(0.0);
         let ratio = if steps > 0.0 { (length / narrowest).powf(steps.recip()) } else { 1.0 };
         (0..=steps as usize).map(move |k| end + (towards - end) * ratio.powf(k as f64 - steps))
     };

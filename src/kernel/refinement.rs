@@ -1,0 +1,97 @@
+//! Undivided panels, resolved ever finer until the facet means are right.
+
+use crate::error::{Error, Result};
+use crate::geometry::Fold;
+use crate::kernel::continuum::{Continuum, Resolution};
+use crate::response::{ModeLight, Modes, Response};
+
+/// Most unknowns of one solution: its matrix then takes 800 MB.
+const UNKNOWNS_MAX: usize = 10_000;
+/// Most multiplications of one solution, a quarter of a minute: a 1° fold takes hundreds of products with its matrix.
+const PRODUCTS_MAX: f64 = 1.5e10;
+/// Error that is aimed at, relative to the tolerance: half, so that the solution meets it more often than not.
+const AIM: f64 = 0.5;
+/// How much the error is asked to fall from one solution to the next.
+const STEP: f64 = 20.0;
+/// The largest error to begin with: coarser solutions do not tell what finer ones gain.
+const COARSEST: f64 = 0.05;
+/// Reflectances at which two solutions are compared; the last is the hardest.
+const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
+
+/// A solution with the error it is believed to have.
+pub struct Refined {
+    /// Poles and residues.
+    pub response: Response,
+    /// Unknowns of a panel.
+    pub unknowns: usize,
+    /// Estimated largest relative error of a facet mean, for any reflectance in [0, 1].
+    pub error: f64,
+}
+
+struct Solution {
+    aim: f64,
+    response: Response,
+    unknowns: usize,
+    residual: f64,
+}
+
+/// Solves the bounces on `fold` finer and finer until the error, extrapolated from the last three solutions, is within `tolerance`.
+/// It stays above where the next solution would take too long.
+///
+/// # Errors
+/// [`Error::Usage`] if not even the first solutions fit.
+pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
+    let start = COARSEST.min(AIM * tolerance * STEP * STEP);
+    let (Some(mut coarse), Some(mut fine)) = (solve(fold, start, 1)?, solve(fold, start / STEP, 1)?) else {
+        return Err(Error::usage(
+            "--tolerance",
+            format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
+            "give a larger tolerance or --mesh facets",
+        ));
+    };
+    // A difference of two solutions is the error of the coarser one.
+    let mut before = difference(&coarse.response, &fine.response);
+    let mut error = before;
+    let mut aim = (AIM * tolerance).min(fine.aim / STEP);
+    while error > tolerance
+        && let Some(finest) = solve(fold, aim, fine.response.poles().len())?
+    {
+        let last = difference(&fine.response, &finest.response);
+        // The finest gains on its forerunner as that one gained on its own, but no more than it was asked to.
+        let rate = ((before / last).ln() / (coarse.aim / fine.aim).ln()).clamp(0.0, 1.0);
+        error = last * (finest.aim / fine.aim).powf(rate);
+        (before, coarse, fine) = (last, fine, finest);
+        aim = fine.aim * (AIM * tolerance / error).clamp(1.0 / STEP, AIM);
+    }
+    // Lanczos' solution is short of light, so that no more than all of it can be missing.
+    let error = error.max((fine.residual / loss(fold)).min(1.0));
+    Ok(Refined { response: fine.response, unknowns: fine.unknowns, error })
+}
+
+/// The solution that aims at this error; none if it would take too long, `poles` being those of the one before.
+fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
+    let resolution = Resolution::reaching(aim, fold);
+    let unknowns = resolution.unknowns(fold);
+    if unknowns > UNKNOWNS_MAX || (unknowns as f64).powi(2) * poles as f64 > PRODUCTS_MAX {
+        return Ok(None);
+    }
+    let (response, residual) = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim * loss(fold))?;
+    Ok(Some(Solution { aim, response, unknowns, residual }))
+}
+
+/// About the least share of light that a bounce loses: a residual grows by at most its inverse.
+fn loss(fold: &Fold) -> f64 {
+    (0.5 * fold.angle_rad()).sin()
+}
+
+/// Largest relative difference of the facets' irradiances between two responses, over [`PROBES`].
+fn difference(a: &Response, b: &Response) -> f64 {
+    let even = ModeLight::Sun([1.0, 1.0]);
+    let relative = |panel: usize, facet: usize, r: f64| {
+        let [a, b] = [a, b].map(|response| response.irradiance(panel, facet, even, [r; 2]));
+        (a / b - 1.0).abs()
+    };
+    let panels = 0..if matches!(a.modes(), Modes::Shared(_)) { 1 } else { 2 };
+    let facets = panels.flat_map(|panel| (0..a.facets()).map(move |facet| (panel, facet)));
+    facets.flat_map(|(panel, facet)| PROBES.map(|r| relative(panel, facet, r))).fold(0.0, f64::max)
+}
