@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
+use vfold::estimate::classes;
 use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map, smooth};
@@ -14,6 +15,8 @@ use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Output, Reader, Record, ReferencePanel, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
 
+/// The prior whose classes are known.
+const MUNSELL: &str = "munsell";
 /// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
 const NOISE_FLOOR: f64 = 1e-6;
 /// What a real fold does that the model does not, relative to the facet's value.
@@ -38,7 +41,7 @@ struct Args {
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
     /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none
-    #[arg(long, value_name = "SPEC|smooth|none", default_value = "munsell")]
+    #[arg(long, value_name = "SPEC|smooth|none", default_value = MUNSELL)]
     prior: String,
     /// Weight of the squared second differences of the spectrum, for --prior smooth [default: 1e-5]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
@@ -80,7 +83,8 @@ enum NoiseSd {
 
 /// How spectra are estimated, from `--prior`.
 enum Method {
-    Map(Vec<Spectrum>),
+    /// Spectra of the prior, and their classes where they are known.
+    Map(Vec<Spectrum>, Option<Vec<usize>>),
     Smooth(f64),
 }
 
@@ -156,7 +160,10 @@ fn method(args: &Args) -> Result<Method> {
     Ok(match args.prior.as_str() {
         "smooth" => Method::Smooth(smoothness),
         "none" => Method::Smooth(0.0),
-        spec => Method::Map(spectrum::reflectances(spec)?),
+        spec => {
+            let classes = (spec == MUNSELL).then(classes::of_munsell);
+            Method::Map(spectrum::reflectances(spec)?, classes)
+        }
     })
 }
 
@@ -171,10 +178,10 @@ impl Transform for Estimator<'_> {
             scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
         }
         let method = match &self.method {
-            Method::Map(spectra) => {
+            Method::Map(spectra, classes) => {
                 let on_grid: Vec<_> =
                     spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
-                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid)?)
+                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
             }
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
         };

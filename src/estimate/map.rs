@@ -1,18 +1,28 @@
 //! The default: the most probable spectrum, given the facets and what is known of reflectances.
 //!
-//! `z = logit r` is Gaussian before the picture is taken; the facets are Gaussian about the model. Newton's method finds the
-//! maximum of the product in whitened z, and the curvature there gives error bars (Laplace's approximation).
+//! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
+//! Which classes the facets may belong to is told from all spectra as one Gaussian and the model linearised where that
+//! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
+//! gives error bars (Laplace's approximation).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::Estimate;
 use super::data::FacetData;
-use super::prior::{Prior, logistic};
-use crate::solve::posterior::{Linearised, Model, Solution, maximise};
+use super::gaussian::{Gaussian, logistic};
+use super::prior::{Class, Prior};
+use crate::solve::posterior::{Linearised, Model, Solution, first_inflation, maximise};
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
 const ITERATION_LIMIT: u32 = 500;
+/// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger; this near to
+/// the maximum under all spectra.
+const SORTING_NOISE: f64 = 1e-3;
+const SORTING_TOLERANCE: f64 = 0.3;
+/// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
+const CLASSES_TRIED: usize = 2;
+const LN_EVIDENCE_LEAST: f64 = -2.0;
 
 /// The most probable reflectance.
 ///
@@ -20,36 +30,103 @@ const ITERATION_LIMIT: u32 = 500;
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
 pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
-    let facets = Facets { data, prior };
-    let solution = maximise(&facets, TOLERANCE, ITERATION_LIMIT);
-    let reflectance = facets.reflectance(&solution.w);
-    let at = data.residuals(&reflectance);
-    Estimate {
-        reflectance_sd: facets.standard_deviation(&reflectance, &solution),
-        exposure: at.exposure,
-        residual_rms: data.rms(&at.residuals),
-        iterations: solution.iterations,
-        termination: solution.termination,
-        reflectance,
-    }
+    let inflation = (SORTING_NOISE * data.peak()).max(1.0);
+    let all = Facets { data, gaussian: prior.broad() };
+    let start = DVector::zeros(all.unknowns());
+    let first = first_inflation(&all, &start, inflation);
+    let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
+    let mut iterations = sorted.iterations;
+    let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
+    let found = starts.into_iter().map(|start| {
+        let facets = Facets { data, gaussian: &start.class.gaussian };
+        let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
+        iterations += solution.iterations;
+        let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
+        (evidence, facets, solution)
+    });
+    let best = found.max_by(|a, b| a.0.total_cmp(&b.0));
+    let (facets, solution) = best.map_or((all, sorted), |(_, facets, solution)| (facets, solution));
+    facets.estimate(&solution, iterations)
+}
+
+/// A class that the facets may belong to, and where to set out under it.
+struct Start<'a> {
+    class: &'a Class,
+    w: DVector<f64>,
+    ln_evidence: f64,
+}
+
+/// The classes of most evidence, the model taken to be linear and the noise inflated.
+fn likely<'a>(prior: &'a Prior, about: &ByLogit, inflation: f64) -> Vec<Start<'a>> {
+    let mut starts: Vec<Start> =
+        prior.classes().iter().filter_map(|class| linear(class, about, inflation)).collect();
+    starts.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+    starts.truncate(CLASSES_TRIED);
+    let least = starts.first().map_or(0.0, |best| best.ln_evidence + LN_EVIDENCE_LEAST);
+    starts.retain(|start| start.ln_evidence >= least);
+    starts
+}
+
+/// Mean of the linear posterior under a class, and its evidence; none if the numbers are not finite.
+fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<Start<'a>> {
+    let weight = inflation.powi(-2);
+    let gaussian = &class.gaussian;
+    let jacobian = &about.jacobian * gaussian.basis();
+    let residuals = &about.residuals + &about.jacobian * (&about.logit - gaussian.mean());
+    let mut information = weight * (jacobian.transpose() * &jacobian);
+    (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
+    let factor = Cholesky::new(information)?;
+    let w = factor.solve(&(weight * jacobian.tr_mul(&residuals)));
+    let cost = weight * (residuals - jacobian * &w).norm_squared() + w.norm_squared();
+    Some(Start { class, w, ln_evidence: class.ln_share - 0.5 * (cost + factor.ln_determinant()) })
 }
 
 /// The facets as a model of the whitened logit of reflectance.
 struct Facets<'a> {
     data: &'a FacetData<'a>,
-    prior: &'a Prior,
+    gaussian: &'a Gaussian,
+}
+
+/// Residuals and the derivatives of the model by logit about a spectrum.
+struct ByLogit {
+    logit: DVector<f64>,
+    residuals: DVector<f64>,
+    jacobian: DMatrix<f64>,
 }
 
 impl Facets<'_> {
     fn reflectance(&self, w: &DVector<f64>) -> Vec<f64> {
-        self.prior.logit_at(w).iter().map(|z| logistic(*z)).collect()
+        self.gaussian.logit_at(w).iter().map(|z| logistic(*z)).collect()
+    }
+
+    fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
+        let logit = self.gaussian.logit_at(w);
+        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
+        let mut at = self.data.linearise(&reflectance);
+        for (mut column, r) in at.jacobian.column_iter_mut().zip(&reflectance) {
+            column *= r * (1.0 - r);
+        }
+        ByLogit { logit, residuals: at.residuals, jacobian: at.jacobian }
+    }
+
+    fn estimate(&self, solution: &Solution, iterations: u32) -> Estimate {
+        let reflectance = self.reflectance(&solution.w);
+        let at = self.data.residuals(&reflectance);
+        Estimate {
+            reflectance_sd: self.standard_deviation(&reflectance, solution),
+            exposure: at.exposure,
+            residual_rms: self.data.rms(&at.residuals),
+            iterations,
+            termination: solution.termination,
+            reflectance,
+        }
     }
 
     /// Square roots of the diagonal of Laplace's covariance, carried from logit to reflectance.
     fn standard_deviation(&self, reflectance: &[f64], solution: &Solution) -> Option<Vec<f64>> {
         // The covariance of the logits is B(I + JᵀJ)⁻¹Bᵀ, B the prior's basis.
         let spread =
-            solution.information.as_ref()?.l().solve_lower_triangular(&self.prior.basis().transpose())?;
+            solution.information()?.l().solve_lower_triangular(&self.gaussian.basis().transpose())?;
         let sd = |(band, r): (usize, &f64)| r * (1.0 - r) * spread.column(band).norm();
         Some(reflectance.iter().enumerate().map(sd).collect())
     }
@@ -57,7 +134,7 @@ impl Facets<'_> {
 
 impl Model for Facets<'_> {
     fn unknowns(&self) -> usize {
-        self.prior.basis().ncols()
+        self.gaussian.basis().ncols()
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
@@ -65,25 +142,22 @@ impl Model for Facets<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised {
-        let reflectance = self.reflectance(w);
-        let mut at = self.data.linearise(&reflectance);
-        for (mut column, r) in at.jacobian.column_iter_mut().zip(&reflectance) {
-            column *= r * (1.0 - r);
-        }
-        Linearised { residuals: at.residuals, jacobian: at.jacobian * self.prior.basis() }
+        let at = self.by_logit(w);
+        Linearised { residuals: at.residuals, jacobian: at.jacobian * self.gaussian.basis() }
     }
 
-    fn curvature(&self, w: &DVector<f64>) -> DMatrix<f64> {
+    fn curvature(&self, w: &DVector<f64>, multipliers: &DVector<f64>) -> DMatrix<f64> {
         let reflectance = self.reflectance(w);
-        let [slopes, curvatures] = self.data.curvature(&reflectance);
+        let [slopes, curvatures] = self.data.curvature(&reflectance, multipliers);
         // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
         let by_logit =
             reflectance.iter().zip(slopes.iter().zip(&curvatures)).map(|(r, (slope, curvature))| {
                 let change = r * (1.0 - r);
                 change * (change * curvature + (1.0 - 2.0 * r) * slope)
             });
-        let mut weighted = self.prior.basis().clone();
+        let basis = self.gaussian.basis();
+        let mut weighted = basis.clone();
         weighted.row_iter_mut().zip(by_logit).for_each(|(mut row, weight)| row *= weight);
-        self.prior.basis().tr_mul(&weighted)
+        basis.transpose() * weighted
     }
 }

@@ -1,6 +1,8 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
 
+pub mod classes;
 pub mod data;
+pub mod gaussian;
 pub mod map;
 pub mod prior;
 pub mod smooth;
