@@ -58,6 +58,15 @@ pub struct LinearisedFacets {
     pub residuals: DVector<f64>,
     /// Derivatives of the model.
     pub jacobian: DMatrix<f64>,
+    /// For [`FacetData::curvature`].
+    pub second: SecondDerivatives,
+}
+
+/// What second derivatives at a reflectance are made of: exposure, and derivatives of the terms.
+pub struct SecondDerivatives {
+    exposure: f64,
+    slopes: DMatrix<f64>,
+    curvatures: DMatrix<f64>,
 }
 
 impl<'a> FacetData<'a> {
@@ -125,7 +134,7 @@ impl<'a> FacetData<'a> {
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
-        let [terms, slopes] = self.model.terms_of(reflectance);
+        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
         let (residuals, exposure, values) = self.compare(&terms);
         let mut jacobian = exposure * self.columns_of(&slopes);
         match self.exposure {
@@ -140,15 +149,14 @@ impl<'a> FacetData<'a> {
                 jacobian.ger(-exposure, &values, &shares, 1.0);
             }
         }
-        LinearisedFacets { residuals, jacobian }
+        let second = SecondDerivatives { exposure, slopes, curvatures };
+        LinearisedFacets { residuals, jacobian, second }
     }
 
-    /// `Σ λᵢ ∂mᵢ/∂r` and `Σ λᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of this reflectance.
+    /// `Σ λᵢ ∂mᵢ/∂r` and `Σ λᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of that reflectance.
     #[must_use]
-    pub fn curvature(&self, reflectance: &[f64], multipliers: &DVector<f64>) -> [DVector<f64>; 2] {
-        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
-        let (_, exposure, _) = self.compare(&terms);
-        [slopes, curvatures].map(|of_terms| exposure * self.along(multipliers, &of_terms))
+    pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> [DVector<f64>; 2] {
+        [&at.slopes, &at.curvatures].map(|of_terms| at.exposure * self.along(multipliers, of_terms))
     }
 
     /// The largest datum in units of its noise.

@@ -8,7 +8,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::Estimate;
-use super::data::FacetData;
+use super::data::{FacetData, LinearisedFacets, SecondDerivatives};
 use super::gaussian::{Gaussian, logistic};
 use super::prior::{Class, Prior};
 use crate::solve::posterior::{Linearised, Model, Solution, first_inflation, maximise};
@@ -92,6 +92,13 @@ struct ByLogit {
     logit: DVector<f64>,
     residuals: DVector<f64>,
     jacobian: DMatrix<f64>,
+    second: Second,
+}
+
+/// What second derivatives by logit are made of.
+struct Second {
+    reflectance: Vec<f64>,
+    by_reflectance: SecondDerivatives,
 }
 
 impl Facets<'_> {
@@ -102,14 +109,14 @@ impl Facets<'_> {
     fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
         let logit = self.gaussian.logit_at(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let mut at = self.data.linearise(&reflectance);
-        for (mut column, r) in at.jacobian.column_iter_mut().zip(&reflectance) {
+        let LinearisedFacets { residuals, mut jacobian, second } = self.data.linearise(&reflectance);
+        for (mut column, r) in jacobian.column_iter_mut().zip(&reflectance) {
             column *= r * (1.0 - r);
         }
-        ByLogit { logit, residuals: at.residuals, jacobian: at.jacobian }
+        ByLogit { logit, residuals, jacobian, second: Second { reflectance, by_reflectance: second } }
     }
 
-    fn estimate(&self, solution: &Solution, iterations: u32) -> Estimate {
+    fn estimate(&self, solution: &Solution<Second>, iterations: u32) -> Estimate {
         let reflectance = self.reflectance(&solution.w);
         let at = self.data.residuals(&reflectance);
         Estimate {
@@ -123,7 +130,7 @@ impl Facets<'_> {
     }
 
     /// Square roots of the diagonal of Laplace's covariance, carried from logit to reflectance.
-    fn standard_deviation(&self, reflectance: &[f64], solution: &Solution) -> Option<Vec<f64>> {
+    fn standard_deviation(&self, reflectance: &[f64], solution: &Solution<Second>) -> Option<Vec<f64>> {
         // The covariance of the logits is B(I + JᵀJ)⁻¹Bᵀ, B the prior's basis.
         let spread =
             solution.information()?.l().solve_lower_triangular(&self.gaussian.basis().transpose())?;
@@ -133,6 +140,8 @@ impl Facets<'_> {
 }
 
 impl Model for Facets<'_> {
+    type Second = Second;
+
     fn unknowns(&self) -> usize {
         self.gaussian.basis().ncols()
     }
@@ -141,17 +150,16 @@ impl Model for Facets<'_> {
         self.data.residuals(&self.reflectance(w)).residuals
     }
 
-    fn linearise(&self, w: &DVector<f64>) -> Linearised {
-        let at = self.by_logit(w);
-        Linearised { residuals: at.residuals, jacobian: at.jacobian * self.gaussian.basis() }
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
+        let ByLogit { residuals, jacobian, second, .. } = self.by_logit(w);
+        Linearised { residuals, jacobian: jacobian * self.gaussian.basis(), second }
     }
 
-    fn curvature(&self, w: &DVector<f64>, multipliers: &DVector<f64>) -> DMatrix<f64> {
-        let reflectance = self.reflectance(w);
-        let [slopes, curvatures] = self.data.curvature(&reflectance, multipliers);
+    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> DMatrix<f64> {
+        let [slopes, curvatures] = self.data.curvature(&at.by_reflectance, multipliers);
         // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
         let by_logit =
-            reflectance.iter().zip(slopes.iter().zip(&curvatures)).map(|(r, (slope, curvature))| {
+            at.reflectance.iter().zip(slopes.iter().zip(&curvatures)).map(|(r, (slope, curvature))| {
                 let change = r * (1.0 - r);
                 change * (change * curvature + (1.0 - 2.0 * r) * slope)
             });

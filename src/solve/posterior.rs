@@ -33,37 +33,41 @@ const DAMPING_LEAST: f64 = 1e-3;
 
 /// A model seen through data of known noise.
 pub trait Model {
+    /// What second derivatives at a point are made of.
+    type Second;
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
     /// Data minus model at `w`, in units of the noise.
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
-    /// Residuals with first derivatives.
-    fn linearise(&self, w: &DVector<f64>) -> Linearised;
-    /// `Σ λᵢ∇²mᵢ` at `w`, a multiplier λ a residual.
-    fn curvature(&self, w: &DVector<f64>, multipliers: &DVector<f64>) -> DMatrix<f64>;
+    /// Residuals with derivatives.
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
+    /// `Σ λᵢ∇²mᵢ` at a point, a multiplier λ a residual.
+    fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> DMatrix<f64>;
 }
 
 /// A model about a point.
-pub struct Linearised {
+pub struct Linearised<S> {
     /// Residuals.
     pub residuals: DVector<f64>,
     /// Derivatives of the model: residual by unknown.
     pub jacobian: DMatrix<f64>,
+    /// For [`Model::curvature`].
+    pub second: S,
 }
 
 /// Where the iteration ended.
-pub struct Solution {
+pub struct Solution<S> {
     /// The unknowns.
     pub w: DVector<f64>,
     /// The model there.
-    pub at: Linearised,
+    pub at: Linearised<S>,
     /// Iterations over all stages.
     pub iterations: u32,
     /// Why it stopped.
     pub termination: Termination,
 }
 
-impl Solution {
+impl<S> Solution<S> {
     /// Factor of `I + JᵀJ`: the inverse of Laplace's covariance. None if the model was not finite.
     #[must_use]
     pub fn information(&self) -> Option<Cholesky<f64, Dyn>> {
@@ -92,13 +96,13 @@ pub fn first_inflation(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 
 /// within `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise(
-    model: &impl Model,
+pub fn maximise<M: Model>(
+    model: &M,
     start: DVector<f64>,
     inflation: (f64, f64),
     tolerance: f64,
     limit: u32,
-) -> Solution {
+) -> Solution<M::Second> {
     let (mut now, last) = inflation;
     let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, iterations: 0 };
     let mut steps = 0;
@@ -143,10 +147,10 @@ fn add_to_diagonal(matrix: &mut DMatrix<f64>, value: f64) {
     }
 }
 
-struct Search<'a, M> {
+struct Search<'a, M: Model> {
     model: &'a M,
     w: DVector<f64>,
-    at: Linearised,
+    at: Linearised<M::Second>,
     damping: f64,
     iterations: u32,
 }
@@ -177,7 +181,7 @@ impl<M: Model> Search<'_, M> {
     fn step(&mut self, newton: &GaussNewton) -> bool {
         self.iterations += 1;
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
-        let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.w, &multipliers);
+        let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.at.second, &multipliers);
         for _ in 0..TRIALS {
             if let Some(next) = self.trial(newton, hessian.clone()) {
                 self.at = self.model.linearise(&next);
@@ -232,6 +236,8 @@ mod tests {
     }
 
     impl Model for Exponential {
+        type Second = f64;
+
         fn unknowns(&self) -> usize {
             1
         }
@@ -240,13 +246,13 @@ mod tests {
             DVector::from_element(1, self.data - self.scale * w[0].exp())
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised {
-            let jacobian = DMatrix::from_element(1, 1, self.scale * w[0].exp());
-            Linearised { residuals: self.residuals(w), jacobian }
+        fn linearise(&self, w: &DVector<f64>) -> Linearised<f64> {
+            let second = self.scale * w[0].exp();
+            Linearised { residuals: self.residuals(w), jacobian: DMatrix::from_element(1, 1, second), second }
         }
 
-        fn curvature(&self, w: &DVector<f64>, multipliers: &DVector<f64>) -> DMatrix<f64> {
-            multipliers[0] * DMatrix::from_element(1, 1, self.scale * w[0].exp())
+        fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> DMatrix<f64> {
+            DMatrix::from_element(1, 1, multipliers[0] * at)
         }
     }
 
