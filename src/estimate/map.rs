@@ -21,8 +21,8 @@ const ITERATION_LIMIT: u32 = 500;
 const SORTING_NOISE: f64 = 1e-3;
 const SORTING_TOLERANCE: f64 = 0.3;
 /// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
-const CLASSES_TRIED: usize = 2;
-const LN_EVIDENCE_LEAST: f64 = -2.0;
+const CLASSES_TRIED: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -4.0;
 
 /// The most probable reflectance.
 ///
@@ -44,9 +44,28 @@ pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
         let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
         (evidence, facets, solution)
     });
-    let best = found.max_by(|a, b| a.0.total_cmp(&b.0));
-    let (facets, solution) = best.map_or((all, sorted), |(_, facets, solution)| (facets, solution));
-    facets.estimate(&solution, iterations)
+    let found: Vec<(f64, Estimate)> =
+        found.map(|(evidence, facets, solution)| (evidence, facets.estimate(&solution))).collect();
+    let estimate = most_evident(found).unwrap_or_else(|| all.estimate(&sorted));
+    Estimate { iterations, ..estimate }
+}
+
+/// The estimate of most evidence, its error bars widened by how far the others are from it.
+fn most_evident(mut found: Vec<(f64, Estimate)>) -> Option<Estimate> {
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let most = found.first()?.0;
+    let total: f64 = found.iter().map(|(evidence, _)| (evidence - most).exp()).sum();
+    let variance = |band: usize| {
+        let of = |(evidence, other): &(f64, Estimate)| {
+            let sd = other.reflectance_sd.as_ref()?[band];
+            let apart = other.reflectance[band] - found[0].1.reflectance[band];
+            Some((evidence - most).exp() / total * (sd * sd + apart * apart))
+        };
+        found.iter().map(of).sum::<Option<f64>>()
+    };
+    let reflectance_sd: Option<Vec<f64>> =
+        (0..found[0].1.reflectance.len()).map(|band| Some(variance(band)?.sqrt())).collect();
+    Some(Estimate { reflectance_sd, ..found.swap_remove(0).1 })
 }
 
 /// A class that the facets may belong to, and where to set out under it.
@@ -116,14 +135,14 @@ impl Facets<'_> {
         ByLogit { logit, residuals, jacobian, second: Second { reflectance, by_reflectance: second } }
     }
 
-    fn estimate(&self, solution: &Solution<Second>, iterations: u32) -> Estimate {
+    fn estimate(&self, solution: &Solution<Second>) -> Estimate {
         let reflectance = self.reflectance(&solution.w);
         let at = self.data.residuals(&reflectance);
         Estimate {
             reflectance_sd: self.standard_deviation(&reflectance, solution),
             exposure: at.exposure,
             residual_rms: self.data.rms(&at.residuals),
-            iterations,
+            iterations: solution.iterations,
             termination: solution.termination,
             reflectance,
         }

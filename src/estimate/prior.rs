@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 
 /// Correlation length and standard deviation, in logit, of what spectra do that the training set does not.
 const MATERN_LENGTH_NM: f64 = 60.0;
-const MATERN_SD: f64 = 0.2;
+const MATERN_SD: f64 = 0.25;
 
 /// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all classes together.
 #[derive(Clone, Debug)]
