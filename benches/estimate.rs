@@ -43,7 +43,7 @@ fn main() -> Result<()> {
                     let start = Instant::now();
                     let data = FacetData::new(model, &measured, exposure, 1e-2)?;
                     let compressed = start.elapsed();
-                    let estimate = black_box(map::estimate(&data, prior));
+                    let estimate = black_box(map::estimate(&data, prior, None));
                     best = [best[0].min(compressed), best[1].min(start.elapsed())];
                     iterations.push(estimate.iterations);
                 }

@@ -7,6 +7,7 @@ use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::estimate::classes;
 use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map, smooth};
 use vfold::forward::FacetModel;
@@ -17,10 +18,10 @@ use vfold::{Error, Result};
 
 /// The prior whose classes are known.
 const MUNSELL: &str = "munsell";
-/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
-const NOISE_FLOOR: f64 = 1e-6;
+/// Least change that counts to the paper's estimator, white being 1.
+const SMOOTH_CUTOFF: f64 = 1e-8;
 /// What a real fold does that the model does not, relative to the facet's value.
-const MODEL_ERROR: f64 = 1e-3;
+const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 /// Residuals, in units of their expected size, beyond which the scene cannot be right.
@@ -46,10 +47,10 @@ struct Args {
     /// Weight of the squared second differences of the spectrum, for --prior smooth [default: 1e-5]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     smoothness: Option<f64>,
-    /// Standard deviation of every facet, or what the samples say
+    /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = noise_sd)]
     noise_sd: NoiseSd,
-    /// Error of the model, relative to a facet's value [default: 1e-3 for photographs, 0 for computed facets]
+    /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
     /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
@@ -58,9 +59,9 @@ struct Args {
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
-    /// Reflectance, the same at all wavelengths, from which --prior smooth and none set out
-    #[arg(long, value_name = "R", default_value_t = 0.5)]
-    start: f64,
+    /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
+    #[arg(long, value_name = "SPEC|X")]
+    start: Option<String>,
     /// Draw estimates, their error bands and true spectra
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
@@ -93,6 +94,7 @@ struct Context {
     grid: WavelengthGrid,
     model: FacetModel,
     method: SceneMethod,
+    start: Option<Vec<f64>>,
 }
 
 /// The method on the wavelengths of a scene.
@@ -147,13 +149,6 @@ fn method(args: &Args) -> Result<Method> {
     if !(smoothness >= 0.0 && smoothness.is_finite()) {
         return Err(Error::usage("--smoothness", format!("{smoothness} is not a weight"), "give 0 or more"));
     }
-    if !(args.start > 0.0 && args.start < 1.0) {
-        return Err(Error::usage(
-            "--start",
-            format!("{} is not inside (0, 1)", args.start),
-            "give a reflectance",
-        ));
-    }
     if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
@@ -188,7 +183,11 @@ impl Transform for Estimator<'_> {
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
         }
-        Ok(Context { grid, model: scene.model()?, method })
+        let start = match &self.args.start {
+            Some(spec) => Some(cli::one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?),
+            None => None,
+        };
+        Ok(Context { grid, model: scene.model()?, method, start })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
@@ -199,13 +198,16 @@ impl Transform for Estimator<'_> {
         };
         let estimate = match &context.method {
             SceneMethod::Map(prior) => {
-                let sd = self.deviations(&rgb, sample)?;
+                let sd = self.deviations(context, &rgb, sample)?;
                 let measured = Measured { rgb: &rgb, sd: &sd };
-                map::estimate(&FacetData::new(&context.model, &measured, exposure, CUTOFF)?, prior)
+                let data = FacetData::new(&context.model, &measured, exposure, CUTOFF)?;
+                map::estimate(&data, prior, context.start.as_deref())
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, exposure, *smoothness)?,
         };
-        sample.set_estimate("interreflection", &self.args.prior, context.grid.wavelengths_nm(), &estimate)
+        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
+        let wavelengths_nm = context.grid.wavelengths_nm();
+        sample.set_estimate("interreflection", &self.args.prior, wavelengths_nm, &estimate, with_covariance)
     }
 }
 
@@ -221,43 +223,33 @@ impl Estimator<'_> {
         let sd: Colours =
             rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
         let measured = Measured { rgb, sd: &sd };
-        let data = FacetData::new(&context.model, &measured, exposure, NOISE_FLOOR * CUTOFF)?;
-        smooth::estimate(&data, context.grid.len(), smoothness, self.args.start)
+        let data = FacetData::new(&context.model, &measured, exposure, SMOOTH_CUTOFF)?;
+        let middle = vec![0.5; context.grid.len()];
+        smooth::estimate(&data, smoothness, context.start.as_ref().unwrap_or(&middle))
     }
 
     /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, rgb: &Colours, sample: &Sample) -> Result<Colours> {
-        let said = sample.facet_sd()?;
-        if let Some(said) = &said
-            && said.len() != rgb.len()
-        {
-            return Err(Error::field(
-                "facet_sd",
-                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
-            ));
-        }
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
         let model_error = match self.args.model_error {
             Some(error) => error,
             None if sample.is_photograph()? => MODEL_ERROR,
             None => 0.0,
         };
-        let floor = NOISE_FLOOR * rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
-        let deviation = |facet: usize, channel: usize, value: f64| {
-            let noise = match (self.args.noise_sd, &said) {
-                (NoiseSd::All(sd), _) => sd,
-                (NoiseSd::Auto, Some(said)) => {
-                    said.get(facet).and_then(|sd| sd.as_ref()?.get(channel)).copied().unwrap_or(0.0)
-                }
-                (NoiseSd::Auto, None) => 0.0,
-            };
-            noise.hypot(model_error * value).hypot(floor)
+        if let NoiseSd::All(sd) = self.args.noise_sd {
+            return Ok(deviations(rgb, |_, _| sd, model_error));
+        }
+        let Some(said) = sample.facet_sd()? else {
+            let noise = unexplained(&context.model, rgb);
+            return Ok(deviations(rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), model_error));
         };
-        let facet = |(facet, values): (usize, &Option<Vec<f64>>)| {
-            values.as_ref().map(|values| {
-                values.iter().enumerate().map(|(c, value)| deviation(facet, c, *value)).collect()
-            })
-        };
-        Ok(rgb.iter().enumerate().map(facet).collect())
+        if said.len() != rgb.len() {
+            return Err(Error::field(
+                "facet_sd",
+                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
+            ));
+        }
+        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
+        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
     }
 }
 

@@ -59,6 +59,17 @@ impl Gaussian {
         logit.gemv(1.0, &self.basis, w, 1.0);
         logit
     }
+
+    /// Whitened coordinates whose logits come nearest to those of `reflectance`, a waveband each.
+    #[must_use]
+    pub fn nearest(&self, reflectance: &[f64]) -> DVector<f64> {
+        let off =
+            DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r))) - &self.mean;
+        let mut normal = self.basis.transpose() * &self.basis;
+        (0..normal.nrows()).for_each(|i| normal[(i, i)] += LEFT_OUT);
+        let start = normal.cholesky().map(|factor| factor.solve(&self.basis.tr_mul(&off)));
+        start.unwrap_or_else(|| DVector::zeros(self.basis.ncols()))
+    }
 }
 
 /// Logit of a reflectance, kept off the ends of its range.

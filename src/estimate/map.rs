@@ -5,7 +5,7 @@
 //! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
 //! gives error bars (Laplace's approximation).
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
 use super::Estimate;
 use super::data::{FacetData, LinearisedFacets, SecondDerivatives};
@@ -24,15 +24,16 @@ const SORTING_TOLERANCE: f64 = 0.3;
 const CLASSES_TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -4.0;
 
-/// The most probable reflectance.
+/// The most probable reflectance. `start` is a reflectance to set out from instead of the prior's mean; at a maximum of more
+/// evidence than all others it makes no difference.
 ///
 /// # Source
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
-pub fn estimate(data: &FacetData, prior: &Prior) -> Estimate {
+pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estimate {
     let inflation = (SORTING_NOISE * data.peak()).max(1.0);
     let all = Facets { data, gaussian: prior.broad() };
-    let start = DVector::zeros(all.unknowns());
+    let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| prior.broad().nearest(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
     let mut iterations = sorted.iterations;
@@ -55,17 +56,21 @@ fn most_evident(mut found: Vec<(f64, Estimate)>) -> Option<Estimate> {
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     let most = found.first()?.0;
     let total: f64 = found.iter().map(|(evidence, _)| (evidence - most).exp()).sum();
-    let variance = |band: usize| {
-        let of = |(evidence, other): &(f64, Estimate)| {
-            let sd = other.reflectance_sd.as_ref()?[band];
-            let apart = other.reflectance[band] - found[0].1.reflectance[band];
-            Some((evidence - most).exp() / total * (sd * sd + apart * apart))
-        };
-        found.iter().map(of).sum::<Option<f64>>()
-    };
-    let reflectance_sd: Option<Vec<f64>> =
-        (0..found[0].1.reflectance.len()).map(|band| Some(variance(band)?.sqrt())).collect();
-    Some(Estimate { reflectance_sd, ..found.swap_remove(0).1 })
+    let rows = found.iter().map(|(evidence, other)| {
+        let share = ((evidence - most).exp() / total).sqrt();
+        let apart =
+            other.reflectance.iter().zip(&found[0].1.reflectance).map(|(other, best)| share * (other - best));
+        let apart = RowDVector::from_iterator(other.reflectance.len(), apart);
+        Some(
+            (share * other.spread.as_ref()?)
+                .row_iter()
+                .map(|row| row.into_owned())
+                .chain([apart])
+                .collect::<Vec<_>>(),
+        )
+    });
+    let spread = rows.collect::<Option<Vec<_>>>().map(|rows| DMatrix::from_rows(&rows.concat()));
+    Some(Estimate { spread, ..found.swap_remove(0).1 })
 }
 
 /// A class that the facets may belong to, and where to set out under it.
@@ -139,7 +144,7 @@ impl Facets<'_> {
         let reflectance = self.reflectance(&solution.w);
         let at = self.data.residuals(&reflectance);
         Estimate {
-            reflectance_sd: self.standard_deviation(&reflectance, solution),
+            spread: self.spread(&reflectance, solution),
             exposure: at.exposure,
             residual_rms: self.data.rms(&at.residuals),
             iterations: solution.iterations,
@@ -148,13 +153,13 @@ impl Facets<'_> {
         }
     }
 
-    /// Square roots of the diagonal of Laplace's covariance, carried from logit to reflectance.
-    fn standard_deviation(&self, reflectance: &[f64], solution: &Solution<Second>) -> Option<Vec<f64>> {
+    /// Laplace's covariance as a factor, carried from logit to reflectance.
+    fn spread(&self, reflectance: &[f64], solution: &Solution<Second>) -> Option<DMatrix<f64>> {
         // The covariance of the logits is B(I + JᵀJ)⁻¹Bᵀ, B the prior's basis.
-        let spread =
+        let mut spread =
             solution.information()?.l().solve_lower_triangular(&self.gaussian.basis().transpose())?;
-        let sd = |(band, r): (usize, &f64)| r * (1.0 - r) * spread.column(band).norm();
-        Some(reflectance.iter().enumerate().map(sd).collect())
+        spread.column_iter_mut().zip(reflectance).for_each(|(mut column, r)| column *= r * (1.0 - r));
+        Some(spread)
     }
 }
 
