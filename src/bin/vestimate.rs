@@ -26,8 +26,6 @@ const MODEL_ERROR: f64 = 3e-4;
 const CUTOFF: f64 = 1e-2;
 /// Residuals, in units of their expected size, beyond which the scene cannot be right.
 const MISFIT: f64 = 5.0;
-/// Weight of smoothness in the paper's objective, in units of white squared.
-const SMOOTHNESS: f64 = 1e-5;
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -44,9 +42,9 @@ struct Args {
     /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none
     #[arg(long, value_name = "SPEC|smooth|none", default_value = MUNSELL)]
     prior: String,
-    /// Weight of the squared second differences of the spectrum, for --prior smooth [default: 1e-5]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
-    smoothness: Option<f64>,
+    /// Weight of the squared second differences of the spectrum, for --prior smooth; auto: what the noise allows
+    #[arg(long, value_name = "X|auto", default_value = "1e-5", allow_negative_numbers = true, value_parser = smoothness)]
+    smoothness: Smoothness,
     /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = noise_sd)]
     noise_sd: NoiseSd,
@@ -82,11 +80,19 @@ enum NoiseSd {
     All(f64),
 }
 
+/// Weight of smoothness in the paper's objective.
+#[derive(Clone, Copy)]
+enum Smoothness {
+    Auto,
+    /// In units of white squared.
+    Weight(f64),
+}
+
 /// How spectra are estimated, from `--prior`.
 enum Method {
     /// Spectra of the prior, and their classes where they are known.
     Map(Vec<Spectrum>, Option<Vec<usize>>),
-    Smooth(f64),
+    Smooth(Smoothness),
 }
 
 /// What the samples of one scene need.
@@ -100,7 +106,7 @@ struct Context {
 /// The method on the wavelengths of a scene.
 enum SceneMethod {
     Map(Prior),
-    Smooth(f64),
+    Smooth(Smoothness),
 }
 
 struct Estimator<'a> {
@@ -145,16 +151,12 @@ fn warn_of_misfit(args: &Args, sample: &Sample) -> Result<()> {
 }
 
 fn method(args: &Args) -> Result<Method> {
-    let smoothness = args.smoothness.unwrap_or(SMOOTHNESS);
-    if !(smoothness >= 0.0 && smoothness.is_finite()) {
-        return Err(Error::usage("--smoothness", format!("{smoothness} is not a weight"), "give 0 or more"));
-    }
     if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
     Ok(match args.prior.as_str() {
-        "smooth" => Method::Smooth(smoothness),
-        "none" => Method::Smooth(0.0),
+        "smooth" => Method::Smooth(args.smoothness),
+        "none" => Method::Smooth(Smoothness::Weight(0.0)),
         spec => {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
             Method::Map(spectrum::reflectances(spec)?, classes)
@@ -203,7 +205,7 @@ impl Transform for Estimator<'_> {
                 let data = FacetData::new(&context.model, &measured, exposure, CUTOFF)?;
                 map::estimate(&data, prior, context.start.as_deref())
             }
-            SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, exposure, *smoothness)?,
+            SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let wavelengths_nm = context.grid.wavelengths_nm();
@@ -216,16 +218,24 @@ impl Estimator<'_> {
     fn smooth(
         &self,
         context: &Context,
-        rgb: &Colours,
+        sample: &Sample,
         exposure: Exposure,
-        smoothness: f64,
+        smoothness: Smoothness,
     ) -> Result<Estimate> {
+        let rgb = sample.facet_rgb()?;
         let sd: Colours =
             rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
-        let measured = Measured { rgb, sd: &sd };
+        let measured = Measured { rgb: &rgb, sd: &sd };
         let data = FacetData::new(&context.model, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
-        smooth::estimate(&data, smoothness, context.start.as_ref().unwrap_or(&middle))
+        let start = context.start.as_ref().unwrap_or(&middle);
+        match smoothness {
+            Smoothness::Weight(weight) => smooth::estimate(&data, weight, start),
+            Smoothness::Auto => {
+                let noise = self.deviations(context, &rgb, sample)?;
+                smooth::estimate_by_discrepancy(&data, root_mean_square(&noise), start)
+            }
+        }
     }
 
     /// How far each facet may be off: its noise, and what the model leaves out.
@@ -250,6 +260,19 @@ impl Estimator<'_> {
         }
         let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
         Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
+    }
+}
+
+fn root_mean_square(facets: &Colours) -> f64 {
+    let values: Vec<f64> = facets.iter().flatten().flatten().copied().collect();
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+fn smoothness(text: &str) -> std::result::Result<Smoothness, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Smoothness::Auto),
+        Ok(weight) if weight >= 0.0 && f64::is_finite(weight) => Ok(Smoothness::Weight(weight)),
+        _ => Err("write a weight, 0 or more, or auto".to_owned()),
     }
 }
 

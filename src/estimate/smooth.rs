@@ -16,6 +16,9 @@ use crate::solve::interior_point::InteriorPoint;
 
 const TOLERANCE: f64 = 1e-9;
 const ITERATION_LIMIT: u64 = 300;
+/// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of logarithms.
+const SMOOTHNESS_RANGE: [f64; 2] = [1e-9, 1.0];
+const BISECTIONS: usize = 10;
 
 /// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the spectrum
 /// (step: one waveband), with every reflectance in (0, 1].
@@ -51,6 +54,29 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         termination,
         reflectance,
     })
+}
+
+/// The estimate of the largest smoothness whose residuals are no larger than the noise, whose standard deviation is
+/// `noise_sd`, white being 1.
+///
+/// # Source
+/// Morozov's discrepancy principle: Hansen, *Discrete Inverse Problems* (2010), section 5.2.
+///
+/// # Errors
+/// As [`estimate`].
+pub fn estimate_by_discrepancy(data: &FacetData, noise_sd: f64, start: &[f64]) -> Result<Estimate> {
+    let [mut low, mut high] = SMOOTHNESS_RANGE.map(f64::ln);
+    let mut best = estimate(data, low.exp(), start)?;
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        let smoother = estimate(data, middle.exp(), &best.reflectance)?;
+        if smoother.residual_rms <= noise_sd {
+            (low, best) = (middle, smoother);
+        } else {
+            high = middle;
+        }
+    }
+    Ok(best)
 }
 
 /// `DᵀD` of the second differences D.
