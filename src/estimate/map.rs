@@ -3,7 +3,7 @@
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
 //! Which classes the facets may belong to is told from all spectra as one Gaussian and the model linearised where that
 //! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
-//! gives error bars (Laplace's approximation).
+//! gives error bars (Laplace's approximation), wider where classes disagree.
 
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
@@ -64,7 +64,7 @@ fn most_evident(mut found: Vec<(f64, Estimate)>) -> Option<Estimate> {
         Some(
             (share * other.spread.as_ref()?)
                 .row_iter()
-                .map(|row| row.into_owned())
+                .map(nalgebra::Matrix::into_owned)
                 .chain([apart])
                 .collect::<Vec<_>>(),
         )

@@ -27,7 +27,7 @@ pub struct Class {
 }
 
 impl Prior {
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.2 in
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.25 in
     /// logit) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
     /// ([`classes_of`]).
     ///
@@ -111,8 +111,8 @@ mod tests {
 
     #[test]
     fn matern_as_scikit_learn_has_it() {
-        // 0.04 * sklearn.gaussian_process.kernels.Matern(length_scale=60, nu=2.5)([[0.]], [[d]]) for d = 0, 30, 120.
-        for (distance_nm, want) in [(0.0, 0.04), (30.0, 0.033_145_966), (120.0, 0.005_546_409)] {
+        // 0.0625 * sklearn.gaussian_process.kernels.Matern(length_scale=60, nu=2.5)([[0.]], [[d]]) for d = 0, 30, 120.
+        for (distance_nm, want) in [(0.0, 0.0625), (30.0, 0.051_790_572), (120.0, 0.008_666_264)] {
             let got = matern_5_2(distance_nm);
             assert!((got - want).abs() < 1e-8, "{distance_nm}: {got}");
         }

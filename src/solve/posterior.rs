@@ -77,7 +77,7 @@ impl<S> Solution<S> {
     /// Logarithm of the probability of the data under prior and model, but for a term that depends on the data alone.
     ///
     /// # Source
-    /// Laplace's approximation: MacKay, *Information Theory, Inference, and Learning Algorithms* (2003), eq. (27.5).
+    /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
     #[must_use]
     pub fn ln_evidence(&self) -> Option<f64> {
         let cost = self.at.residuals.norm_squared() + self.w.norm_squared();
