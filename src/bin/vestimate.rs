@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use vfold::cli::{self, Common, ToolArgs};
+use vfold::estimate::classes;
 use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map, smooth};
 use vfold::forward::FacetModel;
@@ -14,16 +16,16 @@ use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Output, Reader, Record, ReferencePanel, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
 
-/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
-const NOISE_FLOOR: f64 = 1e-6;
+/// The prior whose classes are known.
+const MUNSELL: &str = "munsell";
+/// Least change that counts to the paper's estimator, white being 1.
+const SMOOTH_CUTOFF: f64 = 1e-8;
 /// What a real fold does that the model does not, relative to the facet's value.
-const MODEL_ERROR: f64 = 1e-3;
+const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 /// Residuals, in units of their expected size, beyond which the scene cannot be right.
 const MISFIT: f64 = 5.0;
-/// Weight of smoothness in the paper's objective, in units of white squared.
-const SMOOTHNESS: f64 = 1e-5;
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -38,15 +40,15 @@ struct Args {
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
     /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none
-    #[arg(long, value_name = "SPEC|smooth|none", default_value = "munsell")]
+    #[arg(long, value_name = "SPEC|smooth|none", default_value = MUNSELL)]
     prior: String,
-    /// Weight of the squared second differences of the spectrum, for --prior smooth [default: 1e-5]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
-    smoothness: Option<f64>,
-    /// Standard deviation of every facet, or what the samples say
+    /// Weight of the squared second differences of the spectrum, for --prior smooth; auto: what the noise allows
+    #[arg(long, value_name = "X|auto", default_value = "1e-5", allow_negative_numbers = true, value_parser = smoothness)]
+    smoothness: Smoothness,
+    /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = noise_sd)]
     noise_sd: NoiseSd,
-    /// Error of the model, relative to a facet's value [default: 1e-3 for photographs, 0 for computed facets]
+    /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
     /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
@@ -55,9 +57,9 @@ struct Args {
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
-    /// Reflectance, the same at all wavelengths, from which --prior smooth and none set out
-    #[arg(long, value_name = "R", default_value_t = 0.5)]
-    start: f64,
+    /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
+    #[arg(long, value_name = "SPEC|X")]
+    start: Option<String>,
     /// Draw estimates, their error bands and true spectra
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
@@ -78,10 +80,19 @@ enum NoiseSd {
     All(f64),
 }
 
+/// Weight of smoothness in the paper's objective.
+#[derive(Clone, Copy)]
+enum Smoothness {
+    Auto,
+    /// In units of white squared.
+    Weight(f64),
+}
+
 /// How spectra are estimated, from `--prior`.
 enum Method {
-    Map(Vec<Spectrum>),
-    Smooth(f64),
+    /// Spectra of the prior, and their classes where they are known.
+    Map(Vec<Spectrum>, Option<Vec<usize>>),
+    Smooth(Smoothness),
 }
 
 /// What the samples of one scene need.
@@ -89,12 +100,13 @@ struct Context {
     grid: WavelengthGrid,
     model: FacetModel,
     method: SceneMethod,
+    start: Option<Vec<f64>>,
 }
 
 /// The method on the wavelengths of a scene.
 enum SceneMethod {
     Map(Prior),
-    Smooth(f64),
+    Smooth(Smoothness),
 }
 
 struct Estimator<'a> {
@@ -139,24 +151,16 @@ fn warn_of_misfit(args: &Args, sample: &Sample) -> Result<()> {
 }
 
 fn method(args: &Args) -> Result<Method> {
-    let smoothness = args.smoothness.unwrap_or(SMOOTHNESS);
-    if !(smoothness >= 0.0 && smoothness.is_finite()) {
-        return Err(Error::usage("--smoothness", format!("{smoothness} is not a weight"), "give 0 or more"));
-    }
-    if !(args.start > 0.0 && args.start < 1.0) {
-        return Err(Error::usage(
-            "--start",
-            format!("{} is not inside (0, 1)", args.start),
-            "give a reflectance",
-        ));
-    }
     if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
     Ok(match args.prior.as_str() {
-        "smooth" => Method::Smooth(smoothness),
-        "none" => Method::Smooth(0.0),
-        spec => Method::Map(spectrum::reflectances(spec)?),
+        "smooth" => Method::Smooth(args.smoothness),
+        "none" => Method::Smooth(Smoothness::Weight(0.0)),
+        spec => {
+            let classes = (spec == MUNSELL).then(classes::of_munsell);
+            Method::Map(spectrum::reflectances(spec)?, classes)
+        }
     })
 }
 
@@ -171,17 +175,21 @@ impl Transform for Estimator<'_> {
             scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
         }
         let method = match &self.method {
-            Method::Map(spectra) => {
+            Method::Map(spectra, classes) => {
                 let on_grid: Vec<_> =
                     spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
-                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid)?)
+                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
             }
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
         }
-        Ok(Context { grid, model: scene.model()?, method })
+        let start = match &self.args.start {
+            Some(spec) => Some(cli::one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?),
+            None => None,
+        };
+        Ok(Context { grid, model: scene.model()?, method, start })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
@@ -192,13 +200,16 @@ impl Transform for Estimator<'_> {
         };
         let estimate = match &context.method {
             SceneMethod::Map(prior) => {
-                let sd = self.deviations(&rgb, sample)?;
+                let sd = self.deviations(context, &rgb, sample)?;
                 let measured = Measured { rgb: &rgb, sd: &sd };
-                map::estimate(&FacetData::new(&context.model, &measured, exposure, CUTOFF)?, prior)
+                let data = FacetData::new(&context.model, &measured, exposure, CUTOFF)?;
+                map::estimate(&data, prior, context.start.as_deref())
             }
-            SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, exposure, *smoothness)?,
+            SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
         };
-        sample.set_estimate("interreflection", &self.args.prior, context.grid.wavelengths_nm(), &estimate)
+        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
+        let wavelengths_nm = context.grid.wavelengths_nm();
+        sample.set_estimate("interreflection", &self.args.prior, wavelengths_nm, &estimate, with_covariance)
     }
 }
 
@@ -207,50 +218,61 @@ impl Estimator<'_> {
     fn smooth(
         &self,
         context: &Context,
-        rgb: &Colours,
+        sample: &Sample,
         exposure: Exposure,
-        smoothness: f64,
+        smoothness: Smoothness,
     ) -> Result<Estimate> {
+        let rgb = sample.facet_rgb()?;
         let sd: Colours =
             rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
-        let measured = Measured { rgb, sd: &sd };
-        let data = FacetData::new(&context.model, &measured, exposure, NOISE_FLOOR * CUTOFF)?;
-        smooth::estimate(&data, context.grid.len(), smoothness, self.args.start)
+        let measured = Measured { rgb: &rgb, sd: &sd };
+        let data = FacetData::new(&context.model, &measured, exposure, SMOOTH_CUTOFF)?;
+        let middle = vec![0.5; context.grid.len()];
+        let start = context.start.as_ref().unwrap_or(&middle);
+        match smoothness {
+            Smoothness::Weight(weight) => smooth::estimate(&data, weight, start),
+            Smoothness::Auto => {
+                let noise = self.deviations(context, &rgb, sample)?;
+                smooth::estimate_by_discrepancy(&data, root_mean_square(&noise), start)
+            }
+        }
     }
 
     /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, rgb: &Colours, sample: &Sample) -> Result<Colours> {
-        let said = sample.facet_sd()?;
-        if let Some(said) = &said
-            && said.len() != rgb.len()
-        {
-            return Err(Error::field(
-                "facet_sd",
-                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
-            ));
-        }
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
         let model_error = match self.args.model_error {
             Some(error) => error,
             None if sample.is_photograph()? => MODEL_ERROR,
             None => 0.0,
         };
-        let floor = NOISE_FLOOR * rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
-        let deviation = |facet: usize, channel: usize, value: f64| {
-            let noise = match (self.args.noise_sd, &said) {
-                (NoiseSd::All(sd), _) => sd,
-                (NoiseSd::Auto, Some(said)) => {
-                    said.get(facet).and_then(|sd| sd.as_ref()?.get(channel)).copied().unwrap_or(0.0)
-                }
-                (NoiseSd::Auto, None) => 0.0,
-            };
-            noise.hypot(model_error * value).hypot(floor)
+        if let NoiseSd::All(sd) = self.args.noise_sd {
+            return Ok(deviations(rgb, |_, _| sd, model_error));
+        }
+        let Some(said) = sample.facet_sd()? else {
+            let noise = unexplained(&context.model, rgb);
+            return Ok(deviations(rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), model_error));
         };
-        let facet = |(facet, values): (usize, &Option<Vec<f64>>)| {
-            values.as_ref().map(|values| {
-                values.iter().enumerate().map(|(c, value)| deviation(facet, c, *value)).collect()
-            })
-        };
-        Ok(rgb.iter().enumerate().map(facet).collect())
+        if said.len() != rgb.len() {
+            return Err(Error::field(
+                "facet_sd",
+                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
+            ));
+        }
+        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
+        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
+    }
+}
+
+fn root_mean_square(facets: &Colours) -> f64 {
+    let values: Vec<f64> = facets.iter().flatten().flatten().copied().collect();
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+fn smoothness(text: &str) -> std::result::Result<Smoothness, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Smoothness::Auto),
+        Ok(weight) if weight >= 0.0 && f64::is_finite(weight) => Ok(Smoothness::Weight(weight)),
+        _ => Err("write a weight, 0 or more, or auto".to_owned()),
     }
 }
 

@@ -28,6 +28,7 @@ pub struct FacetData<'a> {
     /// Sum of squares that no reflectance explains, and the number of facet values.
     outside: f64,
     count: usize,
+    peak: f64,
     sums: SumRule,
 }
 
@@ -57,6 +58,15 @@ pub struct LinearisedFacets {
     pub residuals: DVector<f64>,
     /// Derivatives of the model.
     pub jacobian: DMatrix<f64>,
+    /// For [`FacetData::curvature`].
+    pub second: SecondDerivatives,
+}
+
+/// What second derivatives at a reflectance are made of: exposure, and derivatives of the terms.
+pub struct SecondDerivatives {
+    exposure: f64,
+    slopes: DMatrix<f64>,
+    curvatures: DMatrix<f64>,
 }
 
 impl<'a> FacetData<'a> {
@@ -69,11 +79,12 @@ impl<'a> FacetData<'a> {
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
         let samples = sample_terms(model);
-        let (mut values, mut models, mut outside) = (Vec::new(), Vec::new(), 0.0);
+        let (mut values, mut models, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
         for channel in 0..channels {
             let (data, sources) = weighted(model, measured, &usable, channel);
             let (kept, sources) = compress(&data, &sources, &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
+            peak = peak.max(data.max());
             values.extend(kept.iter());
             let camera = model.sources().iter().map(|source| source.camera.channel(channel));
             models.push(ChannelModel { sources, weights: camera.map(DVector::from_column_slice).collect() });
@@ -90,6 +101,7 @@ impl<'a> FacetData<'a> {
             channels: models,
             outside,
             count,
+            peak,
             sums,
         })
     }
@@ -122,7 +134,7 @@ impl<'a> FacetData<'a> {
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
-        let [terms, slopes] = self.model.terms_of(reflectance);
+        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
         let (residuals, exposure, values) = self.compare(&terms);
         let mut jacobian = exposure * self.columns_of(&slopes);
         match self.exposure {
@@ -137,15 +149,20 @@ impl<'a> FacetData<'a> {
                 jacobian.ger(-exposure, &values, &shares, 1.0);
             }
         }
-        LinearisedFacets { residuals, jacobian }
+        let second = SecondDerivatives { exposure, slopes, curvatures };
+        LinearisedFacets { residuals, jacobian, second }
     }
 
-    /// `Σ ρᵢ ∂mᵢ/∂r` and `Σ ρᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of this reflectance.
+    /// `Σ λᵢ ∂mᵢ/∂r` and `Σ λᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of that reflectance.
     #[must_use]
-    pub fn curvature(&self, reflectance: &[f64]) -> [DVector<f64>; 2] {
-        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
-        let (residuals, exposure, _) = self.compare(&terms);
-        [slopes, curvatures].map(|of_terms| exposure * self.along(&residuals, &of_terms))
+    pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> [DVector<f64>; 2] {
+        [&at.slopes, &at.curvatures].map(|of_terms| at.exposure * self.along(multipliers, of_terms))
+    }
+
+    /// The largest datum in units of its noise.
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        self.peak
     }
 
     /// Residuals, exposure, and the model at exposure 1.
@@ -184,11 +201,11 @@ impl<'a> FacetData<'a> {
         columns
     }
 
-    /// `Σ ρᵢ` times the model a waveband, without forming its columns.
-    fn along(&self, residuals: &DVector<f64>, of_terms: &DMatrix<f64>) -> DVector<f64> {
+    /// `Σ λᵢ` times the model a waveband, without forming its columns.
+    fn along(&self, multipliers: &DVector<f64>, of_terms: &DMatrix<f64>) -> DVector<f64> {
         let mut along = DVector::zeros(of_terms.ncols());
         self.each_part(|rows, compressed, weights| {
-            let by_term = compressed.tr_mul(&residuals.rows(rows.start, rows.len()));
+            let by_term = compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
             along += of_terms.tr_mul(&by_term).component_mul(weights);
         });
         along

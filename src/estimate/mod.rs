@@ -1,9 +1,14 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
 
+pub mod classes;
 pub mod data;
+pub mod gaussian;
 pub mod map;
+pub mod noise;
 pub mod prior;
 pub mod smooth;
+
+use nalgebra::DMatrix;
 
 use crate::solve::Termination;
 
@@ -23,8 +28,9 @@ pub enum Exposure {
 pub struct Estimate {
     /// Reflectance a waveband, in (0, 1].
     pub reflectance: Vec<f64>,
-    /// Standard deviation of each; none from a method that has no model of its error.
-    pub reflectance_sd: Option<Vec<f64>>,
+    /// How far it may be off, a column a waveband: the product of its transpose with it is the covariance of the reflectance.
+    /// None from a method that has no model of its error.
+    pub spread: Option<DMatrix<f64>>,
     /// Exposure: as known, or as found.
     pub exposure: f64,
     /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
@@ -33,4 +39,18 @@ pub struct Estimate {
     pub iterations: u32,
     /// Why the solver stopped.
     pub termination: Termination,
+}
+
+impl Estimate {
+    /// Standard deviation a waveband.
+    #[must_use]
+    pub fn reflectance_sd(&self) -> Option<Vec<f64>> {
+        Some(self.spread.as_ref()?.column_iter().map(|column| column.norm()).collect())
+    }
+
+    /// Covariance, waveband by waveband.
+    #[must_use]
+    pub fn covariance(&self) -> Option<DMatrix<f64>> {
+        self.spread.as_ref().map(|spread| spread.transpose() * spread)
+    }
 }

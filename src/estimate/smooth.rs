@@ -16,19 +16,22 @@ use crate::solve::interior_point::InteriorPoint;
 
 const TOLERANCE: f64 = 1e-9;
 const ITERATION_LIMIT: u64 = 300;
+/// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of logarithms.
+const SMOOTHNESS_RANGE: [f64; 2] = [1e-9, 1.0];
+const BISECTIONS: usize = 10;
 
 /// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the spectrum
 /// (step: one waveband), with every reflectance in (0, 1].
 ///
-/// `start` is the reflectance, the same in every waveband, from which it sets out.
+/// `start` is the reflectance from which it sets out.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the solver fails.
-pub fn estimate(data: &FacetData, bands: usize, smoothness: f64, start: f64) -> Result<Estimate> {
-    let objective = Objective { data, penalty: smoothness * second_difference_gram(bands) };
+pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Estimate> {
+    let objective = Objective { data, penalty: smoothness * second_difference_gram(start.len()) };
     let solver = InteriorPoint::new(0.0, 1.0, TOLERANCE);
     let run = Executor::new(objective, solver)
-        .configure(|state| state.param(DVector::from_element(bands, start)).max_iters(ITERATION_LIMIT))
+        .configure(|state| state.param(DVector::from_column_slice(start)).max_iters(ITERATION_LIMIT))
         .timer(false)
         .run()
         .map_err(|e| Error::Numeric(format!("interior point: {e}")))?;
@@ -44,13 +47,36 @@ pub fn estimate(data: &FacetData, bands: usize, smoothness: f64, start: f64) -> 
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
     let at = data.residuals(&reflectance);
     Ok(Estimate {
-        reflectance_sd: None,
+        spread: None,
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
         termination,
         reflectance,
     })
+}
+
+/// The estimate of the largest smoothness whose residuals are no larger than the noise, whose standard deviation is
+/// `noise_sd`, white being 1.
+///
+/// # Source
+/// Morozov's discrepancy principle: Hansen, *Discrete Inverse Problems* (2010), section 5.2.
+///
+/// # Errors
+/// As [`estimate`].
+pub fn estimate_by_discrepancy(data: &FacetData, noise_sd: f64, start: &[f64]) -> Result<Estimate> {
+    let [mut low, mut high] = SMOOTHNESS_RANGE.map(f64::ln);
+    let mut best = estimate(data, low.exp(), start)?;
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        let smoother = estimate(data, middle.exp(), &best.reflectance)?;
+        if smoother.residual_rms <= noise_sd {
+            (low, best) = (middle, smoother);
+        } else {
+            high = middle;
+        }
+    }
+    Ok(best)
 }
 
 /// `DᵀD` of the second differences D.

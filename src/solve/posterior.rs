@@ -1,13 +1,15 @@
 //! The maximum of a Gaussian prior times a Gaussian likelihood of a nonlinear model, by Newton's method.
 //!
-//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. The Hessian
-//! `I + JᵀJ − Σ ρᵢ∇²mᵢ` is exact near the minimum; further off, and where it is not positive, the last term is left out
-//! (Gauss–Newton). The step is solved for itself, in the space of the unknowns: the system in the space of the data
-//! (Tarantola, *Inverse Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a small
-//! difference of large vectors loses its digits once the data are a million times as large as their noise.
+//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. Data a million times as large as their
+//! noise are constraints, and their residuals far from the minimum say nothing of the curvature along them. So the second
+//! derivatives are weighted as in sequential quadratic programming, with multipliers: the residuals that the linearised
+//! model leaves, `I + JᵀJ − Σ (ρ − Jδ)ᵢ∇²mᵢ`. A step that the constraints' curvature spoils is corrected to second order.
+//! The step is solved for itself, in the space of the unknowns: the system in the space of the data (Tarantola, *Inverse
+//! Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a small difference of large vectors
+//! loses its digits.
 //!
 //! ## Reference
-//! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 3.1 and 10.3.
+//! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -15,139 +17,211 @@ use super::Termination;
 
 /// Share of the misfit at the start that the noise is first taken for.
 const MISFIT: f64 = 0.3;
-/// Most steps at each inflation of the noise.
-const STEPS_A_STAGE: u32 = 2;
-/// Gradient, in the metric of the Hessian, below which second derivatives are trusted.
-const NEAR: f64 = 1.0;
+/// Factor by which the noise falls from stage to stage.
+const STAGE: f64 = 10.0;
+/// Most steps at each inflation of the noise, and the gradient in the metric of the Hessian that ends a stage earlier.
+const STEPS_A_STAGE: u32 = 6;
+const END_OF_STAGE: f64 = 5.0;
 /// Longest step, in standard deviations of the prior: further out the model is not the one that was linearised.
 const LONGEST: f64 = 10.0;
-/// Most halvings of a step.
-const HALVINGS: usize = 20;
+/// Most trials of a step; first damping, and its factors after a failure and after a success.
+const TRIALS: usize = 14;
+const DAMPING: f64 = 0.1;
+const DAMPING_UP: f64 = 5.0;
+const DAMPING_DOWN: f64 = 0.1;
+const DAMPING_LEAST: f64 = 1e-3;
 
 /// A model seen through data of known noise.
 pub trait Model {
+    /// What second derivatives at a point are made of.
+    type Second;
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
     /// Data minus model at `w`, in units of the noise.
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
-    /// Residuals with first derivatives.
-    fn linearise(&self, w: &DVector<f64>) -> Linearised;
-    /// `Σ ρᵢ∇²mᵢ` at `w`.
-    fn curvature(&self, w: &DVector<f64>) -> DMatrix<f64>;
+    /// Residuals with derivatives.
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
+    /// `Σ λᵢ∇²mᵢ` at a point, a multiplier λ a residual.
+    fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> DMatrix<f64>;
 }
 
 /// A model about a point.
-pub struct Linearised {
+pub struct Linearised<S> {
     /// Residuals.
     pub residuals: DVector<f64>,
     /// Derivatives of the model: residual by unknown.
     pub jacobian: DMatrix<f64>,
+    /// For [`Model::curvature`].
+    pub second: S,
 }
 
 /// Where the iteration ended.
-pub struct Solution {
+pub struct Solution<S> {
     /// The unknowns.
     pub w: DVector<f64>,
-    /// Factor of `I + JᵀJ` there: the inverse of Laplace's covariance. None if the model was not finite.
-    pub information: Option<Cholesky<f64, Dyn>>,
+    /// The model there.
+    pub at: Linearised<S>,
     /// Iterations over all stages.
     pub iterations: u32,
     /// Why it stopped.
     pub termination: Termination,
 }
 
-/// Minimises from the prior's mean, the noise first inflated to a third of the misfit there and then, by tens, down to its
-/// true size, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
+impl<S> Solution<S> {
+    /// Factor of `I + JᵀJ`: the inverse of Laplace's covariance. None if the model was not finite.
+    #[must_use]
+    pub fn information(&self) -> Option<Cholesky<f64, Dyn>> {
+        Cholesky::new(gauss_newton(&self.at.jacobian, 1.0))
+    }
+
+    /// Logarithm of the probability of the data under prior and model, but for a term that depends on the data alone.
+    ///
+    /// # Source
+    /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
+    #[must_use]
+    pub fn ln_evidence(&self) -> Option<f64> {
+        let cost = self.at.residuals.norm_squared() + self.w.norm_squared();
+        Some(-0.5 * (cost + self.information()?.ln_determinant()))
+    }
+}
+
+/// The noise at the start: a third of the misfit there, but no less than `least`, all in units of the true noise.
+pub fn first_inflation(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 {
+    let misfit = model.residuals(w);
+    (MISFIT * misfit.norm() / (misfit.len().max(1) as f64).sqrt()).max(least)
+}
+
+/// Minimises from `start`, the noise first inflated to `inflation.0` times its true size and then, by tens, down to
+/// `inflation.1`, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
 /// within `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise(model: &impl Model, tolerance: f64, limit: u32) -> Solution {
-    let mut search = Search { model, w: DVector::zeros(model.unknowns()), iterations: 0 };
-    let misfit = model.residuals(&search.w);
-    let mut inflation = MISFIT * misfit.norm() / (misfit.len().max(1) as f64).sqrt();
-    while inflation > 1.0 {
-        for _ in 0..STEPS_A_STAGE {
-            let (decrement, moved) = search.step(inflation.powi(-2));
-            if decrement < 1.0 || !moved {
-                break;
-            }
-        }
-        inflation /= 10.0;
-    }
+pub fn maximise<M: Model>(
+    model: &M,
+    start: DVector<f64>,
+    inflation: (f64, f64),
+    tolerance: f64,
+    limit: u32,
+) -> Solution<M::Second> {
+    let (mut now, last) = inflation;
+    let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, iterations: 0 };
+    let mut steps = 0;
     let termination = loop {
-        let (decrement, moved) = search.step(1.0);
-        if decrement <= tolerance {
-            break Termination::Converged { gradient_norm: decrement };
-        }
-        if !moved {
-            break Termination::NoProgress { gradient_norm: decrement };
+        let Some(newton) = search.gauss_newton(now.powi(-2)) else {
+            break Termination::NoProgress { gradient_norm: f64::INFINITY };
+        };
+        let gradient_norm = newton.decrement;
+        if now > last {
+            if steps > 0 && (gradient_norm < END_OF_STAGE || steps == STEPS_A_STAGE) {
+                (now, steps) = ((now / STAGE).max(last), 0);
+                continue;
+            }
+        } else if gradient_norm <= tolerance {
+            break Termination::Converged { gradient_norm };
         }
         if search.iterations >= limit {
             break Termination::IterationLimit;
         }
+        steps += 1;
+        if !search.step(&newton) {
+            if now <= last {
+                break Termination::NoProgress { gradient_norm };
+            }
+            (steps, search.damping) = (STEPS_A_STAGE, 0.0);
+        }
     };
-    let information = Cholesky::new(gauss_newton(&model.linearise(&search.w).jacobian, 1.0));
-    Solution { w: search.w, information, iterations: search.iterations, termination }
+    let Search { w, at, iterations, .. } = search;
+    Solution { w, at, iterations, termination }
 }
 
 /// `I + weight·JᵀJ`.
 fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
-    let mut hessian = weight * jacobian.tr_mul(jacobian);
-    for i in 0..hessian.nrows() {
-        hessian[(i, i)] += 1.0;
-    }
+    let mut hessian = weight * (jacobian.transpose() * jacobian);
+    add_to_diagonal(&mut hessian, 1.0);
     hessian
 }
 
-struct Search<'a, M> {
+fn add_to_diagonal(matrix: &mut DMatrix<f64>, value: f64) {
+    for i in 0..matrix.nrows() {
+        matrix[(i, i)] += value;
+    }
+}
+
+struct Search<'a, M: Model> {
     model: &'a M,
     w: DVector<f64>,
+    at: Linearised<M::Second>,
+    damping: f64,
     iterations: u32,
 }
 
+/// Gauss and Newton's step, the data weighted by `weight`, and what it was made of.
+struct GaussNewton {
+    weight: f64,
+    hessian: DMatrix<f64>,
+    factor: Cholesky<f64, Dyn>,
+    descent: DVector<f64>,
+    direction: DVector<f64>,
+    /// Norm of the gradient in the metric of the Hessian.
+    decrement: f64,
+}
+
 impl<M: Model> Search<'_, M> {
-    /// One step with the data weighted by `weight`: the gradient's norm in the metric of the Hessian before it, and
-    /// whether the cost fell.
-    fn step(&mut self, weight: f64) -> (f64, bool) {
-        self.iterations += 1;
-        let at = self.model.linearise(&self.w);
-        let Some((direction, decrement)) = self.direction(&at, weight) else { return (f64::INFINITY, false) };
-        let cost =
-            |w: &DVector<f64>, residuals: &DVector<f64>| weight * residuals.norm_squared() + w.norm_squared();
-        let before = cost(&self.w, &at.residuals);
-        let next = std::iter::successors(Some(1.0), |length| Some(0.5 * length))
-            .take(HALVINGS)
-            .map(|length| &self.w + length * &direction)
-            .find(|next| cost(next, &self.model.residuals(next)) < before);
-        let moved = next.is_some();
-        self.w = next.unwrap_or_else(|| self.w.clone());
-        (decrement, moved)
+    /// None if the model is not finite.
+    fn gauss_newton(&self, weight: f64) -> Option<GaussNewton> {
+        let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
+        let hessian = gauss_newton(&self.at.jacobian, weight);
+        let factor = Cholesky::new(hessian.clone())?;
+        let direction = factor.solve(&descent);
+        let decrement = descent.dot(&direction).max(0.0).sqrt();
+        Some(GaussNewton { weight, hessian, factor, descent, direction, decrement })
     }
 
-    /// Gauss and Newton's direction, damped until it is no longer than [`LONGEST`], or near the minimum Newton's where the
-    /// Hessian is positive; and the gradient's norm in the metric of the undamped Hessian.
-    fn direction(&self, at: &Linearised, weight: f64) -> Option<(DVector<f64>, f64)> {
-        let descent = weight * at.jacobian.tr_mul(&at.residuals) - &self.w;
-        let solve = |hessian: &DMatrix<f64>| {
-            let direction = Cholesky::new(hessian.clone())?.solve(&descent);
-            let decrement = descent.dot(&direction).max(0.0).sqrt();
-            Some((direction, decrement))
-        };
-        let mut hessian = gauss_newton(&at.jacobian, weight);
-        let (mut direction, decrement) = solve(&hessian)?;
-        if decrement <= NEAR {
-            let newton = solve(&(hessian - weight * self.model.curvature(&self.w)));
-            return Some(newton.unwrap_or((direction, decrement)));
-        }
-        let mut damping = 1.0;
-        while direction.norm() > LONGEST {
-            for i in 0..direction.len() {
-                hessian[(i, i)] += damping;
+    /// One step, damped until it lowers the cost; whether any did.
+    fn step(&mut self, newton: &GaussNewton) -> bool {
+        self.iterations += 1;
+        let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
+        let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.at.second, &multipliers);
+        for _ in 0..TRIALS {
+            if let Some(next) = self.trial(newton, hessian.clone()) {
+                self.at = self.model.linearise(&next);
+                self.w = next;
+                self.damping *= DAMPING_DOWN;
+                if self.damping < DAMPING_LEAST {
+                    self.damping = 0.0;
+                }
+                return true;
             }
-            (direction, _) = solve(&hessian)?;
-            damping *= 10.0;
+            self.damping = (DAMPING_UP * self.damping).max(DAMPING);
         }
-        Some((direction, decrement))
+        false
+    }
+
+    /// Where the damped step leads, corrected to second order if it does not keep half of its promise; none if the Hessian is
+    /// not positive, the step too long or the cost higher.
+    fn trial(&self, newton: &GaussNewton, mut hessian: DMatrix<f64>) -> Option<DVector<f64>> {
+        add_to_diagonal(&mut hessian, self.damping);
+        let direction = Cholesky::new(hessian)?.solve(&newton.descent);
+        if direction.norm() > LONGEST {
+            return None;
+        }
+        let cost = |w: &DVector<f64>, residuals: &DVector<f64>| {
+            newton.weight * residuals.norm_squared() + w.norm_squared()
+        };
+        let before = cost(&self.w, &self.at.residuals);
+        let next = &self.w + &direction;
+        let residuals = self.model.residuals(&next);
+        let after = cost(&next, &residuals);
+        if after < before - 0.5 * newton.descent.dot(&direction) {
+            return Some(next);
+        }
+        let unforeseen = residuals - &self.at.residuals + &self.at.jacobian * direction;
+        let corrected = &next + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
+        let after_correction = cost(&corrected, &self.model.residuals(&corrected));
+        if after_correction < after.min(before) {
+            return Some(corrected);
+        }
+        (after < before).then_some(next)
     }
 }
 
@@ -162,6 +236,8 @@ mod tests {
     }
 
     impl Model for Exponential {
+        type Second = f64;
+
         fn unknowns(&self) -> usize {
             1
         }
@@ -170,13 +246,13 @@ mod tests {
             DVector::from_element(1, self.data - self.scale * w[0].exp())
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised {
-            let jacobian = DMatrix::from_element(1, 1, self.scale * w[0].exp());
-            Linearised { residuals: self.residuals(w), jacobian }
+        fn linearise(&self, w: &DVector<f64>) -> Linearised<f64> {
+            let second = self.scale * w[0].exp();
+            Linearised { residuals: self.residuals(w), jacobian: DMatrix::from_element(1, 1, second), second }
         }
 
-        fn curvature(&self, w: &DVector<f64>) -> DMatrix<f64> {
-            self.residuals(w)[0] * DMatrix::from_element(1, 1, self.scale * w[0].exp())
+        fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> DMatrix<f64> {
+            DMatrix::from_element(1, 1, multipliers[0] * at)
         }
     }
 
@@ -184,13 +260,15 @@ mod tests {
     fn the_gradient_vanishes_where_it_says_so() {
         for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {
             let model = Exponential { data, scale };
-            let found = maximise(&model, 1e-6, 100);
+            let start = DVector::zeros(1);
+            let first = first_inflation(&model, &start, 1.0);
+            let found = maximise(&model, start, (first, 1.0), 1e-6, 100);
             let w = found.w[0];
             let slope = w - (data - scale * w.exp()) * scale * w.exp();
             let information = 1.0 + (scale * w.exp()).powi(2);
             assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
             assert!(slope.abs() < 2e-6 * information.sqrt(), "{data} {scale}: {slope}");
-            let factor = found.information.unwrap().l()[(0, 0)];
+            let factor = found.information().unwrap().l()[(0, 0)];
             assert!((factor * factor / information - 1.0).abs() < 1e-12);
         }
     }

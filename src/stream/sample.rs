@@ -88,7 +88,7 @@ impl Sample {
         Ok(sd)
     }
 
-    /// Adds an estimate.
+    /// Adds an estimate, with its covariance (waveband by waveband) if asked to.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -98,9 +98,11 @@ impl Sample {
         prior: &str,
         wavelengths_nm: &[f64],
         estimate: &Estimate,
+        with_covariance: bool,
     ) -> Result<()> {
+        let sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
-        finite("estimate.reflectance_sd", estimate.reflectance_sd.iter().flatten())?;
+        finite("estimate.reflectance_sd", sd.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
         let mut record = json!({
             "method": method,
@@ -112,8 +114,12 @@ impl Sample {
             "iterations": estimate.iterations,
             "termination": termination(&estimate.termination),
         });
-        if let Some(sd) = &estimate.reflectance_sd {
+        if let Some(sd) = sd {
             record["reflectance_sd"] = json!(sd);
+        }
+        if let Some(covariance) = estimate.covariance().filter(|_| with_covariance) {
+            let rows = covariance.row_iter().map(|row| row.iter().copied().collect());
+            record["covariance"] = json!(rows.collect::<Vec<Vec<f64>>>());
         }
         self.fields.set("estimate", record)
     }

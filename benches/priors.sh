@@ -1,0 +1,16 @@
+#!/bin/sh
+# The table of docs/priors.md: mean RMSE on sets that the prior was not made of, by number of classes.
+# Further sets are CSV files given as arguments.
+set -eu
+cd "$(dirname "$0")/.."
+cargo build --quiet --release --bins
+bin=${CARGO_TARGET_DIR:-target}/release
+echo '| set | facet noise | 1 class | 2 | 4 | 8 classes |'
+echo '|---|---|---|---|---|---|'
+for set in cc24 "$@"; do
+    for noise in 0 1e-3 1e-2; do
+        printf '| %s | %s | ' "$(basename "$set" .csv)" $noise
+        "$bin/vkernel" | "$bin/vforward" --reflectance "$set" --camera canon-5d-mark-ii --noise-sd $noise |
+            cargo bench --quiet --bench priors | sed 's/$/ |/'
+    done
+done

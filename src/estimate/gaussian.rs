@@ -1,0 +1,101 @@
+//! A Gaussian of the logit of reflectance, `z = ln(r/(1 − r))`.
+//!
+//! In logit every value is a legal reflectance, and the covariance of a set of paints or dyes spreads evenly.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
+const MARGIN: f64 = 2e-3;
+/// Variance of a waveband's logit that the basis may leave out.
+const LEFT_OUT: f64 = 1e-4;
+
+/// Mean and covariance of logits on a wavelength grid.
+#[derive(Clone, Debug)]
+pub struct Gaussian {
+    mean: DVector<f64>,
+    /// Waveband by coordinate; its product with its transpose is the covariance.
+    basis: DMatrix<f64>,
+}
+
+impl Gaussian {
+    /// A Gaussian of this mean and covariance. The coordinates are the columns of the covariance's Cholesky factor, the
+    /// waveband that the others tell least about first, until none is left with a standard deviation above 0.01.
+    ///
+    /// # Source
+    /// Pivoted Cholesky decomposition: Higham, *Accuracy and Stability of Numerical Algorithms* (2002), section 10.3.
+    #[must_use]
+    pub fn new(mean: DVector<f64>, covariance: &DMatrix<f64>) -> Self {
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        let mut left = covariance.diagonal();
+        while columns.len() < left.len() && left.max() > LEFT_OUT {
+            let pivot = left.imax();
+            let explained =
+                columns.iter().fold(DVector::zeros(left.len()), |sum, column| sum + column * column[pivot]);
+            let column = (covariance.column(pivot) - explained) / left[pivot].sqrt();
+            left -= column.component_mul(&column);
+            columns.push(column);
+        }
+        let basis =
+            if columns.is_empty() { DMatrix::zeros(left.len(), 0) } else { DMatrix::from_columns(&columns) };
+        Self { mean, basis }
+    }
+
+    /// Mean logit a waveband.
+    #[must_use]
+    pub fn mean(&self) -> &DVector<f64> {
+        &self.mean
+    }
+
+    /// Derivative of the logits by the whitened coordinates: waveband by coordinate.
+    #[must_use]
+    pub fn basis(&self) -> &DMatrix<f64> {
+        &self.basis
+    }
+
+    /// Logits at whitened coordinates `w`, each standard normal.
+    #[must_use]
+    pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
+        let mut logit = self.mean.clone();
+        logit.gemv(1.0, &self.basis, w, 1.0);
+        logit
+    }
+
+    /// Whitened coordinates whose logits come nearest to those of `reflectance`, a waveband each.
+    #[must_use]
+    pub fn nearest(&self, reflectance: &[f64]) -> DVector<f64> {
+        let off =
+            DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r))) - &self.mean;
+        let mut normal = self.basis.transpose() * &self.basis;
+        (0..normal.nrows()).for_each(|i| normal[(i, i)] += LEFT_OUT);
+        let start = normal.cholesky().map(|factor| factor.solve(&self.basis.tr_mul(&off)));
+        start.unwrap_or_else(|| DVector::zeros(self.basis.ncols()))
+    }
+}
+
+/// Logit of a reflectance, kept off the ends of its range.
+#[must_use]
+pub fn logit(r: f64) -> f64 {
+    let r = r.clamp(MARGIN, 1.0 - MARGIN);
+    (r / (1.0 - r)).ln()
+}
+
+/// Reflectance of a logit.
+#[must_use]
+pub fn logistic(z: f64) -> f64 {
+    1.0 / (1.0 + (-z).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_basis_gives_the_covariance() {
+        let covariance = DMatrix::from_fn(21, 21, |i, j| 2.0 * (-0.02 * (i as f64 - j as f64).powi(2)).exp());
+        let gaussian = Gaussian::new(DVector::from_element(21, 0.3), &covariance);
+        let basis = gaussian.basis();
+        assert!(basis.ncols() < 12, "{} coordinates", basis.ncols());
+        assert!((basis * basis.transpose() - covariance).amax() < 2.0 * LEFT_OUT);
+        assert!((gaussian.logit_at(&DVector::zeros(basis.ncols())) - gaussian.mean()).amax() < 1e-15);
+    }
+}

@@ -1,0 +1,59 @@
+//! How far each facet may be off: its noise, and what the model leaves out.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::forward::FacetModel;
+
+/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
+const FLOOR: f64 = 1e-6;
+
+/// Facet by channel, none for a facet that was not measured.
+pub type FacetValues = Vec<Option<Vec<f64>>>;
+
+/// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel, `model_error` relative to
+/// the facet's value, and a millionth of the brightest facet, in quadrature.
+#[must_use]
+pub fn deviations(
+    rgb: &[Option<Vec<f64>>],
+    noise_sd: impl Fn(usize, usize) -> f64,
+    model_error: f64,
+) -> FacetValues {
+    let floor = FLOOR * rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
+    let facet = |(facet, values): (usize, &Option<Vec<f64>>)| {
+        let deviation = |(channel, value): (usize, &f64)| {
+            noise_sd(facet, channel).hypot(model_error * value).hypot(floor)
+        };
+        values.as_ref().map(|values| values.iter().enumerate().map(deviation).collect())
+    };
+    rgb.iter().enumerate().map(facet).collect()
+}
+
+/// Noise a channel, told from the facets alone: the root mean square of what no reflectance explains.
+///
+/// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
+/// directions are noise. Zero where there are no more facets than terms.
+#[must_use]
+pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
+    let usable: Vec<usize> =
+        (0..rgb.len().min(model.sources()[0].facets.nrows())).filter(|facet| rgb[*facet].is_some()).collect();
+    let columns: Vec<DVector<f64>> = model
+        .sources()
+        .iter()
+        .flat_map(|source| source.facets.column_iter())
+        .map(|column| DVector::from_iterator(usable.len(), usable.iter().map(|facet| column[*facet])))
+        .collect();
+    let channels = model.sources()[0].camera.channels();
+    let freedom = usable.len().saturating_sub(columns.len());
+    if freedom == 0 {
+        return vec![0.0; channels];
+    }
+    let q = DMatrix::from_columns(&columns).qr().q();
+    let noise = |channel: usize| {
+        let value = |facet: &usize| rgb[*facet].as_ref().and_then(|rgb| rgb.get(channel)).copied();
+        let data =
+            DVector::from_iterator(usable.len(), usable.iter().map(|facet| value(facet).unwrap_or(0.0)));
+        let left = &data - &q * q.tr_mul(&data);
+        (left.norm_squared() / freedom as f64).sqrt()
+    };
+    (0..channels).map(noise).collect()
+}
