@@ -1,7 +1,9 @@
 //! From reflectance to what a camera sees of a folded sheet.
 
+pub mod bounces;
 pub mod model;
 pub mod noise;
+pub mod nonuniform;
 pub mod render;
 
 pub use model::{FacetModel, Lighting};

@@ -1,7 +1,10 @@
-//! Solvers for smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
+//! Solvers: linear systems, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
+mod conjugate_gradients;
 pub mod interior_point;
 pub mod posterior;
+
+pub use conjugate_gradients::conjugate_gradients;
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
