@@ -94,18 +94,21 @@ pub fn write_matrix(path: &Path, rows: usize, cols: usize, row: impl Fn(usize) -
     saved.keep()
 }
 
-/// Reads a matrix of double precision numbers that must have `shape`, rows and columns: nothing is read before the header
-/// says so.
+/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names:
+/// nothing is read before the header agrees.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Array`] if it is no such matrix.
-pub fn read_matrix(path: &Path, shape: [usize; 2]) -> Result<DMatrix<f64>> {
+pub fn read_matrix(path: &Path, shape: [(usize, &str); 2]) -> Result<DMatrix<f64>> {
     let failed = |e| Error::file(path.display(), e);
     let array = NpyFile::new(BufReader::new(File::open(path).map_err(failed)?)).map_err(failed)?;
     let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
-    let [rows, cols] = shape;
+    let [(rows, row), (cols, col)] = shape;
     if array.shape() != [rows as u64, cols as u64] {
-        return Err(wrong(format!("an array of shape {:?}, where {shape:?} is needed", array.shape())));
+        let got = array.shape();
+        return Err(wrong(format!(
+            "an array of shape {got:?}, where {rows} {row} by {cols} {col} are needed"
+        )));
     }
     let order = array.order();
     let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;

@@ -85,7 +85,8 @@ impl<'a> Setup<'a> {
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
-        let shape = [2 * self.scene.fold()?.facets().len(), self.scene.grid()?.len()];
+        let shape =
+            [(2 * self.scene.fold()?.facets().len(), "facets"), (self.scene.grid()?.len(), "wavebands")];
         let reflectance = read_matrix(path, shape)?;
         match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
             Some(r) => Err(Error::Array {

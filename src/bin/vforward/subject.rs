@@ -58,7 +58,7 @@ fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
         [Some(card), None] => Some((0, card)),
         [None, Some(card)] => Some((1, card)),
         [Some(_), Some(_)] if !sheets.is_empty() => {
-            let problem = "both panels have a reflectance without it";
+            let problem = "both panels have their reflectance already";
             return Err(Error::usage("--reflectance", problem, "leave it out"));
         }
         [Some(sheet), Some(card)] => {
