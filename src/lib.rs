@@ -11,7 +11,7 @@
 //! |---|---|---|
 //! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
 //! | eq. (2) | geometrical kernel of two points | [`kernel::exact::form_factors`], averaged over facets |
-//! | eqs. (5) to (7), eqs. (11) to (14) | light bounce by bounce | [`forward::bounces`], [`forward::FacetModel::facet_rgb_after`] |
+//! | eqs. (5) to (7) and (11) to (14) | light bounce by bounce | [`forward::bounces`], [`forward::FacetModel::facet_rgb_after`] |
 //! | eq. (10) | kernel matrix of the facets | [`kernel::FoldKernel::matrix_row`] |
 //! | eq. (16) | radiance after all bounces | [`response::Response::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |

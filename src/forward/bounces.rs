@@ -1,4 +1,4 @@
-//! How many bounces of light count.
+//! How many bounces of light count: the first ones are eqs. (5) to (7), in matrices eqs. (11) to (13), their sum is eq. (14).
 
 use nalgebra::DMatrix;
 
