@@ -27,7 +27,7 @@
 //! ```text
 //! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
 //!               stream -> plot, score, progress, files
-//!                         estimate, forward -> solve
+//!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> files
 //!               score, colorimetry -> spectrum                          all -> error

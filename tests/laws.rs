@@ -365,6 +365,16 @@ fn lighting(light: Light) -> Lighting {
     Lighting { light, sun, sky }
 }
 
+/// Lanczos' matrix of this fold is one that nalgebra's eigenvalues are wrong for, by a hundredth.
+#[test]
+fn a_hard_tridiagonal_matrix() {
+    let facets = FacetGrid { rows: 3, cols: 3 };
+    let fold = Fold::new(12.692330767814138, 4.241862460768551, 1.0, facets).unwrap();
+    let fold = fold.with_panel1_depth(5.262542651803017).unwrap();
+    let dense = dense_irradiance(&matrix(&fold), &DVector::from_element(18, 1.0), 0.5, 0.5);
+    assert!(worst_relative(&irradiance(&response(&fold), EVEN, 0.5, 0.5), &dense) < 1e-12);
+}
+
 /// Flat and facing the sun, a perfect white diffuser gives 1 in the camera's strongest channel; a sky adds its share.
 #[test]
 fn white_facing_the_sun_is_one() {

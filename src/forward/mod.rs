@@ -1,6 +1,7 @@
 //! From reflectance to what a camera sees of a folded sheet.
 
 pub mod bounces;
+mod families;
 pub mod model;
 pub mod noise;
 pub mod nonuniform;

@@ -1,10 +1,12 @@
-//! Solvers: linear systems, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
+//! Solvers: linear systems, eigenvalues, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
 mod conjugate_gradients;
 pub mod interior_point;
 pub mod posterior;
+mod tridiagonal;
 
 pub use conjugate_gradients::conjugate_gradients;
+pub use tridiagonal::tridiagonal_eigen;
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
