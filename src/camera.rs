@@ -97,6 +97,18 @@ impl CameraResponse {
         self.weights.len()
     }
 
+    /// Number of wavebands.
+    #[must_use]
+    pub fn bands(&self) -> usize {
+        self.weights[0].len()
+    }
+
+    /// Whether any channel sees the light of a waveband.
+    #[must_use]
+    pub fn sees(&self, band: usize) -> bool {
+        self.weights.iter().any(|channel| channel[band] != 0.0)
+    }
+
     /// Weights of one channel, a number a waveband.
     #[must_use]
     pub fn channel(&self, channel: usize) -> &[f64] {

@@ -5,10 +5,11 @@
 //! light does not excite. Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on
 //! one panel give everything: panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 use crate::error::{Error, Result};
 use crate::kernel::panel::PanelOperator;
+use crate::solve::Eigen;
 
 /// Most Lanczos steps: a 0.1° fold takes about 500.
 const STEPS_MAX: usize = 1000;
@@ -284,14 +285,14 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
 
     /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
     fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
-        let eigen = SymmetricEigen::new(tridiagonal(diagonal, beside));
+        let Eigen { values: poles, vectors } = Eigen::of_tridiagonal(diagonal, beside);
         let steps = diagonal.len();
         let means: Vec<f64> = basis.iter().flat_map(|x| (self.means)(x)).collect();
         let facets = means.len() / steps;
-        let seen = DMatrix::from_vec(facets, steps, means) * &eigen.eigenvectors;
-        let excited = eigen.eigenvectors.row(0) * norm;
+        let seen = DMatrix::from_vec(facets, steps, means) * &vectors;
+        let excited = vectors.row(0) * norm;
         let residues = (0..facets * steps).map(|n| seen[(n / steps, n % steps)] * excited[n % steps]);
-        ModeSet { residues: residues.collect(), poles: eigen.eigenvalues.as_slice().to_vec() }
+        ModeSet { residues: residues.collect(), poles }
     }
 }
 
@@ -306,15 +307,6 @@ fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
         let along = dot(x, direction);
         x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
     }
-}
-
-/// The symmetric matrix with `diagonal` and the elements `beside` it.
-pub(crate) fn tridiagonal(diagonal: &[f64], beside: &[f64]) -> DMatrix<f64> {
-    DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
-        0 => diagonal[i],
-        1 => beside[i.min(j)],
-        _ => 0.0,
-    })
 }
 
 /// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.

@@ -12,7 +12,8 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde_json::Value;
 use vfold::camera::CameraResponse;
-use vfold::forward::{FacetModel, Lighting};
+use vfold::forward::bounces::Bounces;
+use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
@@ -80,6 +81,40 @@ fn dense_irradiance(k: &DMatrix<f64>, direct: &DVector<f64>, r0: f64, r1: f64) -
     system.lu().solve(direct).unwrap()
 }
 
+/// A fold under sun and sky, one waveband and one channel.
+struct Lit {
+    fold: Fold,
+    lighting: Lighting,
+    k: DMatrix<f64>,
+    direct: DVector<f64>,
+}
+
+impl Lit {
+    /// The sun leans by a share of half the opening.
+    fn new(fold: &Fold, lean: f64, sky: f64) -> Self {
+        let light = Light::new(fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
+        let (k, half, sun) = (matrix(fold), fold.facets().len(), light.panel_irradiance());
+        let open = handed_on(&k).map(|sum| 1.0 - sum);
+        let direct = DVector::from_fn(2 * half, |facet, _| sun[facet / half] + sky * open[facet]);
+        let eye = CameraResponse::from_weights(vec![vec![1.0]]);
+        Self { fold: *fold, lighting: Lighting { light, sun: eye.clone(), sky: eye }, k, direct }
+    }
+
+    /// One sheet, and a sheet beside a card on either panel, with the reflectances of both panels.
+    fn models(&self, r: f64, card: f64) -> [(FacetModel, [f64; 2]); 3] {
+        let response = response(&self.fold);
+        let beside = |panel| FacetModel::with_card(&response, &self.lighting, panel, vec![card]);
+        let sheet = FacetModel::one_sheet(&response, &self.lighting);
+        [(sheet, [r, r]), (beside(0), [card, r]), (beside(1), [r, card])]
+    }
+
+    /// Irradiance times the reflectances of the panels.
+    fn reflected(&self, irradiance: &DVector<f64>, r0: f64, r1: f64) -> DVector<f64> {
+        let half = irradiance.len() / 2;
+        DVector::from_fn(2 * half, |facet, _| if facet < half { r0 } else { r1 } * irradiance[facet])
+    }
+}
+
 fn worst_relative(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
 }
@@ -144,27 +179,82 @@ proptest! {
         prop_assert!(worst_relative(&short, &dense) < 1e-10, "{}", worst_relative(&short, &dense));
     }
 
-    /// The model behind the tools, one waveband and one channel: what it sees is reflectance times dense irradiance, under sun
-    /// and sky together, for one sheet and for a sheet beside a card.
+    /// The model behind the tools: what it sees is reflectance times dense irradiance, under sun and sky together, for one
+    /// sheet and for a sheet beside a card on either panel.
     #[test]
     fn the_facet_model_sees_the_dense_solution(
         fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
     ) {
-        let light = Light::new(&fold, 0.5 * lean * fold.angle_deg(), 0.0, sky).unwrap();
-        let (k, half) = (matrix(&fold), fold.facets().len());
-        let open = handed_on(&k).map(|sum| 1.0 - sum);
-        let direct = DVector::from_fn(2 * half, |facet, _| light.panel_irradiance()[facet / half] + sky * open[facet]);
-        let eye = CameraResponse::from_weights(vec![vec![1.0]]);
-        let lighting = Lighting { light, sun: eye.clone(), sky: eye };
-        let response = response(&fold);
-        for (model, r1) in [
-            (FacetModel::one_sheet(&response, &lighting), r),
-            (FacetModel::with_card(&response, &lighting, vec![card]), card),
-        ] {
+        let lit = Lit::new(&fold, lean, sky);
+        for (model, [r0, r1]) in lit.models(r, card) {
             let seen = model.facet_rgb(&[r]).column(0).into_owned();
-            let lit = dense_irradiance(&k, &direct, r, r1);
-            let want = DVector::from_fn(2 * half, |facet, _| if facet < half { r } else { r1 } * lit[facet]);
+            let want = lit.reflected(&dense_irradiance(&lit.k, &lit.direct, r0, r1), r0, r1);
             prop_assert!(worst_relative(&seen, &want) < 1e-9, "{}", worst_relative(&seen, &want));
+        }
+    }
+
+    /// Eqs. (11) to (14): what it sees of the first bounces is their sum in the dense system, and what it leaves out is what
+    /// one more bounce becomes in eq. (15). As few bounces as needed are no more than that.
+    #[test]
+    fn the_facet_model_counts_bounces(
+        fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0, count in 0_u32..20,
+    ) {
+        let lit = Lit::new(&fold, lean, sky);
+        for (model, [r0, r1]) in lit.models(r, card) {
+            let hand_on = |light: &DVector<f64>| &lit.k * lit.reflected(light, r0, r1);
+            let (mut bounce, mut sum) = (lit.direct.clone(), lit.direct.clone());
+            for _ in 0..count {
+                bounce = hand_on(&bounce);
+                sum += &bounce;
+            }
+            let (seen, left_out) = Bounces::First(count).facet_rgb(&model, &[r]);
+            let want = lit.reflected(&sum, r0, r1);
+            prop_assert!(worst_relative(&seen.column(0).into_owned(), &want) < 1e-9);
+            let rest = dense_irradiance(&lit.k, &hand_on(&bounce), r0, r1);
+            let missing = rest.component_div(&(sum + &rest)).max();
+            prop_assert!((left_out.unwrap().missing - missing).abs() < 1e-9);
+
+            let enough = Bounces::Within(1e-6).facet_rgb(&model, &[r]).1.unwrap();
+            prop_assert!(enough.missing <= 1e-6);
+            let fewer = enough.count.checked_sub(1).map(|fewer| Bounces::First(fewer).facet_rgb(&model, &[r]).1);
+            prop_assert!(fewer.is_none_or(|fewer| fewer.unwrap().missing > 1e-6));
+        }
+    }
+
+    #[test]
+    fn many_bounces_are_all(fold in any_folds(), r in 0.0..=1.0, card in 0.0..=1.0) {
+        for (model, _) in Lit::new(&fold, 0.3, 0.2).models(r, card) {
+            let (all, left_out) = Bounces::All.facet_rgb(&model, &[r]);
+            prop_assert!(left_out.is_none());
+            prop_assert!((Bounces::First(u32::MAX).facet_rgb(&model, &[r]).0 - &all).amax() < 1e-12 * all.amax());
+        }
+    }
+
+    /// Eq. (24) with a reflectance a facet, black and white ones among them, in the light of sun and sky.
+    #[test]
+    fn facets_of_any_reflectance_solve_the_dense_system(
+        fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0,
+        r in prop::collection::vec(prop_oneof![Just(0.0), 0.0..=1.0, Just(1.0)], 50),
+    ) {
+        let lit = Lit::new(&fold, lean, sky);
+        let r = DVector::from_column_slice(&r[..2 * fold.facets().len()]);
+        let system = DMatrix::identity(r.len(), r.len()) - &lit.k * DMatrix::from_diagonal(&r);
+        let want = system.lu().solve(&lit.direct).unwrap().component_mul(&r);
+        let seen = nonuniform::facet_rgb(&form_factors(&fold), &lit.lighting, &DMatrix::from_columns(&[r])).unwrap();
+        prop_assert!((seen.column(0) - &want).amax() <= 1e-12 * want.amax(), "{}", seen.column(0) - &want);
+    }
+
+    /// Even panels are the special case that the poles solve.
+    #[test]
+    fn facets_of_one_reflectance_are_a_panel(
+        fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
+    ) {
+        let lit = Lit::new(&fold, lean, sky);
+        for (model, [r0, r1]) in lit.models(r, card) {
+            let facets = lit.reflected(&DVector::from_element(lit.k.nrows(), 1.0), r0, r1);
+            let facets = DMatrix::from_columns(&[facets]);
+            let seen = nonuniform::facet_rgb(&form_factors(&fold), &lit.lighting, &facets).unwrap();
+            prop_assert!((&seen - model.facet_rgb(&[r])).amax() < 1e-10 * seen.amax());
         }
     }
 
@@ -273,6 +363,16 @@ fn lighting(light: Light) -> Lighting {
     let sun = CameraResponse::new(&grid, &sensitivities, &power("D65")).unwrap();
     let sky = sun.to_other_light(&grid, &sensitivities, &power("daylight:10000")).unwrap();
     Lighting { light, sun, sky }
+}
+
+/// Lanczos' matrix of this fold is one that nalgebra's eigenvalues are wrong for, by a hundredth.
+#[test]
+fn a_hard_tridiagonal_matrix() {
+    let facets = FacetGrid { rows: 3, cols: 3 };
+    let fold = Fold::new(12.692330767814138, 4.241862460768551, 1.0, facets).unwrap();
+    let fold = fold.with_panel1_depth(5.262542651803017).unwrap();
+    let dense = dense_irradiance(&matrix(&fold), &DVector::from_element(18, 1.0), 0.5, 0.5);
+    assert!(worst_relative(&irradiance(&response(&fold), EVEN, 0.5, 0.5), &dense) < 1e-12);
 }
 
 /// Flat and facing the sun, a perfect white diffuser gives 1 in the camera's strongest channel; a sky adds its share.

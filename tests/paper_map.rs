@@ -49,9 +49,8 @@ fn text_of(path: &str) -> String {
     let file = source(path);
     let mut text = fs::read_to_string(&file).unwrap();
     if file.ends_with("mod.rs") {
-        for entry in fs::read_dir(file.parent().unwrap()).unwrap() {
-            text += &fs::read_to_string(entry.unwrap().path()).unwrap();
-        }
+        let paths = fs::read_dir(file.parent().unwrap()).unwrap().map(|entry| entry.unwrap().path());
+        paths.filter(|path| path.is_file()).for_each(|path| text += &fs::read_to_string(path).unwrap());
     }
     text
 }

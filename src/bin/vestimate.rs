@@ -172,7 +172,7 @@ impl Transform for Estimator<'_> {
         if let Some(spec) = &self.args.reference_panel {
             let card = cli::one_reflectance("--reference-panel", spec)?;
             let reflectance = card.on(&grid, Outside::Refuse)?;
-            scene.set_reference_panel(&ReferencePanel { name: card.name().to_owned(), reflectance })?;
+            scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
         let method = match &self.method {
             Method::Map(spectra, classes) => {

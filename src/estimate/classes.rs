@@ -2,7 +2,9 @@
 //!
 //! Reds, greens, greys: what a spectrum does at one end tells far more of the other end once its kind is known.
 
-use nalgebra::{DMatrix, DVector, RowDVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, RowDVector};
+
+use crate::solve::Eigen;
 
 /// Most rounds of halving: eight classes.
 const HALVINGS: u32 = 3;
@@ -69,10 +71,10 @@ pub(super) fn shrunk(covariance: &DMatrix<f64>, count: f64, of_set: &DMatrix<f64
 
 /// Eigenvectors of the largest eigenvalues, a column each.
 fn leading_axes(covariance: DMatrix<f64>, count: usize) -> DMatrix<f64> {
-    let eigen = SymmetricEigen::new(covariance);
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let columns: Vec<_> = order.iter().take(count).map(|k| eigen.eigenvectors.column(*k)).collect();
+    let eigen = Eigen::of_symmetric(covariance);
+    let mut order: Vec<usize> = (0..eigen.values.len()).collect();
+    order.sort_by(|a, b| eigen.values[*b].total_cmp(&eigen.values[*a]));
+    let columns: Vec<_> = order.iter().take(count).map(|k| eigen.vectors.column(*k)).collect();
     DMatrix::from_columns(&columns)
 }
 

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::{Error, Result};
 use crate::estimate::Exposure;
 use crate::forward::FacetModel;
+use crate::solve::Eigen;
 
 /// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
 pub struct Measured<'a> {
@@ -308,13 +309,14 @@ fn compress(
     let reach: Vec<_> = sources.iter().map(|source| source * samples).collect();
     let reach =
         DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
-    let directions = nalgebra::SymmetricEigen::new(&reach * reach.transpose());
+    let directions = Eigen::of_symmetric(&reach * reach.transpose());
     // Below that share of the largest, squares of singular values are rounding.
-    let least = (cutoff * cutoff).max(1e-15 * directions.eigenvalues.max());
+    let largest = directions.values.iter().copied().fold(0.0, f64::max);
+    let least = (cutoff * cutoff).max(1e-15 * largest);
     let kept: Vec<_> = directions
-        .eigenvalues
+        .values
         .iter()
-        .zip(directions.eigenvectors.column_iter())
+        .zip(directions.vectors.column_iter())
         .filter(|(square, _)| **square > least)
         .map(|(_, direction)| direction)
         .collect();

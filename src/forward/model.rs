@@ -2,10 +2,11 @@
 //!
 //! Every facet's radiance is a sum over the poles of the response; the poles and what the reflectance makes of them are
 //! common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the spectrum is integrated
-//! once a pole and channel, not once a facet and channel.
+//! once a pole and channel, not once a facet and channel, and only over wavebands that a sensor sees.
 
 use nalgebra::DMatrix;
 
+use super::families::{EVEN, Families, Family, ODD, beside_card};
 use crate::camera::CameraResponse;
 use crate::geometry::Light;
 use crate::response::{ModeLight, Modes, Response};
@@ -21,12 +22,29 @@ pub struct Lighting {
     pub sky: CameraResponse,
 }
 
+impl Lighting {
+    /// The lights of the scene: the sun, and the sky if there is one, each with the camera's response to it.
+    pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> {
+        let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
+        let sky = (ModeLight::Sky(self.light.sky()), &self.sky);
+        std::iter::once(sun).chain((self.light.sky() > 0.0).then_some(sky))
+    }
+
+    /// The wavebands in which at least one channel sees one of the lights.
+    #[must_use]
+    pub fn seen_bands(&self) -> Vec<usize> {
+        let seen = |band: &usize| self.sources().any(|(_, camera)| camera.sees(*band));
+        (0..self.sun.bands()).filter(seen).collect()
+    }
+}
+
 /// Facet RGB of a fold under known light, for any reflectance of its panels.
 #[derive(Clone, Debug)]
 pub struct FacetModel {
     poles: Vec<f64>,
     panels: Panels,
     sources: Vec<Source>,
+    seen_bands: Vec<usize>,
 }
 
 /// Whether both panels are of one sheet.
@@ -34,8 +52,8 @@ pub struct FacetModel {
 enum Panels {
     /// One sheet, lit unevenly (odd modes excited) or evenly.
     One { odd: bool },
-    /// Panel 0 is the sheet, panel 1 a card of known reflectance a waveband.
-    Card(Vec<f64>),
+    /// One panel is a card of known reflectance a waveband, the other is the sheet.
+    Card { panel: usize, reflectance: Vec<f64> },
 }
 
 /// One light: how much of each term every facet takes, and how the camera sees it.
@@ -56,17 +74,17 @@ impl FacetModel {
         Self::new(response, lighting, Panels::One { odd: !even })
     }
 
-    /// A fold of a sheet (panel 0) and a card (panel 1) whose reflectance is known on the scene's wavelengths.
+    /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other one the sheet.
     #[must_use]
-    pub fn with_card(response: &Response, lighting: &Lighting, card: Vec<f64>) -> Self {
-        Self::new(response, lighting, Panels::Card(card))
+    pub fn with_card(response: &Response, lighting: &Lighting, panel: usize, reflectance: Vec<f64>) -> Self {
+        Self::new(response, lighting, Panels::Card { panel, reflectance })
     }
 
     fn new(response: &Response, lighting: &Lighting, panels: Panels) -> Self {
-        let mut model = Self { poles: response.poles(), panels, sources: Vec::new() };
-        model.add_source(response, &lighting.sun, ModeLight::Sun(lighting.light.panel_irradiance()));
-        if lighting.light.sky() > 0.0 {
-            model.add_source(response, &lighting.sky, ModeLight::Sky(lighting.light.sky()));
+        let (poles, seen_bands) = (response.poles(), lighting.seen_bands());
+        let mut model = Self { poles, panels, sources: Vec::new(), seen_bands };
+        for (light, camera) in lighting.sources() {
+            model.add_source(response, camera, light);
         }
         model
     }
@@ -85,8 +103,9 @@ impl FacetModel {
                             facets[(facet, poles + k)] = 0.5 * (mode.own - mode.other);
                         }
                     }
-                    Panels::Card(_) => {
-                        facets[(facet, 2 * panel * poles + k)] = mode.own;
+                    Panels::Card { panel: card, .. } => {
+                        let own = if panel == card { 2 } else { 0 };
+                        facets[(facet, own * poles + k)] = mode.own;
                         facets[(facet, poles + k)] = mode.other;
                     }
                 }
@@ -102,14 +121,14 @@ impl FacetModel {
             * match self.panels {
                 Panels::One { odd: false } => 1,
                 Panels::One { odd: true } => 2,
-                Panels::Card(_) => 3,
+                Panels::Card { .. } => 3,
             }
     }
 
     /// Number of wavebands.
     #[must_use]
     pub fn bands(&self) -> usize {
-        self.sources[0].camera.channel(0).len()
+        self.sources[0].camera.bands()
     }
 
     /// The lights, each with what facets take of the terms.
@@ -124,15 +143,29 @@ impl FacetModel {
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
     #[must_use]
     pub fn terms_of<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
+        let derivatives = |family: &Family, r, g| {
+            let all = family.at(r, g);
+            std::array::from_fn(|n| all[n])
+        };
+        self.terms_in(0..reflectance.len(), reflectance, derivatives)
+    }
+
+    /// What `of` makes of every family, pole and waveband of `bands`: term by waveband.
+    fn terms_in<const N: usize>(
+        &self,
+        bands: impl ExactSizeIterator<Item = usize>,
+        reflectance: &[f64],
+        of: impl Fn(&Family, f64, f64) -> [f64; N],
+    ) -> [DMatrix<f64>; N] {
         let (terms, poles) = (self.terms(), self.poles.len());
-        let mut all = [(); N].map(|()| DMatrix::zeros(terms, reflectance.len()));
-        for (band, r) in reflectance.iter().enumerate() {
+        let mut all = [(); N].map(|()| DMatrix::zeros(terms, bands.len()));
+        for (column, band) in bands.enumerate() {
             for (n, family) in self.families(band).iter().enumerate() {
-                let start = band * terms + n * poles;
+                let start = column * terms + n * poles;
                 let mut targets =
                     all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[start..start + poles]);
                 for (k, g) in self.poles.iter().enumerate() {
-                    let at = family.at(*r, *g);
+                    let at = of(family, reflectance[band], *g);
                     targets.iter_mut().zip(at).for_each(|(target, value)| target[k] = value);
                 }
             }
@@ -142,18 +175,9 @@ impl FacetModel {
 
     /// The families of terms in a waveband.
     fn families(&self, band: usize) -> Families {
-        const EVEN: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [1.0, 0.0] };
-        const ODD: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [-1.0, 0.0] };
         match &self.panels {
             Panels::One { odd } => Families { all: [EVEN, ODD, ODD], count: 1 + usize::from(*odd) },
-            Panels::Card(card) => {
-                let c = card[band];
-                let family = |offset, a| Family { offset, a, b: [0.0, c] };
-                // The last is c/d = c + c²g²·r/d.
-                let all =
-                    [family(0.0, [1.0, 0.0, 0.0]), family(0.0, [0.0, c, 0.0]), family(c, [0.0, 0.0, c * c])];
-                Families { all, count: 3 }
-            }
+            Panels::Card { reflectance, .. } => beside_card(reflectance[band]),
         }
     }
 
@@ -163,44 +187,29 @@ impl FacetModel {
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
     #[must_use]
     pub fn facet_rgb(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        let [terms] = self.terms_of(reflectance);
+        self.rgb_of(reflectance, Family::value)
+    }
+
+    /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than `bounces` times.
+    ///
+    /// # Source
+    /// Deeb et al., eqs. (5) to (7) and (11) to (14): light after b bounces is a mode's share times its pole to the b, so
+    /// that the sum over b > `bounces` has a closed form.
+    #[must_use]
+    pub fn facet_rgb_after(&self, bounces: u32, reflectance: &[f64]) -> DMatrix<f64> {
+        self.rgb_of(reflectance, |family, r, g| family.value_after(bounces, r, g))
+    }
+
+    /// RGB of every facet, `of` being what a family makes of reflectance and pole.
+    fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
+        let bands = &self.seen_bands;
+        let [terms] = self.terms_in(bands.iter().copied(), reflectance, |family, r, g| [of(family, r, g)]);
         let of_source = |source: &Source| {
             let camera = &source.camera;
             let weights =
-                DMatrix::from_fn(reflectance.len(), camera.channels(), |band, c| camera.channel(c)[band]);
+                DMatrix::from_fn(bands.len(), camera.channels(), |n, c| camera.channel(c)[bands[n]]);
             &source.facets * (&terms * weights)
         };
         self.sources.iter().map(of_source).sum()
-    }
-}
-
-/// Up to three families of terms.
-struct Families {
-    all: [Family; 3],
-    count: usize,
-}
-
-impl Families {
-    fn iter(&self) -> impl Iterator<Item = &Family> {
-        self.all[..self.count].iter()
-    }
-}
-
-/// `offset + a·r/(1 − b·r)`, with a and b polynomials of the pole g: `a₀ + a₁g + a₂g²` and `b₁g + b₂g²`.
-struct Family {
-    offset: f64,
-    a: [f64; 3],
-    b: [f64; 2],
-}
-
-impl Family {
-    /// Value, first and second derivative at reflectance `r` for the pole `g`.
-    #[inline]
-    fn at(&self, r: f64, g: f64) -> [f64; 3] {
-        let a = self.a[0] + g * (self.a[1] + g * self.a[2]);
-        let b = g * (self.b[0] + g * self.b[1]);
-        let rest = 1.0 / (1.0 - b * r);
-        let slope = a * rest * rest;
-        [self.offset + a * r * rest, slope, 2.0 * b * slope * rest]
     }
 }

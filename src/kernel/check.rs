@@ -2,13 +2,12 @@
 
 use std::fmt;
 
-use nalgebra::SymmetricEigen;
-
 use super::facets::FacetOperator;
 use super::fold_kernel::FoldKernel;
 use super::panel::PanelOperator;
 use crate::geometry::FacetGrid;
-use crate::response::{ModeLight, Response, dot, tridiagonal};
+use crate::response::{ModeLight, Response, dot};
+use crate::solve::Eigen;
 
 /// Relative disagreement that rounding may leave.
 const ROUNDING: f64 = 1e-12;
@@ -139,7 +138,7 @@ pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
         }
         diagonal.push(along);
         length = dot(&next, &next).sqrt();
-        let found = SymmetricEigen::new(tridiagonal(&diagonal, &beside)).eigenvalues.max();
+        let found = Eigen::of_tridiagonal(&diagonal, &beside).values.into_iter().fold(0.0, f64::max);
         let settled = found - largest <= 1e-15 * found || length <= 1e-15 * found;
         if settled || diagonal.len() == STEPS_MAX {
             return found.max(0.0).sqrt();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use crate::solve::Eigen;
 
 /// A quadrature rule: `∫ f ≈ Σ weights[i] f(nodes[i])`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,13 +58,8 @@ impl Rule {
             before = std::mem::replace(&mut now, next.iter().map(|p| p / norm).collect());
             beside.push(norm);
         }
-        let jacobi = DMatrix::from_fn(order, order, |i, j| match i.abs_diff(j) {
-            1 => beside[i.min(j)],
-            _ => 0.0,
-        });
-        let eigen = SymmetricEigen::new(jacobi);
-        let mut rule: Vec<(f64, f64)> =
-            (0..order).map(|k| (eigen.eigenvalues[k], eigen.eigenvectors[(0, k)].powi(2))).collect();
+        let Eigen { values, vectors } = Eigen::of_tridiagonal(&vec![0.0; order], &beside);
+        let mut rule: Vec<(f64, f64)> = (0..order).map(|k| (values[k], vectors[(0, k)].powi(2))).collect();
         rule.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (nodes, weights) = rule.into_iter().unzip();
         Self { nodes, weights }

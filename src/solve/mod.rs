@@ -1,7 +1,12 @@
-//! Solvers for smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
+//! Solvers: linear systems, eigenvalues, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
+mod conjugate_gradients;
+mod eigen;
 pub mod interior_point;
 pub mod posterior;
+
+pub use conjugate_gradients::conjugate_gradients;
+pub use eigen::Eigen;
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]

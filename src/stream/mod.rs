@@ -4,6 +4,7 @@
 //! through typed views and add their own.
 
 mod fields;
+mod model;
 mod npy;
 mod photograph;
 mod reader;
@@ -13,10 +14,11 @@ mod scene;
 mod writer;
 
 pub use fields::{Fields, finite};
-pub use npy::{ArrayStack, write_matrix};
+pub use model::ReferencePanel;
+pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use reader::{Reader, Record, Transform, pipe};
 pub use sample::{Colours, ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
-pub use scene::{CameraRecord, Optics, ReferencePanel, Scene, SpectrumRecord};
+pub use scene::{CameraRecord, Optics, Scene, SpectrumRecord};
 pub use writer::Output;

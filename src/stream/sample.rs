@@ -8,6 +8,7 @@ use serde_json::json;
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
+use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
 use crate::solve::Termination;
@@ -142,6 +143,16 @@ impl Sample {
             reflectance_sd: Option<Vec<f64>>,
         }
         Ok(self.fields.get::<Deviation>("estimate")?.and_then(|estimate| estimate.reflectance_sd))
+    }
+
+    /// Says how many bounces of light the facets' values are made of.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_bounces(&mut self, truncation: &Truncation) -> Result<()> {
+        let Truncation { count, missing } = truncation;
+        finite("bounces.missing", [missing])?;
+        self.fields.set("bounces", json!({ "count": count, "missing": missing }))
     }
 
     /// Sets the true spectrum.

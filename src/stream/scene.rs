@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use super::fields::{Fields, finite};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::forward::{FacetModel, Lighting};
+use crate::forward::Lighting;
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::Method;
-use crate::kernel::mesh::{Accuracy, KernelSource, Mesh, respond};
+use crate::kernel::mesh::{Accuracy, KernelSource};
 use crate::response::{ModeSet, Modes, Response};
 use crate::spectrum::WavelengthGrid;
 
@@ -17,8 +17,6 @@ use crate::spectrum::WavelengthGrid;
 const FORMAT: &str = "vfold/1";
 /// Largest power or sensitivity that is read: sums and products of such numbers stay finite.
 const LARGEST: f64 = 1e30;
-/// Relative error of the light in a picture: below its noise.
-const PICTURE_TOLERANCE: f64 = 1e-4;
 
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,15 +56,6 @@ pub struct Optics {
     pub illuminant: SpectrumRecord,
     /// The sky, if it has another spectrum.
     pub sky: Option<SpectrumRecord>,
-}
-
-/// A card of known reflectance in the place of panel 1, on the scene's wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
-pub struct ReferencePanel {
-    /// Built-in name or file.
-    pub name: String,
-    /// Reflectance a waveband.
-    pub reflectance: Vec<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -275,6 +264,41 @@ impl Scene {
         self.fields.set("accuracy", record)
     }
 
+    /// Relative error that the response was allowed.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not there or not between 0 and 1.
+    pub fn tolerance(&self) -> Result<f64> {
+        #[derive(Deserialize)]
+        struct Allowed {
+            tolerance: f64,
+        }
+        let accuracy: Allowed = self.fields.require("accuracy", "make the scene with vkernel")?;
+        match accuracy.tolerance {
+            tolerance if tolerance > 0.0 && tolerance < 1.0 => Ok(tolerance),
+            tolerance => {
+                Err(Error::field("accuracy.tolerance", format!("{tolerance} is not between 0 and 1")))
+            }
+        }
+    }
+
+    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if `skipped` is not a list.
+    pub fn set_skipped(&mut self, what: &str, count: usize, why: &str) -> Result<()> {
+        let before: Option<Vec<Value>> = self.fields.get("skipped")?;
+        if before.is_none() && count == 0 {
+            return Ok(());
+        }
+        let mut skipped = before.unwrap_or_default();
+        skipped.retain(|entry| entry["what"] != what);
+        if count > 0 {
+            skipped.push(json!({ "what": what, "count": count, "why": why }));
+        }
+        self.fields.set("skipped", skipped)
+    }
+
     /// The wavelengths of the scene.
     ///
     /// # Errors
@@ -310,45 +334,6 @@ impl Scene {
         }
         not_negative("camera.sensitivities", camera.sensitivities.iter().flatten())?;
         Ok(camera)
-    }
-
-    /// Says that panel 1 is a card of known reflectance.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_reference_panel(&mut self, card: &ReferencePanel) -> Result<()> {
-        finite("reference_panel", &card.reflectance)?;
-        self.fields.set("reference_panel", card)
-    }
-
-    /// The model of facet RGB: of one sheet, or of a sheet and a card.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a part of the scene is missing or does not fit the others.
-    pub fn model(&self) -> Result<FacetModel> {
-        self.model_with(&self.response()?, &self.lighting()?)
-    }
-
-    /// The same under `lighting` with other facets, finer than those of the scene, for pictures.
-    ///
-    /// # Errors
-    /// As [`Scene::model`].
-    pub fn fine_model(&self, grid: FacetGrid, lighting: &Lighting) -> Result<FacetModel> {
-        let fold = self.fold()?.with_facets(grid)?.with_spacing(Spacing::Uniform);
-        let (response, _) = respond(&fold, Mesh::Auto, PICTURE_TOLERANCE)?;
-        self.model_with(&response, lighting)
-    }
-
-    fn model_with(&self, response: &Response, lighting: &Lighting) -> Result<FacetModel> {
-        let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else {
-            return Ok(FacetModel::one_sheet(response, lighting));
-        };
-        if card.reflectance.len() != self.grid()?.len()
-            || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r))
-        {
-            return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
-        }
-        Ok(FacetModel::with_card(response, lighting, card.reflectance))
     }
 
     /// The lights as the camera responds to them.

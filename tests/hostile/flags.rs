@@ -112,6 +112,30 @@ fn light_and_camera() {
                 2,
                 &["--reference-panel", "a set"],
             ),
+            case("vforward scene.json --panel-reflectance 1=0.5", 2, &["--reflectance", "missing"]),
+            case("vforward scene.json --reflectance 0.5 --panel-reflectance 2=0.5", 2, &["0=SPEC"]),
+            case("vforward scene.json --reflectance 0.5 --panel-reflectance 0=1.5", 1, &["0..1"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --panel-reflectance 1=cc24",
+                2,
+                &["--panel-reflectance", "a set"],
+            ),
+            case(
+                "vforward scene.json --reflectance 0.5 --panel-reflectance 1=0.5 --reference-panel 0.5",
+                2,
+                &["panel 1 has two reflectances"],
+            ),
+            case(
+                "vforward scene.json --reflectance 0.5 --panel-reflectance 0=0.5 --reference-panel 0.5",
+                2,
+                &["--reflectance", "leave it out"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --bounces=-1", 2, &["--bounces", "inf, auto"]),
+            case(
+                "sed 's/accuracy/was/' scene.json | vforward --reflectance 0.5 --bounces auto",
+                1,
+                &["-:1", "accuracy"],
+            ),
             case("vforward scene.json --reflectance 0.5 --render picture.bmp", 1, &["picture.bmp", ".exr"]),
             case("vforward scene.json --reflectance 0.5 --render no/such.exr", 1, &["no/such.exr"]),
             case(
@@ -120,6 +144,44 @@ fn light_and_camera() {
                 &["--render-size"],
             ),
             case("vforward scene.json --reflectance 0.5 --save facet_rgb=no/such.npy", 1, &["no/such.npy"]),
+        ],
+    );
+}
+
+#[test]
+fn reflectances_of_facets() {
+    assert_refused(
+        "vkernel --facets 1x1 -o scene.json
+         python3 - <<'END'
+import numpy as np
+np.save('good.npy', np.full((2, 61), 0.5))
+np.save('wide.npy', np.full((2, 62), 0.5))
+np.save('deep.npy', np.full((1, 2, 61), 0.5))
+np.save('single.npy', np.full((2, 61), 0.5, 'f4'))
+np.save('bright.npy', np.full((2, 61), 1.5))
+np.save('nan.npy', np.full((2, 61), np.nan))
+whole = open('good.npy', 'rb').read()
+open('cut.npy', 'wb').write(whole[:-8])
+open('vast.npy', 'wb').write(whole.replace(b'(2, 61)', b'(9**9,)').replace(b'9**9', b'9999'))
+END
+",
+        &[
+            case("vforward scene.json --facet-reflectance no.npy", 1, &["no.npy", "No such file"]),
+            case("vforward scene.json --facet-reflectance scene.json", 1, &["scene.json", "NPY"]),
+            case(
+                "vforward scene.json --facet-reflectance wide.npy",
+                1,
+                &["[2, 62]", "2 facets by 61 wavebands"],
+            ),
+            case("vforward scene.json --facet-reflectance deep.npy", 1, &["[1, 2, 61]"]),
+            case("vforward scene.json --facet-reflectance vast.npy", 1, &["[9999]"]),
+            case("vforward scene.json --facet-reflectance single.npy", 1, &["single.npy", "float64"]),
+            case("vforward scene.json --facet-reflectance bright.npy", 1, &["bright.npy", "1.5", "0 to 1"]),
+            case("vforward scene.json --facet-reflectance nan.npy", 1, &["nan.npy", "NaN"]),
+            case("vforward scene.json --facet-reflectance cut.npy", 1, &["cut.npy"]),
+            case("vforward scene.json --facet-reflectance good.npy --reflectance 0.5", 2, &["--reflectance"]),
+            case("vforward scene.json --facet-reflectance good.npy --bounces 1", 2, &["--bounces"]),
+            case("vforward scene.json --facet-reflectance good.npy --render x.exr", 2, &["--render"]),
         ],
     );
 }

@@ -1,0 +1,162 @@
+//! `vforward`: what a camera sees of a folded sheet.
+
+mod setup;
+mod subject;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use setup::Setup;
+use subject::Subject;
+use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::forward::bounces::Bounces;
+use vfold::forward::noise::Noise;
+use vfold::stream::{Output, Reader, Record, Scene};
+use vfold::{Error, Result};
+
+/// Compute the facet RGB of folded sheets of known reflectance
+#[derive(Parser)]
+#[command(
+    name = "vforward",
+    version,
+    override_usage = "vforward [SCENE] --reflectance <SPEC>... [OPTIONS]\n       vforward [SCENE] --panel-reflectance 0=<SPEC> --panel-reflectance 1=<SPEC> [OPTIONS]\n       vforward [SCENE] --facet-reflectance <FILE.npy>... [OPTIONS]",
+    after_help = "Examples:\n  vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill | vestimate | vscore --table\n  \
+                  vkernel --angle-deg 50 | vforward --reflectance cc24:red --render photo.exr > sample.json"
+)]
+struct Args {
+    /// Scene from vkernel [default: standard input]
+    #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true)]
+    scene: String,
+    /// Reflectances: set, set:member, number, or CSV file
+    #[arg(long, value_name = "SPEC", num_args = 1..,
+        required_unless_present_any = ["panel_reflectance", "facet_reflectance", "generate", "list"])]
+    reflectance: Vec<String>,
+    /// Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet
+    #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
+    panel_reflectance: Vec<(usize, String)>,
+    /// Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a
+    /// facet, no truth in the samples
+    #[arg(long, value_name = "FILE.npy", num_args = 1..,
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "bounces", "render"])]
+    facet_reflectance: Vec<PathBuf>,
+    /// Camera: built-in name or CSV file
+    #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
+    camera: String,
+    #[command(flatten)]
+    optics: OpticsArgs,
+    /// Panel 1 is a card of this reflectance: --panel-reflectance 1=SPEC
+    #[arg(long, value_name = "SPEC")]
+    reference_panel: Option<String>,
+    /// Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene's tolerance asks for
+    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces)]
+    bounces: BouncesArg,
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel
+    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    exposure: f64,
+    /// Standard deviation of noise on every facet (with --render: on every pixel of the picture only)
+    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    noise_sd: f64,
+    /// Standard deviation of photon noise at value 1; it grows with the root of the signal
+    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    photon_noise: f64,
+    /// Seed of the noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
+    #[arg(long, value_name = "FILE")]
+    render: Option<PathBuf>,
+    /// Size of the photograph
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
+    render_size: (usize, usize),
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What `--bounces` takes.
+#[derive(Clone, Copy)]
+enum BouncesArg {
+    All,
+    First(u32),
+    Auto,
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+}
+
+fn main() -> ExitCode {
+    cli::run(tool)
+}
+
+fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    let noise = noise(args)?;
+    let optics = args.optics.resolve(&args.camera)?;
+    let subject = Subject::of(args, &optics.grid)?;
+    let mut reader = Reader::open(&args.scene)?;
+    while let Some(record) = reader.read()? {
+        match record {
+            Record::Scene(mut scene) => {
+                scene.set_optics(&optics)?;
+                if !args.common.no_history {
+                    scene.fields.add_history("vforward")?;
+                }
+                skip_unseen(args, &mut scene).map_err(|e| reader.at(e))?;
+                subject.card().map_or(Ok(()), |card| scene.set_reference_panel(card))?;
+                let setup = Setup::new(args, noise, &scene).map_err(|e| reader.at(e))?;
+                setup.photograph(&subject)?;
+                out.scene(&scene)?;
+                setup.samples(&subject, out)?;
+            }
+            other => out.record(&other)?,
+        }
+    }
+    Ok(())
+}
+
+fn bounces(text: &str) -> std::result::Result<BouncesArg, String> {
+    match text {
+        "inf" => Ok(BouncesArg::All),
+        "auto" => Ok(BouncesArg::Auto),
+        _ => text.parse().map(BouncesArg::First).map_err(|_| "write inf, auto or a number".to_owned()),
+    }
+}
+
+impl BouncesArg {
+    /// The bounces that count in `scene`.
+    fn of(self, scene: &Scene) -> Result<Bounces> {
+        Ok(match self {
+            Self::All => Bounces::All,
+            Self::First(count) => Bounces::First(count),
+            Self::Auto => Bounces::Within(scene.tolerance()?),
+        })
+    }
+}
+
+/// Records the wavebands that no sensor sees: the models leave them out.
+fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
+    let bands = scene.grid()?.len();
+    let unseen = bands - scene.lighting()?.seen_bands().len();
+    if unseen > 0 && args.common.verbose {
+        cli::say("vforward", &format!("{unseen} of {bands} wavebands are seen by no channel: skipped"));
+    }
+    scene.set_skipped("wavebands", unseen, "no sensor sees them")
+}
+
+fn noise(args: &Args) -> Result<Noise> {
+    for (flag, value) in [("--noise-sd", args.noise_sd), ("--photon-noise", args.photon_noise)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(Error::usage(flag, format!("{value} is not a standard deviation"), "give 0 or more"));
+        }
+    }
+    if !(args.exposure > 0.0 && args.exposure.is_finite()) {
+        return Err(Error::usage(
+            "--exposure",
+            format!("{} gives no picture", args.exposure),
+            "give a number above 0",
+        ));
+    }
+    Ok(Noise { sd: args.noise_sd, photon: args.photon_noise })
+}

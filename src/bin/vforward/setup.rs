@@ -1,0 +1,155 @@
+//! Samples and photographs of what is folded, in one scene.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use vfold::camera::CameraResponse;
+use vfold::cli;
+use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::forward::bounces::Bounces;
+use vfold::forward::noise::Noise;
+use vfold::forward::render::{Picture, View};
+use vfold::forward::{FacetModel, Lighting, nonuniform};
+use vfold::kernel::exact::form_factors;
+use vfold::spectrum;
+use vfold::stream::{Output, ReflectanceRecord, Sample, Scene, read_matrix};
+use vfold::{Error, Result};
+
+use super::Args;
+use super::subject::{Sheet, Subject};
+
+/// Samples computed before any is written.
+const BATCH: usize = 64;
+
+/// What the samples of one scene need.
+pub struct Setup<'a> {
+    args: &'a Args,
+    scene: &'a Scene,
+    noise: Noise,
+    bounces: Bounces,
+    lighting: Lighting,
+    model: FacetModel,
+}
+
+impl<'a> Setup<'a> {
+    pub fn new(args: &'a Args, noise: Noise, scene: &'a Scene) -> Result<Self> {
+        Ok(Self {
+            args,
+            scene,
+            noise,
+            bounces: args.bounces.of(scene)?,
+            lighting: scene.lighting()?,
+            model: scene.model()?,
+        })
+    }
+
+    /// Writes a sample a sheet or file.
+    pub fn samples(&self, subject: &Subject, out: &mut Output) -> Result<()> {
+        match subject {
+            Subject::Sheets { sheets, .. } => self.sheets(sheets, out),
+            Subject::Facets(files) => self.facets(files, out),
+        }
+    }
+
+    /// Some at a time on all threads.
+    fn sheets(&self, sheets: &[Sheet], out: &mut Output) -> Result<()> {
+        let numbered: Vec<_> = sheets.iter().enumerate().collect();
+        for batch in numbered.chunks(BATCH) {
+            let made: Vec<Result<Sample>> =
+                batch.par_iter().map(|(n, sheet)| self.of_sheet(sheet, *n as u64)).collect();
+            made.into_iter().try_for_each(|sample| out.sample(&sample?))?;
+        }
+        Ok(())
+    }
+
+    fn of_sheet(&self, sheet: &Sheet, stream: u64) -> Result<Sample> {
+        let (rgb, truncation) = self.bounces.facet_rgb(&self.model, &sheet.reflectance);
+        let mut sample = self.sample(&sheet.id, rgb, stream)?;
+        truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
+        let wavelengths_nm = self.args.optics.wavelengths_nm.wavelengths_nm().to_vec();
+        sample.set_truth(&ReflectanceRecord { wavelengths_nm, reflectance: sheet.reflectance.clone() })?;
+        Ok(sample)
+    }
+
+    /// One after the other: each keeps all threads busy.
+    fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
+        let kernel = form_factors(&self.scene.fold()?);
+        for (n, path) in files.iter().enumerate() {
+            let reflectance = self.facet_reflectance(path)?;
+            let rgb = nonuniform::facet_rgb(&kernel, &self.lighting, &reflectance)?;
+            let id = path.file_stem().unwrap_or_default().to_string_lossy();
+            out.sample(&self.sample(&id, rgb, n as u64)?)?;
+        }
+        Ok(())
+    }
+
+    fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
+        let shape =
+            [(2 * self.scene.fold()?.facets().len(), "facets"), (self.scene.grid()?.len(), "wavebands")];
+        let reflectance = read_matrix(path, shape)?;
+        match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
+            Some(r) => Err(Error::Array {
+                path: path.display().to_string(),
+                problem: format!("{r} is not a reflectance; give numbers from 0 to 1"),
+            }),
+            None => Ok(reflectance),
+        }
+    }
+
+    /// A sample of what the camera sees, noise included, from facet RGB at exposure 1.
+    fn sample(&self, id: &str, rgb: DMatrix<f64>, stream: u64) -> Result<Sample> {
+        // A photograph has its own noise, pixel by pixel.
+        let noise = if self.args.render.is_some() { Noise::default() } else { self.noise };
+        let clean = (self.args.exposure * rgb).transpose();
+        let mut values = clean.as_slice().to_vec();
+        noise.add(&mut values, self.args.seed, stream);
+        let rows = |values: &[f64]| values.chunks(clean.nrows()).map(|rgb| Some(rgb.to_vec())).collect();
+        let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
+        let mut sample = Sample::new(&self.scene.id()?, id)?;
+        sample.set_facets(&rows(&values), (!noise.is_none()).then(|| rows(&sd)).as_ref())?;
+        sample.fields.set("exposure", self.args.exposure)?;
+        Ok(sample)
+    }
+
+    /// Takes the photograph that `--render` asks for, of the first sheet, and says where the panels are in it.
+    pub fn photograph(&self, subject: &Subject) -> Result<()> {
+        let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render, subject) else {
+            return Ok(());
+        };
+        let view = View::of(&self.scene.fold()?, self.args.render_size.0, self.args.render_size.1)?;
+        let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
+        let model = self.scene.fine_model(view.grid(), &lighting)?;
+        let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].reflectance).0;
+        let mut picture = Picture::take(&view, &light);
+        self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
+        if for_screen {
+            picture.save_for_screen(path)?;
+        } else {
+            picture.save(path)?;
+        }
+        if !self.args.common.quiet {
+            say_corners(path, &view);
+        }
+        Ok(())
+    }
+
+    /// The scene as an eye sees it that is adapted to the light.
+    fn screen(&self) -> Result<Lighting> {
+        let illuminant = spectrum::illuminant(&self.args.optics.illuminant)?;
+        let eye = Colorimeter::new(&self.args.optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
+        let response = CameraResponse::from_weights(eye.screen_weights());
+        Ok(Lighting { light: self.scene.light()?, sun: response.clone(), sky: response })
+    }
+}
+
+fn say_corners(path: &Path, view: &View) {
+    let [panel0, panel1] = view
+        .corners()
+        .map(|corners| corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" "));
+    cli::say(
+        "vforward",
+        &format!("{} has its corners at --panel0 \"{panel0}\" --panel1 \"{panel1}\"", path.display()),
+    );
+}

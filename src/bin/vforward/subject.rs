@@ -1,0 +1,102 @@
+//! What is folded, as the flags say it.
+
+use std::path::PathBuf;
+
+use vfold::cli;
+use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use vfold::stream::ReferencePanel;
+use vfold::{Error, Result};
+
+use super::Args;
+
+/// What is folded.
+pub enum Subject {
+    /// Sheets of one reflectance, each folded alone or beside the card.
+    Sheets {
+        /// At least one.
+        sheets: Vec<Sheet>,
+        card: Option<ReferencePanel>,
+    },
+    /// Files with a reflectance a facet.
+    Facets(Vec<PathBuf>),
+}
+
+/// A reflectance on the scene's wavelengths.
+pub struct Sheet {
+    pub id: String,
+    pub reflectance: Vec<f64>,
+}
+
+impl Subject {
+    /// What the flags name, on the wavelengths of `grid`.
+    pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
+        if args.facet_reflectance.is_empty() {
+            sheets(args, grid)
+        } else {
+            Ok(Self::Facets(args.facet_reflectance.clone()))
+        }
+    }
+
+    /// The card beside the sheets, if there is one.
+    pub fn card(&self) -> Option<&ReferencePanel> {
+        match self {
+            Self::Sheets { card, .. } => card.as_ref(),
+            Self::Facets(_) => None,
+        }
+    }
+}
+
+fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
+    let mut sheets = Vec::new();
+    for spec in &args.reflectance {
+        for spectrum in spectrum::reflectances(spec)? {
+            sheets.push(sheet(&spectrum, grid)?);
+        }
+    }
+    let card = match panels(args, grid)? {
+        [None, None] => None,
+        [Some(card), None] => Some((0, card)),
+        [None, Some(card)] => Some((1, card)),
+        [Some(_), Some(_)] if !sheets.is_empty() => {
+            let problem = "both panels have their reflectance already";
+            return Err(Error::usage("--reflectance", problem, "leave it out"));
+        }
+        [Some(sheet), Some(card)] => {
+            sheets = vec![Sheet { id: format!("{}+{}", sheet.id, card.id), ..sheet }];
+            Some((1, card))
+        }
+    };
+    if sheets.is_empty() {
+        let problem = "missing, and --panel-reflectance gives one panel only";
+        return Err(Error::usage("--reflectance", problem, "give it or the other panel's"));
+    }
+    let card = card.map(|(panel, card)| ReferencePanel::new(panel, &card.id, card.reflectance));
+    Ok(Subject::Sheets { sheets, card })
+}
+
+/// The reflectances that belong to one panel.
+fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
+    let card = args.reference_panel.iter().map(|spec| ("--reference-panel", 1, spec));
+    let others = args.panel_reflectance.iter().map(|(panel, spec)| ("--panel-reflectance", *panel, spec));
+    let mut panels = [None, None];
+    for (flag, panel, spec) in card.chain(others) {
+        let known = panels[panel].replace(sheet(&cli::one_reflectance(flag, spec)?, grid)?);
+        if known.is_some() {
+            return Err(Error::usage(flag, format!("panel {panel} has two reflectances"), "give one"));
+        }
+    }
+    Ok(panels)
+}
+
+fn sheet(spectrum: &Spectrum, grid: &WavelengthGrid) -> Result<Sheet> {
+    Ok(Sheet { id: spectrum.name().to_owned(), reflectance: spectrum.on(grid, Outside::Refuse)? })
+}
+
+/// Parses `0=SPEC` or `1=SPEC`.
+pub fn panel_and_spec(text: &str) -> std::result::Result<(usize, String), String> {
+    match text.split_once('=') {
+        Some(("0", spec)) => Ok((0, spec.to_owned())),
+        Some(("1", spec)) => Ok((1, spec.to_owned())),
+        _ => Err("write 0=SPEC or 1=SPEC".to_owned()),
+    }
+}

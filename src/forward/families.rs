@@ -1,0 +1,76 @@
+//! The functions of reflectance that the terms of the facet model are, as fractions and as sums over bounces.
+
+const SHEET: Series = Series { first: 0, step: 1 };
+/// `r/(1 − rg)`.
+pub const EVEN: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [1.0, 0.0], bounces: SHEET };
+/// `r/(1 + rg)`.
+pub const ODD: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [-1.0, 0.0], bounces: SHEET };
+
+/// `r/d`, `rcg/d` and `c/d`, `d = 1 − rcg²`, beside a card of reflectance `c`.
+pub fn beside_card(c: f64) -> Families {
+    let family = |offset, a, first| Family { offset, a, b: [0.0, c], bounces: Series { first, step: 2 } };
+    // The last is c/d = c + c²g²·r/d.
+    let all =
+        [family(0.0, [1.0, 0.0, 0.0], 0), family(0.0, [0.0, c, 0.0], 1), family(c, [0.0, 0.0, c * c], 2)];
+    Families { all, count: 3 }
+}
+
+/// Up to three families of terms.
+pub struct Families {
+    pub all: [Family; 3],
+    pub count: usize,
+}
+
+impl Families {
+    pub fn iter(&self) -> impl Iterator<Item = &Family> {
+        self.all[..self.count].iter()
+    }
+}
+
+/// `offset + a·r/(1 − b·r)`, with a and b polynomials of the pole g: `a₀ + a₁g + a₂g²` and `b₁g + b₂g²`.
+///
+/// The offset is direct light; the fraction is a geometric series.
+pub struct Family {
+    offset: f64,
+    a: [f64; 3],
+    b: [f64; 2],
+    bounces: Series,
+}
+
+/// Term n of a series is light of bounce `first + step·n`.
+pub struct Series {
+    first: u32,
+    step: u32,
+}
+
+impl Family {
+    /// Polynomials a and b at the pole `g`.
+    #[inline]
+    fn coefficients(&self, g: f64) -> (f64, f64) {
+        (self.a[0] + g * (self.a[1] + g * self.a[2]), g * (self.b[0] + g * self.b[1]))
+    }
+
+    /// Value at reflectance `r` for the pole `g`.
+    #[inline]
+    pub fn value(&self, r: f64, g: f64) -> f64 {
+        let (a, b) = self.coefficients(g);
+        self.offset + a * r / (1.0 - b * r)
+    }
+
+    /// The part of the value that more than `bounces` bounces make.
+    pub fn value_after(&self, bounces: u32, r: f64, g: f64) -> f64 {
+        let Series { first, step } = self.bounces;
+        let counted = bounces.saturating_add(step).saturating_sub(first) / step;
+        let (a, b) = self.coefficients(g);
+        a * r * (b * r).powf(f64::from(counted)) / (1.0 - b * r)
+    }
+
+    /// Value, first and second derivative at reflectance `r` for the pole `g`.
+    #[inline]
+    pub fn at(&self, r: f64, g: f64) -> [f64; 3] {
+        let (a, b) = self.coefficients(g);
+        let rest = 1.0 / (1.0 - b * r);
+        let slope = a * rest * rest;
+        [self.offset + a * r * rest, slope, 2.0 * b * slope * rest]
+    }
+}
