@@ -9,6 +9,7 @@ use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
 use vfold::kernel::check::check;
 use vfold::kernel::mesh::{Accuracy, Mesh, respond_by};
 use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
+use vfold::kernel::skipped::{Skipped, skipped};
 use vfold::kernel::{FoldKernel, Method, exact};
 use vfold::stream::{Output, Scene, write_matrix};
 use vfold::{Error, Result};
@@ -140,14 +141,19 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
     let mesh = args.mesh.unwrap_or(default);
     let (response, accuracy) = respond_by(method, fold, mesh, tolerance)?;
     say_accuracy(args, fold, &accuracy)?;
+    let skipped = skipped(fold, &light, &accuracy, response.poles().len());
     if args.common.verbose {
         let error =
             accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
         let (unknowns, poles) = (accuracy.unknowns, response.poles().len());
         cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, facet means' error {error}"));
+        for Skipped { what, count, why } in &skipped {
+            cli::say("vkernel", &format!("skipped {count} {what}: {why}"));
+        }
     }
     let mut scene = Scene::new(&args.id, fold, &light, &response)?;
     scene.set_accuracy(&mesh.to_string(), tolerance, &accuracy)?;
+    skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = out.saves.take("kernel") {
         save(&path, &method.form_factors(fold).0)?;
     }

@@ -50,6 +50,8 @@ pub struct KernelSource {
     pub method: Method,
     /// Largest standard error of one, if they are estimates.
     pub entry_sd: Option<f64>,
+    /// How many were found: those that differ.
+    pub entries: usize,
 }
 
 /// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`.
@@ -117,7 +119,7 @@ fn respond_patches(
         check_convergence(method, &operator)?;
     }
     let (response, _) = Response::solve(&operator, 0.1 * tolerance)?;
-    let kernel = Some(KernelSource { method, entry_sd });
+    let kernel = Some(KernelSource { method, entry_sd, entries: kernel.entries() });
     Ok((response, Accuracy { unknowns: patches.len(), facet_mean_error: None, kernel }))
 }
 

@@ -1,8 +1,8 @@
 //! How much of the light that leaves one part of a surface reaches another: geometry alone, no light, no colour.
 //!
 //! Two answers to two questions: [`FoldKernel`] holds the form factors between facets, eq. (10), found by a method of its
-//! own file ([`method`] names them, [`exact`] is right to rounding) and checked by [`check`]; [`continuum`] solves the bounces between surfaces that are not divided at
-//! all, eqs. (1) to (4).
+//! own file ([`method`] names them, [`exact`] is right to rounding) and checked by [`check`]; [`continuum`] holds the exchange
+//! between surfaces that are not divided at all, eqs. (1) to (4), which [`refinement`] resolves as finely as asked for.
 
 pub mod check;
 pub mod continuum;
@@ -16,6 +16,7 @@ pub mod monte_carlo;
 pub mod panel;
 pub mod quadrature;
 pub mod refinement;
+pub mod skipped;
 pub mod spectra;
 
 pub use fold_kernel::FoldKernel;

@@ -96,7 +96,7 @@ struct LightRecord {
 
 /// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
 /// panel, residues for the facets of both.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 #[serde(untagged)]
 enum ResponseRecord {
     Shared(ModesRecord),
@@ -237,7 +237,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or their shapes disagree.
     pub fn response(&self) -> Result<Response> {
-        let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
+        let record = self.response_record()?;
         let facets = self.fold()?.facets().len();
         Response::new(match record {
             ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
@@ -245,6 +245,18 @@ impl Scene {
                 Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
             }
         })
+    }
+
+    fn response_record(&self) -> Result<ResponseRecord> {
+        #[derive(Deserialize)]
+        struct Separate {
+            panels: Option<[ModesRecord; 2]>,
+        }
+        let remedy = "make the scene with vkernel";
+        match self.fields.require::<Separate>("response", remedy)?.panels {
+            Some(panels) => Ok(ResponseRecord::Separate { panels }),
+            None => Ok(ResponseRecord::Shared(self.fields.require("response", remedy)?)),
+        }
     }
 
     /// Says how good the response is and which mesh gave it.
