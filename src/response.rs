@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use crate::error::{Error, Result};
 use crate::kernel::panel::PanelOperator;
-use crate::solve::Eigen;
+use crate::solve::{Eigen, dot};
 
 /// Most Lanczos steps: a 0.1° fold takes about 500.
 const STEPS_MAX: usize = 1000;
@@ -294,11 +294,6 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
         let residues = (0..facets * steps).map(|n| seen[(n / steps, n % steps)] * excited[n % steps]);
         ModeSet { residues: residues.collect(), poles }
     }
-}
-
-/// Dot product.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Removes from `x` its parts along the basis, twice: once leaves rounding behind.

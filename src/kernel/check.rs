@@ -6,8 +6,8 @@ use super::facets::FacetOperator;
 use super::fold_kernel::FoldKernel;
 use super::panel::PanelOperator;
 use crate::geometry::FacetGrid;
-use crate::response::{ModeLight, Response, dot};
-use crate::solve::Eigen;
+use crate::response::{ModeLight, Response};
+use crate::solve::{Eigen, dot};
 
 /// Relative disagreement that rounding may leave.
 const ROUNDING: f64 = 1e-12;

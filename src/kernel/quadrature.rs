@@ -115,6 +115,9 @@ pub struct Lagrange {
     scale: Vec<f64>,
 }
 
+/// A distance that is none, yet has a finite inverse.
+const NEGLIGIBLE: f64 = 1e-200;
+
 impl Lagrange {
     /// Interpolation through `nodes`, all different.
     #[must_use]
@@ -124,19 +127,26 @@ impl Lagrange {
         Self { nodes: nodes.to_vec(), scale: (0..nodes.len()).map(scale).collect() }
     }
 
-    /// Weights of the nodes' values at `x`.
+    /// Weights of the nodes' values at `x`, as many as there are nodes.
+    ///
+    /// The barycentric formula (Trefethen, *Approximation Theory and Approximation Practice*, chapter 5).
     ///
     /// # Example
     /// ```
     /// use vfold::kernel::quadrature::Lagrange;
-    /// let weights = Lagrange::new(&[0.0, 1.0, 2.0]).at(1.5); // of values 0, 1, 4 at the nodes
+    /// let mut weights = [0.0; 3];
+    /// Lagrange::new(&[0.0, 1.0, 2.0]).at(1.5, &mut weights); // of values 0, 1, 4 at the nodes
     /// assert!((weights[1] + 4.0 * weights[2] - 2.25).abs() < 1e-15);
     /// ```
-    #[must_use]
-    pub fn at(&self, x: f64) -> Vec<f64> {
-        let others = |k: usize| self.nodes.iter().enumerate().filter(move |(m, _)| *m != k);
-        let weight = |k: usize| others(k).map(|(_, node)| x - node).product::<f64>() * self.scale[k];
-        (0..self.nodes.len()).map(weight).collect()
+    pub fn at(&self, x: f64, weights: &mut [f64]) {
+        let mut sum = 0.0;
+        for ((weight, node), scale) in weights.iter_mut().zip(&self.nodes).zip(&self.scale) {
+            let distance = x - node;
+            // At a node the others weigh nothing beside it.
+            *weight = scale / if distance.abs() < NEGLIGIBLE { NEGLIGIBLE } else { distance };
+            sum += *weight;
+        }
+        weights.iter_mut().for_each(|weight| *weight /= sum);
     }
 }
 

@@ -9,11 +9,13 @@ use crate::response::{ModeLight, Modes, Response};
 const UNKNOWNS_MAX: usize = 10_000;
 /// Most multiplications of one solution, a quarter of a minute: a 1° fold takes hundreds of products with its matrix.
 const PRODUCTS_MAX: f64 = 1.5e10;
-/// Error that is aimed at, relative to the tolerance: half, so that the solution meets it more often than not.
-const AIM: f64 = 0.5;
-/// How much the error is asked to fall from one solution to the next.
+/// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
+const AIM: f64 = 0.25;
+/// The error that is believed, relative to the one that the solution should have from its forerunner's.
+const SAFETY: f64 = 3.0;
+/// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 20.0;
-/// The largest error to begin with: coarser solutions do not tell what finer ones gain.
+/// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
 const COARSEST: f64 = 0.05;
 /// Reflectances at which two solutions are compared; the last is the hardest.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
@@ -35,37 +37,38 @@ struct Solution {
     residual: f64,
 }
 
-/// Solves the bounces on `fold` finer and finer until the error, extrapolated from the last three solutions, is within `tolerance`.
-/// It stays above where the next solution would take too long.
+/// Solves the bounces on `fold` ever finer until the estimated error is within `tolerance`; it stays above where the next
+/// solution would take too long.
+///
+/// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as its resolution aims
+/// at less, which holds within a factor of three for all folds that were tried.
 ///
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.
 pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
-    let start = COARSEST.min(AIM * tolerance * STEP * STEP);
-    let (Some(mut coarse), Some(mut fine)) = (solve(fold, start, 1)?, solve(fold, start / STEP, 1)?) else {
+    let start = COARSEST.min(AIM * tolerance * STEP);
+    let (Some(coarse), Some(mut fine)) = (solve(fold, start, 1)?, solve(fold, start / STEP, 1)?) else {
         return Err(Error::usage(
             "--tolerance",
             format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
         ));
     };
-    // A difference of two solutions is the error of the coarser one.
-    let mut before = difference(&coarse.response, &fine.response);
-    let mut error = before;
-    let mut aim = (AIM * tolerance).min(fine.aim / STEP);
+    let mut error = believed(&coarse, &fine);
     while error > tolerance
-        && let Some(finest) = solve(fold, aim, fine.response.poles().len())?
+        && let Some(finer) = solve(fold, 0.9 * tolerance / error * fine.aim, fine.response.poles().len())?
     {
-        let last = difference(&fine.response, &finest.response);
-        // The finest gains on its forerunner as that one gained on its own, but no more than it was asked to.
-        let rate = ((before / last).ln() / (coarse.aim / fine.aim).ln()).clamp(0.0, 1.0);
-        error = last * (finest.aim / fine.aim).powf(rate);
-        (before, coarse, fine) = (last, fine, finest);
-        aim = fine.aim * (AIM * tolerance / error).clamp(1.0 / STEP, AIM);
+        // Against the coarse one again: two solutions that are nearly the same would tell nothing.
+        error = believed(&coarse, &finer);
+        fine = finer;
     }
     // Lanczos' solution is short of light, so that no more than all of it can be missing.
     let error = error.max((fine.residual / loss(fold)).min(1.0));
     Ok(Refined { response: fine.response, unknowns: fine.unknowns, error })
+}
+
+fn believed(coarse: &Solution, fine: &Solution) -> f64 {
+    SAFETY * fine.aim / coarse.aim * difference(&coarse.response, &fine.response)
 }
 
 /// The solution that aims at this error; none if it would take too long, `poles` being those of the one before.

@@ -1,11 +1,13 @@
 //! Solvers: linear systems, eigenvalues, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
 mod conjugate_gradients;
+mod dot;
 mod eigen;
 pub mod interior_point;
 pub mod posterior;
 
 pub use conjugate_gradients::conjugate_gradients;
+pub use dot::dot;
 pub use eigen::Eigen;
 
 /// Why a solver stopped.

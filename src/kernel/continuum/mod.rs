@@ -25,6 +25,7 @@ use self::strips::{Strips, graded};
 use self::table::{Nodes, StripPair, tabulate};
 use super::panel::PanelOperator;
 use crate::geometry::{FacetGrid, Fold};
+use crate::solve::dot;
 
 /// Distances below this share of the nearest strips' count as one: nothing changes there any more.
 const NEAREST: f64 = 0.05;
@@ -196,21 +197,6 @@ impl PanelOperator for Continuum {
     }
 }
 
-/// Dot product in four sums, so that it need not wait for each addition.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut sums, mut rest) = ([0.0; 4], 0.0);
-    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
-    for (a, b) in a.remainder().iter().zip(b.remainder()) {
-        rest += a * b;
-    }
-    for (a, b) in a.zip(b) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
 /// The matrix of the exchange, functions of panel 0 by functions of panel 1: across the crease slow, along it fast.
 fn assemble(layout: &Layout, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) -> DMatrix<f64> {
     let [across0, across1] = &layout.across;
@@ -227,10 +213,12 @@ fn assemble(layout: &Layout, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) ->
             }
             let weights = rows.weights(*strip, across1.ends[j], nodes);
             for pair in pairs {
-                let block = &weights * &pair.values;
-                place(&block, pair.strips, [order, layout.along.order], |m, n, b, d, value| {
-                    columns[(n * along + d) * height + (i * order + m) * along + b] = value;
-                });
+                let block = &pair.values * &weights;
+                for (mn, values) in block.column_iter().enumerate() {
+                    let (m, n) = (mn / order, mn % order);
+                    let at = |b: usize, d: usize| (n * along + d) * height + (i * order + m) * along + b;
+                    place(columns, at, values.as_slice(), pair.strips, layout.along.order);
+                }
             }
         }
     });
@@ -240,19 +228,23 @@ fn assemble(layout: &Layout, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) ->
     matrix
 }
 
-/// Hands out the entries of a block: functions m, n across the crease, b, d along it, for a pair of strips and its mirror image.
+/// Puts what two strips along the crease exchange, polynomials (b, d), and its transpose where they belong: functions b and d
+/// meet in entry `at(b, d)`.
 fn place(
-    block: &DMatrix<f64>,
+    columns: &mut [f64],
+    at: impl Fn(usize, usize) -> usize,
+    values: &[f64],
     [e, f]: [usize; 2],
-    [across, along]: [usize; 2],
-    mut put: impl FnMut(usize, usize, usize, usize, f64),
+    order: usize,
 ) {
-    for (column, values) in block.column_iter().enumerate() {
-        let (b, d) = (e * along + column / along, f * along + column % along);
-        for (row, value) in values.iter().enumerate() {
-            let (m, n) = (row / across, row % across);
-            put(m, n, b, d, *value);
-            put(m, n, d, b, *value);
+    for (b, row) in values.chunks_exact(order).enumerate() {
+        columns[at(f * order, e * order + b)..][..order].copy_from_slice(row);
+    }
+    if e != f {
+        for d in 0..order {
+            let column = values[d..].iter().step_by(order);
+            let rows = &mut columns[at(e * order, f * order + d)..][..order];
+            rows.iter_mut().zip(column).for_each(|(out, value)| *out = *value);
         }
     }
 }

@@ -17,7 +17,7 @@ const INNER_PANEL: f64 = 1.5;
 /// Least sum of distances to a singularity, relative to the length of a Gauss panel in s: ρ = 3.
 const OUTER_AXIS: f64 = 1.7;
 /// Gauss points beyond those that the polynomials need.
-const SPARE_POINTS: usize = 7;
+const SPARE_POINTS: usize = 5;
 /// Halvings of a strip that ends at the crease, where logarithms of s are small.
 const HALVINGS: usize = 4;
 
@@ -44,7 +44,7 @@ impl Rows {
     }
 
     /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f at the nodes:
-    /// (m, n) by node.
+    /// node by (m, n), n fast.
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2], nodes: &Nodes) -> DMatrix<f64> {
         let (order, count) = (self.order, nodes.len());
         let mut weights = DMatrix::zeros(order * order, count);
@@ -54,19 +54,20 @@ impl Rows {
                 polynomials(a, s, &mut of_a);
                 inner.fill(0.0);
                 self.integrate(s, b, nodes, &mut inner);
-                for (k, inner) in inner.chunks_exact(order).enumerate() {
+                of_a.iter_mut().for_each(|p| *p *= weight);
+                let columns = weights.as_mut_slice().chunks_exact_mut(order * order);
+                for (column, inner) in columns.zip(inner.chunks_exact(order)) {
+                    // Most distances are not those of this point.
                     if inner[0] == 0.0 {
                         continue;
                     }
-                    for (m, p) in of_a.iter().enumerate() {
-                        for (n, value) in inner.iter().enumerate() {
-                            weights[(m * order + n, k)] += weight * p * value;
-                        }
+                    for (weights, p) in column.chunks_exact_mut(order).zip(&of_a) {
+                        weights.iter_mut().zip(inner).for_each(|(weight, value)| *weight += p * value);
                     }
                 }
             }
         }
-        weights
+        weights.transpose()
     }
 
     /// The integral over t for one s: node by n.
@@ -76,7 +77,7 @@ impl Rows {
         let (low, high) = (w(b[0]), w(b[1]));
         let panels = ((high - low) / INNER_PANEL).ceil().max(1.0);
         let length = (high - low) / panels;
-        let mut of_b = vec![0.0; order];
+        let (mut of_b, mut at_nodes) = (vec![0.0; order], vec![0.0; nodes.on_panel()]);
         for panel in 0..panels as usize {
             let start = low + panel as f64 * length;
             for (w, weight) in self.rule.on(start, start + length) {
@@ -84,9 +85,9 @@ impl Rows {
                 let t = (s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]);
                 polynomials(b, t, &mut of_b);
                 let factor = weight * t / (PI * s * cosh * cosh);
-                let place = nodes.place(s * self.sin * cosh);
-                let touched = out[place.first * order..].chunks_exact_mut(order);
-                for (out, at_node) in touched.zip(&place.weights) {
+                let first = nodes.place(s * self.sin * cosh, &mut at_nodes);
+                let touched = out[first * order..].chunks_exact_mut(order);
+                for (out, at_node) in touched.zip(&at_nodes) {
                     out.iter_mut().zip(&of_b).for_each(|(out, p)| *out += factor * at_node * p);
                 }
             }

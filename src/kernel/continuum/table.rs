@@ -22,12 +22,6 @@ pub(super) struct Nodes {
     lagrange: Lagrange,
 }
 
-/// Where a distance lies among the nodes: the first that count, and their weights.
-pub(super) struct Place {
-    pub(super) first: usize,
-    pub(super) weights: Vec<f64>,
-}
-
 impl Nodes {
     /// `count` nodes an e-fold from `nearest` to `furthest`.
     pub(super) fn new(nearest: f64, furthest: f64, count: usize) -> Self {
@@ -47,12 +41,17 @@ impl Nodes {
         (0..self.panels).flat_map(on_panel).map(|(u, _)| u.exp()).collect()
     }
 
-    /// Where the distance `q` lies; below the nearest it counts as that.
-    pub(super) fn place(&self, q: f64) -> Place {
+    /// Nodes on a panel.
+    pub(super) fn on_panel(&self) -> usize {
+        self.rule.nodes.len()
+    }
+
+    /// The first of the nodes between which the distance `q` lies, and their weights; below the nearest it counts as that.
+    pub(super) fn place(&self, q: f64, weights: &mut [f64]) -> usize {
         let along = ((q.ln() - self.start) / PANEL).max(0.0);
         let panel = (along as usize).min(self.panels - 1);
-        let weights = self.lagrange.at(2.0 * (along - panel as f64) - 1.0);
-        Place { first: panel * self.rule.nodes.len(), weights }
+        self.lagrange.at(2.0 * (along - panel as f64) - 1.0, weights);
+        panel * self.on_panel()
     }
 }
 
@@ -60,7 +59,7 @@ impl Nodes {
 pub(super) struct StripPair {
     /// The strips, e ≤ f.
     pub(super) strips: [usize; 2],
-    /// Node by pair of polynomials (b, d), times q³.
+    /// Pair of polynomials (b, d), d fast, by node; times q³.
     pub(super) values: DMatrix<f64>,
 }
 
@@ -75,11 +74,10 @@ pub(super) fn tabulate(strips: &Strips, width: f64, nodes: &Nodes) -> Vec<StripP
         let (near, [low, high], peak) = (strips.ends[e], strips.ends[f], 0.5 * nodes.start.exp());
         correlation.add(near, [low, high], false, peak);
         correlation.add(near, [width - high, width - low], true, peak);
-        let mut values = DMatrix::zeros(distances.len(), strips.order * strips.order);
-        let mut integrals = vec![0.0; strips.order * strips.order];
-        for (mut row, q) in values.row_iter_mut().zip(&distances) {
-            correlation.integrate(q * q, &mut integrals);
-            row.iter_mut().zip(&integrals).for_each(|(value, integral)| *value = q.powi(3) * integral);
+        let mut values = DMatrix::zeros(strips.order * strips.order, distances.len());
+        for (mut integrals, q) in values.column_iter_mut().zip(&distances) {
+            correlation.integrate(q * q, integrals.as_mut_slice());
+            integrals *= q.powi(3);
         }
         StripPair { strips: [e, f], values }
     };
