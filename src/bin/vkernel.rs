@@ -189,6 +189,11 @@ fn say_accuracy(args: &Args, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
         warn_of_spread(args, source.method, source.entry_sd);
     }
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
+    if accuracy.residual > tolerance && !args.common.quiet {
+        let left =
+            format!("Lanczos' method stopped at a residual of {:.1e}: too many bounces", accuracy.residual);
+        cli::say("vkernel", &left);
+    }
     let Some(error) = accuracy.facet_mean_error.filter(|error| *error > tolerance) else { return Ok(()) };
     let problem =
         format!("{error:.1e} is the least error of the facet means that is reached at {}°", fold.angle_deg());

@@ -39,6 +39,8 @@ pub struct Accuracy {
     /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where the mesh was
     /// given and no second solution made.
     pub facet_mean_error: Option<f64>,
+    /// Residual that Lanczos' method left in the equations of the bounces, relative to the light.
+    pub residual: f64,
     /// The form factors between flat patches; none where the panels were not divided.
     pub kernel: Option<KernelSource>,
 }
@@ -88,8 +90,8 @@ pub fn respond_by(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Re
         )),
         Mesh::Auto if fold.is_flat() => respond_patches(method, fold, fold.facets(), tolerance),
         Mesh::Auto => {
-            let Refined { response, unknowns, error } = refine(fold, tolerance)?;
-            Ok((response, Accuracy { unknowns, facet_mean_error: Some(error), kernel: None }))
+            let Refined { response, unknowns, error, residual } = refine(fold, tolerance)?;
+            Ok((response, Accuracy { unknowns, facet_mean_error: Some(error), residual, kernel: None }))
         }
         Mesh::Facets => respond_patches(method, fold, fold.facets(), tolerance),
         Mesh::Patches(patches) => respond_patches(method, fold, patches, tolerance),
@@ -118,9 +120,9 @@ fn respond_patches(
     if method != Method::Exact {
         check_convergence(method, &operator)?;
     }
-    let (response, _) = Response::solve(&operator, 0.1 * tolerance)?;
+    let (response, residual) = Response::solve(&operator, 0.1 * tolerance)?;
     let kernel = Some(KernelSource { method, entry_sd, entries: kernel.entries() });
-    Ok((response, Accuracy { unknowns: patches.len(), facet_mean_error: None, kernel }))
+    Ok((response, Accuracy { unknowns: patches.len(), facet_mean_error: None, residual, kernel }))
 }
 
 /// Refuses a kernel with which white sheets would shine.

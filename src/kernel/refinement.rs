@@ -28,6 +28,8 @@ pub struct Refined {
     pub unknowns: usize,
     /// Estimated largest relative error of a facet mean, for any reflectance in [0, 1].
     pub error: f64,
+    /// Residual that Lanczos' method left, relative to the light.
+    pub residual: f64,
 }
 
 struct Solution {
@@ -64,7 +66,7 @@ pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
     }
     // Lanczos' solution is short of light, so that no more than all of it can be missing.
     let error = error.max((fine.residual / loss(fold)).min(1.0));
-    Ok(Refined { response: fine.response, unknowns: fine.unknowns, error })
+    Ok(Refined { response: fine.response, unknowns: fine.unknowns, error, residual: fine.residual })
 }
 
 fn believed(coarse: &Solution, fine: &Solution) -> f64 {

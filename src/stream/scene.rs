@@ -269,6 +269,7 @@ impl Scene {
             "tolerance": tolerance,
             "unknowns": accuracy.unknowns,
             "facet_mean_error": accuracy.facet_mean_error,
+            "residual": accuracy.residual,
         });
         if let Some(source) = &accuracy.kernel {
             record["kernel"] = kernel_record(source);

@@ -1,0 +1,86 @@
+//! The ends of every range: nearly closed and nearly flat folds, thin and wide panels, one facet and many.
+
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used)]
+
+use vfold::geometry::{FacetGrid, Fold, Spacing};
+use vfold::kernel::exact::form_factors;
+use vfold::kernel::mesh::{Mesh, respond};
+use vfold::response::{ModeLight, Response};
+
+const ANGLES: [f64; 6] = [0.1, 1.0, 10.0, 120.0, 179.0, 179.9];
+const PANELS: [(f64, f64); 3] = [(1.0, 1.0), (1000.0, 1.0), (1.0, 1000.0)];
+
+fn folds(rows: usize, cols: usize) -> impl Iterator<Item = Fold> {
+    let shapes = ANGLES.into_iter().flat_map(|angle| PANELS.into_iter().map(move |panel| (angle, panel)));
+    shapes.flat_map(move |(angle, (width, depth))| {
+        let fold = Fold::new(angle, width, depth, FacetGrid { rows, cols }).unwrap();
+        let unequal = fold.with_panel1_depth(width.max(depth) / 100.0).unwrap();
+        [fold, fold.with_spacing(Spacing::Graded), unequal]
+    })
+}
+
+/// Every number that a camera could see of it, for sheets from black to white in sun and sky.
+fn irradiances(response: &Response) -> impl Iterator<Item = f64> + '_ {
+    let lights = [ModeLight::Sun([1.0, 1.0]), ModeLight::Sun([1.0, 0.01]), ModeLight::Sky(1.0)];
+    let cases = [0.0, 1e-9, 0.5, 0.999, 1.0].into_iter().flat_map(move |r| lights.map(|light| (r, light)));
+    cases.flat_map(move |(r, light)| {
+        (0..2 * response.facets())
+            .map(move |n| response.irradiance(n / response.facets(), n % response.facets(), light, [r, r]))
+    })
+}
+
+#[test]
+fn facets_keep_the_laws() {
+    for (rows, cols) in [(1, 1), (7, 5), (60, 1), (1, 60)] {
+        for fold in folds(rows, cols) {
+            let kernel = form_factors(&fold);
+            for (panel, row) in (0..2).flat_map(|panel| (0..rows).map(move |row| (panel, row))) {
+                let sum = kernel.row_sum(panel, row, 0);
+                assert!((0.0..1.0).contains(&sum), "{fold:?}: row {row} of panel {panel} hands on {sum}");
+                let entries = (0..rows).flat_map(|j| kernel.shifts_from(panel, row, j));
+                assert!(entries.copied().all(|entry| entry >= 0.0), "{fold:?}: row {row}");
+            }
+        }
+    }
+}
+
+/// A panel in parts gets what it gets as a whole, however far the parts' sizes are apart.
+#[test]
+fn parts_add_up_to_the_whole() {
+    for angle_deg in ANGLES {
+        let whole = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap();
+        let want = form_factors(&whole).form_factor(0, 0, 0, 0);
+        let fold = whole.with_facets(FacetGrid { rows: 64, cols: 16 }).unwrap().with_spacing(Spacing::Graded);
+        let kernel = form_factors(&fold);
+        let share = |row: usize, col: usize| kernel.row_sum(0, row, col) * kernel.row_height(0, row) / 256.0;
+        let sum: f64 = (0..64)
+            .flat_map(|row| (0..16).map(move |col| (row, col)))
+            .map(|(row, col)| share(row, col))
+            .sum();
+        assert!((sum - want).abs() < 1e-12, "{angle_deg}°: {sum} {want}");
+    }
+}
+
+#[test]
+fn bounces_end_and_are_finite() {
+    for fold in folds(4, 3) {
+        for mesh in [Mesh::Facets, Mesh::Auto] {
+            let narrow = mesh == Mesh::Auto && fold.angle_deg() < 10.0;
+            let Some((response, _)) = (!narrow).then(|| respond(&fold, mesh, 1e-2).unwrap()) else {
+                continue;
+            };
+            assert!(response.poles().iter().all(|g| g.abs() < 1.0), "{fold:?}");
+            assert!(irradiances(&response).all(|e| e.is_finite() && e > -1e-2), "{fold:?} {mesh}");
+        }
+    }
+}
+
+/// Narrow folds on undivided panels take seconds when panels are square, so one stands for all.
+#[test]
+fn a_fold_of_one_degree_is_solved() {
+    let fold = Fold::new(1.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();
+    let (response, accuracy) = respond(&fold, Mesh::Auto, 1e-2).unwrap();
+    assert!(accuracy.facet_mean_error.unwrap() <= 1e-2);
+    assert!(irradiances(&response).all(|e| e.is_finite() && e > -1e-2));
+}
