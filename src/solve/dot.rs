@@ -1,7 +1,6 @@
 //! Dot products.
 
-/// Independent sums, so that an addition need not wait for the one before.
-const SUMS: usize = 8;
+use nalgebra::DVectorView;
 
 /// Dot product of two vectors of one length.
 ///
@@ -13,13 +12,5 @@ const SUMS: usize = 8;
 /// ```
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<SUMS>(), b.as_chunks::<SUMS>());
-    let mut sums = [0.0; SUMS];
-    for (a, b) in a.iter().zip(b) {
-        for k in 0..SUMS {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    DVectorView::from_slice(a, a.len()).dot(&DVectorView::from_slice(b, b.len()))
 }
