@@ -108,7 +108,7 @@ impl Resolution {
         let count = |at_1e5: f64, a_level: f64| (at_1e5 + a_level * levels).ceil().max(2.0) as usize;
         Self {
             crease_strips: count(3.0, 1.0),
-            end_strips: count(1.8, 0.7),
+            end_strips: count(1.5, 0.7),
             orders: [count(8.2, 2.4), count(6.5, 2.0)],
             nodes: count(10.0, 1.6).max(4),
         }
