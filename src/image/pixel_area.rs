@@ -206,7 +206,8 @@ mod tests {
                 for x in quadrilateral.touched_columns(y, 30) {
                     let overlap = quadrilateral.overlap(x, y);
                     prop_assert!(!whole.contains(&x) || (overlap - 1.0).abs() < 1e-8, "({x}, {y}) {overlap}");
-                    prop_assert!(whole.contains(&x) || overlap < 1.0 - 1e-12, "({x}, {y}) {overlap}");
+                    // One that an edge just touches is whole to rounding.
+                    prop_assert!(overlap < 1.0 + 1e-8, "({x}, {y}) {overlap}");
                     sum += overlap;
                 }
             }

@@ -52,7 +52,6 @@ struct Wedge {
     cos: f64,
     /// `1 − cosθ`, which would lose digits as a difference when θ is small.
     one_minus_cos: f64,
-    near: Rule,
     /// Rules of order 1, 2, and so on.
     far: Vec<Rule>,
     /// Rules for the weight `1 − |z|`, the overlap of two facets along the crease.
@@ -67,7 +66,6 @@ impl Wedge {
             sin: if flat { 0.0 } else { angle_rad.sin() },
             cos: angle_rad.cos(),
             one_minus_cos: 2.0 * half_sin * half_sin,
-            near: Rule::gauss_legendre(NEAR_ORDER),
             far: (1..=FAR_ORDER_MAX).map(Rule::gauss_legendre).collect(),
             hats: (1..=FAR_ORDER_MAX).map(Rule::gauss_hat).collect(),
         }
@@ -116,7 +114,7 @@ impl Wedge {
         let mut sum = 0.0;
         for panel in 0..panels as usize {
             let start = low + panel as f64 * length;
-            for (u, weight) in self.near.on(start, start + length) {
+            for (u, weight) in self.far[NEAR_ORDER - 1].on(start, start + length) {
                 let q = a * self.sin * u.cosh();
                 let b = a * (self.cos + self.sin * u.sinh());
                 sum += weight * b * shift_integral(q, k) / (q * q * q);
@@ -184,7 +182,7 @@ impl Wedge {
 fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
     let axis = (low.hypot(im) + high.hypot(im)) / (high - low);
     let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
-    let order = (-FAR_TOLERANCE.ln() / (2.0 * rho.ln())).ceil() + 1.0;
+    let order = (-FAR_TOLERANCE.ln() / (2.0 * rho.ln())).ceil();
     (order <= FAR_ORDER_MAX as f64).then_some(order as usize)
 }
 
