@@ -12,10 +12,8 @@ use crate::table::Row;
 use crate::{ANGLES_DEG, FACETS};
 
 const SIZE: (u32, u32) = (1140, 700);
-/// Errors of nothing are drawn here.
-const SMALLEST: f64 = 1e-17;
 
-/// A method's colour, of Okabe and Ito's, and whether its marks are filled: told apart without colours as well.
+/// A method's colour, one of Okabe and Ito's, and its mark: told apart by colour-blind readers.
 const STYLES: [(&str, RGBColor, Mark); 7] = [
     ("exact", RGBColor(0, 114, 178), Mark::Disc),
     ("midpoint", RGBColor(0, 0, 0), Mark::Cross),
@@ -65,7 +63,7 @@ pub fn draw(rows: &[Row], steps: &[Steps]) {
         x: "time of the form factors, ms",
         y: "largest error of a form factor",
         x_range: 1e-3..1e4,
-        y_range: SMALLEST..10.0,
+        y_range: 1e-17..10.0,
     };
     grid("entry_error.svg", &axes, &panels);
     let panels = ANGLES_DEG.map(|angle_deg| {
@@ -76,15 +74,15 @@ pub fn draw(rows: &[Row], steps: &[Steps]) {
         x: "time of form factors and bounces, ms",
         y: "largest error of a facet's radiance, r = 0.9",
         x_range: 1e-2..1e5,
-        y_range: 1e-9..10.0,
+        y_range: 1e-13..10.0,
     };
     grid("radiance_error.svg", &axes, &panels);
     let panels = [10, 64].map(|n| (format!("{n}x{n} facets"), by_angle(steps, n)));
     let axes = Axes {
         x: "Lanczos steps",
-        y: "largest error of a facet's radiance, r = 0.9",
+        y: "largest error of a facet's radiance, r = 0.99",
         x_range: 1.0..1000.0,
-        y_range: SMALLEST..10.0,
+        y_range: 1e-17..10.0,
     };
     grid("response.svg", &axes, &panels);
 }
@@ -95,17 +93,21 @@ fn by_method<'a>(
 ) -> Vec<Series> {
     let series = |(name, colour, mark): (&str, RGBColor, Mark)| {
         let points = rows.clone().filter(|row| row.method == name).map(&of);
-        let points = points.filter(|(x, y)| x.is_finite() && y.is_finite());
-        let points = points.map(|(x, y)| (x, y.max(SMALLEST))).collect();
+        let points = points.filter(drawable).collect();
         Series { name: name.to_owned(), colour, mark, points }
     };
     STYLES.into_iter().map(series).filter(|series| !series.points.is_empty()).collect()
 }
 
+/// Not a number, and no error at all, have no place on logarithmic axes.
+fn drawable((x, y): &(f64, f64)) -> bool {
+    *x > 0.0 && *y > 0.0
+}
+
 fn by_angle(steps: &[Steps], n: usize) -> Vec<Series> {
     let series = |(angle_deg, (_, colour, mark)): (f64, (&str, RGBColor, Mark))| {
         let own = steps.iter().filter(|row| row.n == n && row.angle_deg.total_cmp(&angle_deg).is_eq());
-        let points = own.map(|row| (row.steps as f64, row.radiance_errors[1].max(SMALLEST))).collect();
+        let points = own.map(|row| (row.steps as f64, row.radiance_errors[2])).filter(drawable).collect();
         Series { name: format!("{angle_deg}°"), colour, mark, points }
     };
     ANGLES_DEG.into_iter().zip(STYLES).map(series).collect()
@@ -135,7 +137,7 @@ fn panel(area: &Area, axes: &Axes, title: &str, all: &[Series]) {
         .y_label_area_size(58)
         .build_cartesian_2d(axes.x_range.clone().log_scale(), axes.y_range.clone().log_scale())
         .unwrap();
-    let power = |value: &f64| format!("{value:e}");
+    let power = |value: &f64| format!("{value:.0e}");
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)

@@ -19,6 +19,8 @@ const SAMPLES: [u32; 4] = [100, 1_000, 10_000, 100_000];
 const SAMPLES_MAX: usize = 60_000_000;
 /// Patches along a facet's side.
 const DIVISIONS: [usize; 4] = [2, 4, 8, 16];
+/// Most patches along a panel's side.
+const PATCHES_MAX: usize = 160;
 /// Residual of the bounces on flat patches, relative to the light.
 const RESIDUAL: f64 = 1e-8;
 
@@ -47,8 +49,10 @@ pub fn fold(angle_deg: f64, n: usize) -> Vec<Row> {
         })
         .collect();
     let Some((_, error)) = solved else { return rows };
-    let patches =
-        DIVISIONS.map(|times| times * n).into_iter().filter(|side| !reference::too_many(&fold, *side));
+    let patches = DIVISIONS
+        .map(|times| times * n)
+        .into_iter()
+        .filter(|side| *side <= PATCHES_MAX && !reference::too_many(&fold, *side));
     for side in patches {
         let row = Row::new(angle_deg, n, "patches", format!("{side}x{side}"));
         rows.push(by_mesh(
@@ -61,13 +65,13 @@ pub fn fold(angle_deg: f64, n: usize) -> Vec<Row> {
     }
     for exponent in 2..=7 {
         let tolerance = 10_f64.powi(-exponent);
-        if tolerance > 5.0 * reference::tolerance(angle_deg) {
+        if tolerance > 5.0 * reference::tolerance(&fold) {
             let row = Row::new(angle_deg, n, "auto", format!("{tolerance:e}"));
             rows.push(by_mesh(&fold, Mesh::Auto, tolerance, &truth, row));
         }
     }
     let note = format!("what radiances are compared with; estimated error {error:.1e}");
-    let setting = format!("{:e}", reference::tolerance(angle_deg));
+    let setting = format!("{:e}", reference::tolerance(&fold));
     rows.push(Row { note, ..Row::new(angle_deg, n, "auto", setting) });
     rows
 }

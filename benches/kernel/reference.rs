@@ -38,11 +38,16 @@ pub fn entry_error(fold: &Fold, kernel: &FoldKernel) -> f64 {
 }
 
 /// The tightest tolerance of facet means that undivided panels reach within seconds.
-pub fn tolerance(angle_deg: f64) -> f64 {
-    match angle_deg {
-        angle if angle < 10.0 => 1e-3,
+pub fn tolerance(fold: &Fold) -> f64 {
+    let by_angle = match fold.angle_deg() {
+        angle if angle < 10.0 => 1e-4,
         angle if (40.0..80.0).contains(&angle) => 1e-7,
         _ => 1e-8,
+    };
+    match fold.facets().rows {
+        few if few < 64 => by_angle,
+        some if some < 256 => 1e-6,
+        _ => 1e-5,
     }
 }
 
@@ -56,7 +61,7 @@ pub fn irradiances(fold: &Fold) -> Option<([Vec<f64>; 3], f64)> {
     if too_many(fold, fold.facets().rows) {
         return None;
     }
-    let (response, accuracy) = respond(fold, Mesh::Auto, tolerance(fold.angle_deg())).unwrap();
+    let (response, accuracy) = respond(fold, Mesh::Auto, tolerance(fold)).unwrap();
     Some((REFLECTANCES.map(|r| irradiance(&response, r)), accuracy.facet_mean_error?))
 }
 

@@ -1,6 +1,7 @@
 //! Skips on the way to the form factors.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use vfold::kernel::FoldKernel;
 use vfold::kernel::exact::{Wedge, form_factors};
@@ -9,6 +10,7 @@ use super::{ANGLE_DEG, Skip};
 use crate::common::fold;
 
 const N: usize = 10;
+const ROUNDING: f64 = 1e-12;
 
 pub fn rows() -> Vec<String> {
     let mut rows = vec![visibility(), empty_blocks()];
@@ -20,7 +22,6 @@ type Point = [f64; 3];
 
 /// A facet in space: its corners, its centre and the unit normal of its inner side. Lengths are in facet widths.
 struct Facet {
-    panel: usize,
     corners: [Point; 4],
     centre: Point,
     normal: Point,
@@ -33,7 +34,6 @@ fn facets(n: usize) -> Vec<Facet> {
         let at = |x: f64, s: f64| if panel == 0 { [x, s, 0.0] } else { [x, s * cos, s * sin] };
         let (x, s) = (col as f64, row as f64);
         Facet {
-            panel,
             corners: [at(x, s), at(x + 1.0, s), at(x + 1.0, s + 1.0), at(x, s + 1.0)],
             centre: at(x + 0.5, s + 0.5),
             normal: if panel == 0 { [0.0, 0.0, 1.0] } else { [0.0, sin, -cos] },
@@ -51,17 +51,27 @@ fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Whether each facet is before the other's plane and no panel cuts the ray between their centres.
-fn see(a: &Facet, b: &Facet, panels: [&Facet; 2]) -> bool {
+/// Whether each of two facets is before the other's plane and none of `others` cuts the ray between their centres.
+fn see(a: &Facet, b: &Facet, others: &[Facet]) -> bool {
     let before = |of: &Facet, from: &Facet| {
-        of.corners.iter().any(|corner| dot(minus(*corner, from.centre), from.normal) > 1e-12)
+        of.corners.iter().any(|corner| dot(minus(*corner, from.centre), from.normal) > ROUNDING)
     };
     let ray = minus(b.centre, a.centre);
-    let cut = |panel: &Facet| {
-        let along = dot(minus(panel.centre, a.centre), panel.normal) / dot(ray, panel.normal);
-        along > 1e-12 && along < 1.0 - 1e-12
-    };
-    before(a, b) && before(b, a) && !panels.into_iter().any(cut)
+    before(a, b) && before(b, a) && !others.iter().any(|other| cuts(other, a.centre, ray))
+}
+
+/// Whether a facet cuts the ray from `start` to `start + ray` on its way.
+fn cuts(facet: &Facet, start: Point, ray: Point) -> bool {
+    let along = dot(minus(facet.centre, start), facet.normal) / dot(ray, facet.normal);
+    if !(along > ROUNDING && along < 1.0 - ROUNDING) {
+        return false;
+    }
+    let hit: Point = std::array::from_fn(|k| start[k] + along * ray[k]);
+    let [corner, next, _, previous] = facet.corners;
+    [next, previous].into_iter().all(|end| {
+        let side = minus(end, corner);
+        (0.0..dot(side, side)).contains(&dot(minus(hit, corner), side))
+    })
 }
 
 /// Form factors from all facets of panel 0 to all of panel 1.
@@ -74,19 +84,16 @@ fn visibility() -> String {
     let fold = fold(ANGLE_DEG, N);
     let tested = || {
         let (all, mut entries) = (facets(N), block(&form_factors(&fold)));
-        let (panel0, panel1) = all.split_at(N * N);
-        for (a, row) in panel0.iter().zip(entries.chunks_exact_mut(N * N)) {
-            for (b, entry) in panel1.iter().zip(row) {
-                if !see(a, b, [&panel0[0], &panel1[0]]) {
-                    *entry = 0.0;
-                }
+        for (k, entry) in entries.iter_mut().enumerate() {
+            if !see(&all[k / (N * N)], &all[N * N + k % (N * N)], &all) {
+                *entry = 0.0;
             }
         }
         entries
     };
     let skip = Skip::new(
         "visibility tests",
-        "two half-spaces and one ray a pair of facets, then the kernel",
+        "two half-spaces a pair of facets and its ray against all 200, then the kernel",
         "the kernel: panels of a fold see each other whole",
     );
     skip.row(tested, || block(&form_factors(&fold)))
@@ -102,16 +109,23 @@ fn at_centres(a: &Facet, b: &Facet) -> f64 {
 
 fn empty_blocks() -> String {
     let all = facets(N);
-    let matrix = |computed: &dyn Fn(&Facet, &Facet) -> bool| -> Vec<f64> {
-        let entry = |a: &Facet, b: &Facet| if computed(a, b) { at_centres(a, b) } else { 0.0 };
-        all.iter().flat_map(|a| all.iter().map(move |b| entry(a, b))).collect()
+    let count = all.len();
+    let matrix = |others: &dyn Fn(usize) -> Range<usize>| {
+        let mut matrix = vec![0.0; count * count];
+        for a in 0..count {
+            for b in others(a) {
+                matrix[a * count + b] = at_centres(&all[a], &all[b]);
+            }
+        }
+        matrix
     };
+    let facing = |a: usize| if a < count / 2 { count / 2..count } else { 0..count / 2 };
     let skip = Skip::new(
         "a panel's exchange with itself",
         "eq. (2) for all pairs of 200 facets; those in one plane give zero",
         "between the panels only",
     );
-    skip.row(|| matrix(&|_, _| true), || matrix(&|a, b| a.panel != b.panel))
+    skip.row(|| matrix(&|_| 0..count), || matrix(&facing))
 }
 
 /// Every entry of both blocks of the full matrix by itself, the exact way.

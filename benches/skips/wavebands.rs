@@ -47,7 +47,8 @@ impl Scene {
     fn new(grid: &WavelengthGrid, tilt_deg: f64, sky: f64, card: bool) -> Self {
         let fold = fold(ANGLE_DEG, N);
         let on_grid = |name: &str| reflectances(name).unwrap()[0].on(grid, Outside::Refuse).unwrap();
-        let channels = camera("canon-5d-mark-ii").unwrap().channels;
+        // Its sensitivities end at 400 and 680 nm.
+        let channels = camera("sigma-sd-merrill").unwrap().channels;
         let channels: Vec<_> =
             channels.iter().map(|channel| channel.on(grid, Outside::Zero).unwrap()).collect();
         let light = |name: &str| illuminant(name).unwrap().on(grid, Outside::Refuse).unwrap();
@@ -144,8 +145,7 @@ fn seen(scene: &Scene) -> String {
 
 fn unseen_bands(scene: &Scene) -> String {
     let response = scene.response();
-    let all = Lighting { ..scene.never_blind() };
-    let (all, some) = (FacetModel::one_sheet(&response, &all), scene.model(&response));
+    let (all, some) = (FacetModel::one_sheet(&response, &scene.never_blind()), scene.model(&response));
     let skip = Skip::new(
         "unseen wavebands, one sheet",
         format!("all {} wavebands from 380 to 780 nm", scene.sheet.len()),
