@@ -9,7 +9,7 @@ use vfold::geometry::{FacetGrid, Fold};
 
 /// Most runs of one work.
 const RUNS_MAX: usize = 31;
-/// After this long three runs are enough; after the second time, one is.
+/// After the first time three runs are enough, after the second one is.
 const LONG_ENOUGH: [Duration; 2] = [Duration::from_millis(300), Duration::from_secs(2)];
 
 /// Median time of `work` in milliseconds, and what it gave.

@@ -45,8 +45,8 @@ pub fn tolerance(fold: &Fold) -> f64 {
         _ => 1e-8,
     };
     match fold.facets().rows {
-        few if few < 64 => by_angle,
-        some if some < 256 => 1e-6,
+        few if few < 16 => by_angle,
+        some if some < 256 => by_angle.max(1e-6),
         _ => 1e-5,
     }
 }
