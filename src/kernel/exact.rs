@@ -42,12 +42,12 @@ const SAME_ORDERS: f64 = 0.15;
 /// ```
 #[must_use]
 pub fn form_factors(fold: &Fold) -> FoldKernel {
-    let wedge = Wedge::new(fold.angle_rad(), fold.is_flat());
+    let wedge = Wedge::new(fold);
     FoldKernel::from_rows(fold, |row0, row1, shifts| wedge.exchange(row0, row1, shifts))
 }
 
 /// The opening angle of a fold and the rules that integrate over it.
-struct Wedge {
+pub struct Wedge {
     sin: f64,
     cos: f64,
     /// `1 − cosθ`, which would lose digits as a difference when θ is small.
@@ -59,11 +59,14 @@ struct Wedge {
 }
 
 impl Wedge {
-    fn new(angle_rad: f64, flat: bool) -> Self {
+    /// That of `fold`.
+    #[must_use]
+    pub fn new(fold: &Fold) -> Self {
+        let angle_rad = fold.angle_rad();
         let half_sin = (angle_rad / 2.0).sin();
         Self {
             // A flat sheet exchanges nothing with itself: sin π would leave 1e-16 of nothing.
-            sin: if flat { 0.0 } else { angle_rad.sin() },
+            sin: if fold.is_flat() { 0.0 } else { angle_rad.sin() },
             cos: angle_rad.cos(),
             one_minus_cos: 2.0 * half_sin * half_sin,
             far: (1..=FAR_ORDER_MAX).map(Rule::gauss_legendre).collect(),
@@ -71,8 +74,8 @@ impl Wedge {
         }
     }
 
-    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease.
-    fn exchange(&self, s: &Range<f64>, t: &Range<f64>, shifts: &mut [f64]) {
+    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease from 0.
+    pub fn exchange(&self, s: &Range<f64>, t: &Range<f64>, shifts: &mut [f64]) {
         if self.sin == 0.0 {
             return shifts.fill(0.0);
         }
@@ -223,11 +226,12 @@ fn small_shift(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::FacetGrid;
 
     #[test]
     fn near_and_far_formulas_agree_where_both_hold() {
         for angle_deg in [5.0_f64, 45.0, 120.0, 170.0] {
-            let wedge = Wedge::new(angle_deg.to_radians(), false);
+            let wedge = Wedge::new(&Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap());
             for (s, t, k) in [(0.0..1.0, 5.0..6.0, 3), (2.0..3.0, 2.0..3.0, 4), (7.0..8.0, 3.0..4.0, 2)] {
                 let across = wedge.nearest(&s, &t);
                 let Some(orders) = wedge.far_orders(&s, &t, k as f64 - 1.0, across) else { continue };

@@ -1,0 +1,59 @@
+//! What the benchmarks share: a clock, one thread, a fold, and a line about the machine.
+
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use vfold::geometry::{FacetGrid, Fold};
+
+/// Most runs of one work.
+const RUNS_MAX: usize = 31;
+/// After the first time three runs are enough, after the second one is.
+const LONG_ENOUGH: [Duration; 2] = [Duration::from_millis(300), Duration::from_secs(2)];
+
+/// Median time of `work` in milliseconds, and what it gave.
+pub fn timed<T>(mut work: impl FnMut() -> T) -> (f64, T) {
+    let (begin, mut times) = (Instant::now(), Vec::new());
+    loop {
+        let start = Instant::now();
+        let result = black_box(work());
+        times.push(start.elapsed());
+        let [three, one] = LONG_ENOUGH.map(|time| begin.elapsed() > time);
+        if times.len() == RUNS_MAX || (three && times.len() >= 3) || one {
+            times.sort_unstable();
+            return (1e3 * times[times.len() / 2].as_secs_f64(), result);
+        }
+    }
+}
+
+/// Everything after this runs on one thread.
+pub fn on_one_thread() {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().unwrap();
+}
+
+/// A fold of square panels with `n` x `n` facets each.
+pub fn fold(angle_deg: f64, n: usize) -> Fold {
+    Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: n, cols: n }).unwrap()
+}
+
+/// Where results are kept.
+pub fn results(name: &str) -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR"), "benches/results", name].iter().collect()
+}
+
+/// Processor, compiler, version and date.
+pub fn machine() -> String {
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("an unknown processor");
+    let said = |program: &str, flag: &str| {
+        let output = Command::new(program).arg(flag).output().map(|output| output.stdout);
+        String::from_utf8(output.unwrap_or_default()).unwrap_or_default().trim().to_owned()
+    };
+    let (rustc, date) = (said("rustc", "--version"), said("date", "+%F"));
+    format!(
+        "vfold {}, {rustc}, one thread of {}, {date}",
+        env!("CARGO_PKG_VERSION"),
+        cpu.trim_start_matches([' ', '\t', ':'])
+    )
+}
