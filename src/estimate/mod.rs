@@ -7,8 +7,10 @@ pub mod map;
 pub mod noise;
 pub mod prior;
 pub mod smooth;
+pub mod unknowns;
 
 use nalgebra::DMatrix;
+use unknowns::Quantity;
 
 use crate::solve::Termination;
 
@@ -33,12 +35,27 @@ pub struct Estimate {
     pub spread: Option<DMatrix<f64>>,
     /// Exposure: as known, or as found.
     pub exposure: f64,
+    /// Numbers of the scene that were found along with the spectrum.
+    pub fitted: Vec<Fitted>,
     /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
     pub residual_rms: f64,
     /// Iterations.
     pub iterations: u32,
     /// Why the solver stopped.
     pub termination: Termination,
+}
+
+/// A number of the scene as found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Value.
+    pub value: f64,
+    /// Standard deviation, in the same unit.
+    pub sd: f64,
+    /// Whether the facets say more of it than was known before.
+    pub supported: bool,
 }
 
 impl Estimate {

@@ -11,6 +11,7 @@ mod reader;
 mod sample;
 mod saves;
 mod scene;
+mod unknowns;
 mod writer;
 
 pub use fields::{Fields, finite};

@@ -1,13 +1,15 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
-use crate::estimate::Estimate;
+use crate::estimate::unknowns::Quantity;
+use crate::estimate::{Estimate, Fitted};
 use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
@@ -118,11 +120,31 @@ impl Sample {
         if let Some(sd) = sd {
             record["reflectance_sd"] = json!(sd);
         }
+        if !estimate.fitted.is_empty() {
+            record["fit"] = fit(&estimate.fitted)?;
+        }
         if let Some(covariance) = estimate.covariance().filter(|_| with_covariance) {
             let rows = covariance.row_iter().map(|row| row.iter().copied().collect());
             record["covariance"] = json!(rows.collect::<Vec<Vec<f64>>>());
         }
         self.fields.set("estimate", record)
+    }
+
+    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if what was fitted is not what [`Sample::set_estimate`] writes.
+    pub fn unsupported(&self) -> Result<Vec<String>> {
+        #[derive(Deserialize)]
+        struct Fit {
+            fit: Option<BTreeMap<String, Supported>>,
+        }
+        #[derive(Deserialize)]
+        struct Supported {
+            supported: bool,
+        }
+        let fit = self.fields.get::<Fit>("estimate")?.and_then(|estimate| estimate.fit).unwrap_or_default();
+        Ok(fit.into_iter().filter(|(_, one)| !one.supported).map(|(name, _)| name).collect())
     }
 
     /// The estimated spectrum, on its wavelengths; none if the sample has no estimate.
@@ -263,7 +285,24 @@ impl Sample {
     }
 }
 
-fn termination(termination: &Termination) -> serde_json::Value {
+/// Fitted numbers by name.
+fn fit(fitted: &[Fitted]) -> Result<Value> {
+    let mut all = Map::new();
+    for Fitted { quantity, value, sd, supported } in fitted {
+        let name = match quantity {
+            Quantity::Exposure => "exposure",
+            Quantity::TiltDeg => "tilt_deg",
+            Quantity::Sky => "sky",
+            Quantity::SkyCctK => "sky_cct_k",
+            Quantity::AngleDeg => "angle_deg",
+        };
+        finite("estimate.fit", [value, sd])?;
+        all.insert(name.to_owned(), json!({ "value": value, "sd": sd, "supported": supported }));
+    }
+    Ok(Value::Object(all))
+}
+
+fn termination(termination: &Termination) -> Value {
     match termination {
         Termination::Converged { gradient_norm } => {
             json!({ "reason": "converged", "gradient_norm": gradient_norm })

@@ -264,6 +264,19 @@ impl Scene {
         self.fields.set("accuracy", record)
     }
 
+    /// The mesh on which the bounces were solved, as `vkernel --mesh` names it.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not there.
+    pub fn mesh(&self) -> Result<String> {
+        #[derive(Deserialize)]
+        struct Solved {
+            mesh: String,
+        }
+        let solved: Solved = self.fields.require("accuracy", "make the scene with vkernel")?;
+        Ok(solved.mesh)
+    }
+
     /// Relative error that the response was allowed.
     ///
     /// # Errors
@@ -334,6 +347,12 @@ impl Scene {
         }
         not_negative("camera.sensitivities", camera.sensitivities.iter().flatten())?;
         Ok(camera)
+    }
+
+    /// Whether the colour of the sky is given.
+    #[must_use]
+    pub fn has_sky_illuminant(&self) -> bool {
+        self.fields.0.get("sky_illuminant").is_some_and(|sky| !sky.is_null())
     }
 
     /// The lights as the camera responds to them.
