@@ -3,6 +3,7 @@
 //! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers a channel
 //! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
@@ -24,8 +25,9 @@ pub struct Measured<'a> {
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
 /// A point of the model is a reflectance a waveband, and a standard normal number for each unknown of the scene.
+#[derive(Clone)]
 pub struct FacetData<'a> {
-    scene: &'a SceneModel,
+    scene: Cow<'a, SceneModel>,
     exposure: Exposure,
     values: DVector<f64>,
     channels: Vec<ChannelModel>,
@@ -37,12 +39,14 @@ pub struct FacetData<'a> {
 }
 
 /// What one channel's compressed data take of the terms, and the camera's weights: one of each a source.
+#[derive(Clone)]
 struct ChannelModel {
     sources: Vec<DMatrix<f64>>,
     weights: Vec<DVector<f64>>,
 }
 
 /// The sum of all facet values: measured, and of the terms of each source.
+#[derive(Clone)]
 struct SumRule {
     measured: f64,
     sources: Vec<DVector<f64>>,
@@ -127,7 +131,7 @@ impl<'a> FacetData<'a> {
         };
         let count = usable.len() * channels;
         Ok(Self {
-            scene,
+            scene: Cow::Borrowed(scene),
             exposure,
             values: DVector::from_vec(values),
             channels: models,
@@ -152,7 +156,14 @@ impl<'a> FacetData<'a> {
     /// The scene and what is unknown of it.
     #[must_use]
     pub fn scene(&self) -> &SceneModel {
-        self.scene
+        &self.scene
+    }
+
+    /// The same data with one unknown of the scene known to have this value.
+    #[must_use]
+    pub fn with_known(&self, unknown: usize, value: f64) -> Self {
+        let scene = self.scene.clone().into_owned().with_known(unknown, value);
+        Self { scene: Cow::Owned(scene), ..self.clone() }
     }
 
     /// Whether the exposure is found from the facets.
@@ -208,14 +219,18 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> Curvature {
         let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
-        let mixed = by_unknown.column_iter().map(|amounts| {
-            at.exposure * self.along(multipliers, &at.slopes, &amounts.into_owned())
-        });
+        let mixed = by_unknown
+            .column_iter()
+            .map(|amounts| at.exposure * self.along(multipliers, &at.slopes, &amounts.into_owned()));
         let mixed: Vec<_> = mixed.collect();
         Curvature {
             slopes: at.exposure * self.along(multipliers, &at.slopes, &now),
             reflectance: at.exposure * self.along(multipliers, &at.curvatures, &now),
-            mixed: if mixed.is_empty() { DMatrix::zeros(at.slopes.ncols(), 0) } else { DMatrix::from_columns(&mixed) },
+            mixed: if mixed.is_empty() {
+                DMatrix::zeros(at.slopes.ncols(), 0)
+            } else {
+                DMatrix::from_columns(&mixed)
+            },
             unknowns: at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers)),
         }
     }

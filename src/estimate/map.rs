@@ -10,7 +10,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
 use super::gaussian::{Gaussian, logistic};
 use super::prior::{Class, Prior};
-use super::unknowns::Quantity;
+use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
 use crate::solve::posterior::{Linearised, Model, Solution, first_inflation, maximise};
@@ -37,22 +37,37 @@ const EXPOSURE_SUPPORTED: f64 = 0.5;
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
 pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estimate {
+    let found = most_probable(data, prior, start);
+    match found.impossible(data) {
+        None => found.into_estimate(data),
+        // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
+        Some((unknown, least)) => {
+            let on_bound = most_probable(&data.with_known(unknown, least), prior, start);
+            let iterations = found.iterations + on_bound.iterations;
+            let Found { spread, prior_sd, .. } = found;
+            Found { spread, prior_sd, iterations, ..on_bound }.into_estimate(data)
+        }
+    }
+}
+
+/// The maximum, whether or not all unknowns of the scene can be so.
+fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Found {
     let inflation = (SORTING_NOISE * data.peak()).max(1.0);
     let all = Facets { data, gaussian: prior.broad() };
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.from_reflectance(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
     let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
-    let mut iterations = sorted.iterations;
     let found = starts.into_iter().map(|start| {
         let facets = Facets { data, gaussian: &start.class.gaussian };
         let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-        iterations += solution.iterations;
         let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
         facets.found(&solution, evidence)
     });
     let found: Vec<Found> = found.collect();
-    most_evident(found).unwrap_or_else(|| all.found(&sorted, 0.0)).into_estimate(data, iterations)
+    let iterations = sorted.iterations + found.iter().map(|found| found.iterations).sum::<u32>();
+    let best = most_evident(found).unwrap_or_else(|| all.found(&sorted, 0.0));
+    Found { iterations, ..best }
 }
 
 /// The maximum under one class.
@@ -65,6 +80,7 @@ struct Found {
     /// Derivative of each unknown by its standard normal number: how far it was unknown.
     prior_sd: Vec<f64>,
     residual_rms: f64,
+    iterations: u32,
     termination: Termination,
 }
 
@@ -86,7 +102,15 @@ fn most_evident(mut found: Vec<Found>) -> Option<Found> {
 }
 
 impl Found {
-    fn into_estimate(self, data: &FacetData, iterations: u32) -> Estimate {
+    /// An unknown of the scene below its least value, and that value.
+    fn impossible(&self, data: &FacetData) -> Option<(usize, f64)> {
+        let values = &self.point[data.scene().facets().bands()..];
+        let below =
+            |(n, unknown): (usize, &Unknown)| (values[n] < unknown.least()).then_some((n, unknown.least()));
+        data.scene().unknowns().iter().enumerate().find_map(below)
+    }
+
+    fn into_estimate(self, data: &FacetData) -> Estimate {
         let bands = data.scene().facets().bands();
         let sd = |column: usize| self.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
         let unknowns = data.scene().unknowns().iter().zip(&self.prior_sd).zip(bands..);
@@ -109,7 +133,7 @@ impl Found {
             spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
             exposure,
             residual_rms: self.residual_rms,
-            iterations,
+            iterations: self.iterations,
             termination: self.termination,
         }
     }
@@ -154,7 +178,8 @@ fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<Start
 fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
     let (bands, coordinates) = gaussian.basis().shape();
     let unknowns = jacobian.ncols() - bands;
-    let mut all = (jacobian.columns(0, bands) * gaussian.basis()).resize_horizontally(coordinates + unknowns, 0.0);
+    let mut all =
+        (jacobian.columns(0, bands) * gaussian.basis()).resize_horizontally(coordinates + unknowns, 0.0);
     all.columns_mut(coordinates, unknowns).copy_from(&jacobian.columns(bands, unknowns));
     all
 }
@@ -220,6 +245,7 @@ impl Facets<'_> {
             spread: self.spread(&prior_sd, solution),
             prior_sd,
             residual_rms: self.data.rms(&solution.at.residuals),
+            iterations: solution.iterations,
             termination: solution.termination,
         }
     }

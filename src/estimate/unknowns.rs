@@ -24,32 +24,15 @@ pub enum Quantity {
     AngleDeg,
 }
 
-/// A number of the scene, and what is known of it before a picture is taken.
+/// A number of the scene, and what is known of it before a picture is taken: it is normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unknown {
     /// What it is.
     pub quantity: Quantity,
-    /// What is known of it.
-    pub prior: ScenePrior,
-}
-
-/// A distribution of one number, as a function of a standard normal one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ScenePrior {
-    /// Normal.
-    Normal {
-        /// Mean.
-        mean: f64,
-        /// Standard deviation.
-        sd: f64,
-    },
-    /// Positive: its logarithm is normal.
-    LogNormal {
-        /// Median.
-        median: f64,
-        /// Standard deviation of the logarithm.
-        ln_sd: f64,
-    },
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; zero for a number that is known after all.
+    pub sd: f64,
 }
 
 /// What a source's amount is of one unknown.
@@ -75,29 +58,21 @@ pub enum Factor {
 /// A value with its first and second derivative.
 type Jet = [f64; 3];
 
-impl ScenePrior {
-    /// Value at `w`, a standard normal number, with its derivatives.
-    #[must_use]
-    pub fn at(self, w: f64) -> [f64; 3] {
-        match self {
-            Self::Normal { mean, sd } => [mean + sd * w, sd, 0.0],
-            Self::LogNormal { median, ln_sd } => {
-                let value = median * (ln_sd * w).exp();
-                [value, ln_sd * value, ln_sd * ln_sd * value]
-            }
-        }
-    }
-}
-
 impl Unknown {
-    /// Value at `w` and its derivative by it, in the unit of the quantity.
+    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the quantity.
     #[must_use]
     pub fn at(self, w: f64) -> (f64, f64) {
-        let [value, slope, _] = self.prior.at(w);
+        let value = self.mean + self.sd * w;
         match self.quantity {
-            Quantity::SkyCctK => (1e6 / value, -1e6 * slope / (value * value)),
-            _ => (value, slope),
+            Quantity::SkyCctK => (1e6 / value, -1e6 * self.sd / (value * value)),
+            _ => (value, self.sd),
         }
+    }
+
+    /// Least value that it can have.
+    #[must_use]
+    pub fn least(self) -> f64 {
+        if self.quantity == Quantity::Sky { 0.0 } else { f64::NEG_INFINITY }
     }
 }
 
@@ -117,13 +92,6 @@ impl Factor {
             }
         }
     }
-}
-
-/// The factor as a function of the standard normal number behind its unknown.
-fn chained(factor: Factor, value: Jet) -> Jet {
-    let [x, slope, curvature] = value;
-    let [f, by_x, by_x_twice] = factor.at(x);
-    [f, by_x * slope, by_x_twice * slope * slope + by_x * curvature]
 }
 
 /// A facet model whose sources come in amounts that depend on unknowns.
@@ -161,12 +129,28 @@ impl SceneModel {
         &self.unknowns
     }
 
+    /// The same scene with one unknown known to have this value.
+    #[must_use]
+    pub fn with_known(mut self, unknown: usize, value: f64) -> Self {
+        self.unknowns[unknown].mean = value;
+        self.unknowns[unknown].sd = 0.0;
+        self
+    }
+
     /// Amounts of the sources at `w`, a standard normal number an unknown.
     #[must_use]
     pub fn amounts(&self, w: &[f64]) -> Amounts {
-        let values: Vec<Jet> = self.unknowns.iter().zip(w).map(|(unknown, w)| unknown.prior.at(*w)).collect();
+        let jet = |factor: &Factor, unknown: &Unknown, w: f64| {
+            let [value, slope, curvature] = factor.at(unknown.mean + unknown.sd * w);
+            [value, unknown.sd * slope, unknown.sd * unknown.sd * curvature]
+        };
         let jets = |factors: &Vec<Factor>| {
-            factors.iter().zip(&values).map(|(factor, value)| chained(*factor, *value)).collect()
+            factors
+                .iter()
+                .zip(&self.unknowns)
+                .zip(w)
+                .map(|((factor, unknown), w)| jet(factor, unknown, *w))
+                .collect()
         };
         Amounts { jets: self.factors.iter().map(jets).collect(), unknowns: self.unknowns.len() }
     }

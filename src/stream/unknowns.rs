@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::estimate::unknowns::{Factor, Quantity, SceneModel, ScenePrior, Unknown};
+use crate::estimate::unknowns::{Factor, Quantity, SceneModel, Unknown};
 use crate::forward::{FacetModel, Lit};
 use crate::geometry::{Fold, Light};
 use crate::kernel::mesh::{Mesh, respond};
@@ -13,10 +13,9 @@ use crate::spectrum::{self, Outside};
 /// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to the sun by eye errs
 /// by a few degrees, and a sun further off shades a panel, which one sees.
 const TILT_SD_DEG: f64 = 10.0;
-/// Sky where the scene has none, and standard deviation of its logarithm. A clear sky gives a tenth to a third of the
-/// sun's light, of which a sheet among houses gets a part; two standard deviations reach from 0.014 to 0.74.
-const SKY_MEDIAN: f64 = 0.1;
-const SKY_LN_SD: f64 = 1.0;
+/// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of it, of which
+/// a sheet among houses gets a part.
+const SKY_SD: f64 = 0.25;
 /// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three between 7700 K and
 /// 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight ends.
 const SKY_MIRED: f64 = 100.0;
@@ -64,7 +63,8 @@ impl Scene {
             return Ok(Folds { folds: vec![(fold, Vec::new())], responses: vec![self.response()?] });
         }
         if self.mesh()? != Mesh::Auto.to_string() {
-            let problem = "an angle is fitted between folds that vkernel --mesh auto solves; make the scene so";
+            let problem =
+                "an angle is fitted between folds that vkernel --mesh auto solves; make the scene so";
             return Err(Error::field("accuracy.mesh", problem));
         }
         let angle_deg = fold.angle_deg();
@@ -72,10 +72,7 @@ impl Scene {
         if angle_deg + sd > 180.0 {
             return Err(Error::field("geometry.angle_deg", format!("{angle_deg} is flat: no angle to fit")));
         }
-        unknowns.push(Unknown {
-            quantity: Quantity::AngleDeg,
-            prior: ScenePrior::Normal { mean: angle_deg, sd },
-        });
+        unknowns.push(Unknown { quantity: Quantity::AngleDeg, mean: angle_deg, sd });
         let nodes = [angle_deg - sd, angle_deg, angle_deg + sd];
         let mut all = Folds { folds: Vec::new(), responses: Vec::new() };
         for (at, node) in nodes.into_iter().enumerate() {
@@ -96,8 +93,7 @@ impl Scene {
         let tilts = fit.contains(&Quantity::TiltDeg);
         if tilts {
             let sd = TILT_SD_DEG.min(0.25 * self.fold()?.angle_deg());
-            let prior = ScenePrior::Normal { mean: light.tilt_deg(), sd };
-            unknowns.push(Unknown { quantity: Quantity::TiltDeg, prior });
+            unknowns.push(Unknown { quantity: Quantity::TiltDeg, mean: light.tilt_deg(), sd });
         }
         let mut suns = Vec::new();
         for (response, (fold, _)) in folds.iter().enumerate() {
@@ -127,12 +123,9 @@ impl Scene {
         let fits = fit.contains(&Quantity::Sky);
         let mut cameras = vec![(lighting.sky, Vec::new())];
         if fits {
-            let median = if known > 0.0 { known } else { SKY_MEDIAN };
-            let prior = ScenePrior::LogNormal { median, ln_sd: SKY_LN_SD };
-            unknowns.push(Unknown { quantity: Quantity::Sky, prior });
+            unknowns.push(Unknown { quantity: Quantity::Sky, mean: known, sd: SKY_SD });
             if !self.has_sky_illuminant() {
-                let prior = ScenePrior::Normal { mean: SKY_MIRED, sd: SKY_MIRED_SD };
-                unknowns.push(Unknown { quantity: Quantity::SkyCctK, prior });
+                unknowns.push(Unknown { quantity: Quantity::SkyCctK, mean: SKY_MIRED, sd: SKY_MIRED_SD });
                 cameras = self.daylights(&lighting.sun)?;
             }
             cameras.iter_mut().for_each(|(_, factors)| factors.push((Quantity::Sky, Factor::Amount)));

@@ -104,7 +104,11 @@ impl Transform for Estimator<'_> {
             Some(spec) => Some(cli::one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?),
             None => None,
         };
-        let scene = if self.fit.is_empty() { SceneModel::known(scene.model()?) } else { scene.model_to_fit(&self.fit)? };
+        let scene = if self.fit.is_empty() {
+            SceneModel::known(scene.model()?)
+        } else {
+            scene.model_to_fit(&self.fit)?
+        };
         Ok(Context { grid, scene, method, start })
     }
 
@@ -191,4 +195,3 @@ fn root_mean_square(facets: &Colours) -> f64 {
     let values: Vec<f64> = facets.iter().flatten().flatten().copied().collect();
     (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
-
