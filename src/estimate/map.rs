@@ -13,11 +13,11 @@ use super::prior::{Class, Prior};
 use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
-use crate::solve::posterior::{Linearised, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Linearised, Model, Solution, first_inflation, maximise};
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
-const ITERATION_LIMIT: u32 = 500;
+const ITERATION_LIMIT: usize = 500;
 /// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger; this near to
 /// the maximum under all spectra.
 const SORTING_NOISE: f64 = 1e-3;
@@ -43,9 +43,9 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
         // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
         Some((unknown, least)) => {
             let on_bound = most_probable(&data.with_known(unknown, least), prior, start);
-            let iterations = found.iterations + on_bound.iterations;
-            let Found { spread, prior_sd, .. } = found;
-            Found { spread, prior_sd, iterations, ..on_bound }.into_estimate(data)
+            let Found { spread, prior_sd, mut trace, .. } = found;
+            trace.extend(on_bound.trace);
+            Found { spread, prior_sd, trace, ..on_bound }.into_estimate(data)
         }
     }
 }
@@ -65,9 +65,10 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         facets.found(&solution, evidence)
     });
     let found: Vec<Found> = found.collect();
-    let iterations = sorted.iterations + found.iter().map(|found| found.iterations).sum::<u32>();
+    let runs = found.iter().flat_map(|found| found.trace.clone());
+    let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
     let best = most_evident(found).unwrap_or_else(|| all.found(&sorted, 0.0));
-    Found { iterations, ..best }
+    Found { trace, ..best }
 }
 
 /// The maximum under one class.
@@ -80,7 +81,7 @@ struct Found {
     /// Derivative of each unknown by its standard normal number: how far it was unknown.
     prior_sd: Vec<f64>,
     residual_rms: f64,
-    iterations: u32,
+    trace: Vec<Vec<Iteration>>,
     termination: Termination,
 }
 
@@ -133,7 +134,8 @@ impl Found {
             spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
             exposure,
             residual_rms: self.residual_rms,
-            iterations: self.iterations,
+            iterations: self.trace.iter().map(|run| run.len() as u32).sum(),
+            trace: self.trace,
             termination: self.termination,
         }
     }
@@ -245,7 +247,7 @@ impl Facets<'_> {
             spread: self.spread(&prior_sd, solution),
             prior_sd,
             residual_rms: self.data.rms(&solution.at.residuals),
-            iterations: solution.iterations,
+            trace: vec![solution.trace.clone()],
             termination: solution.termination,
         }
     }

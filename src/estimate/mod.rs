@@ -13,6 +13,7 @@ use nalgebra::DMatrix;
 use unknowns::Quantity;
 
 use crate::solve::Termination;
+use crate::solve::posterior::Iteration;
 
 /// How the exposure of the picture enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub struct Estimate {
     pub residual_rms: f64,
     /// Iterations.
     pub iterations: u32,
+    /// What happened in them, by runs: under all spectra, then under each likely class. Empty from a method that keeps no trace.
+    pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,
 }

@@ -49,6 +49,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     Ok(Estimate {
         spread: None,
         fitted: Vec::new(),
+        trace: Vec::new(),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),

@@ -14,6 +14,7 @@ use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
 use crate::solve::Termination;
+use crate::solve::posterior::Iteration;
 
 /// Largest value of a facet that is read: sums and squares of such numbers stay finite.
 const LARGEST: f64 = 1e30;
@@ -145,6 +146,42 @@ impl Sample {
         }
         let fit = self.fields.get::<Fit>("estimate")?.and_then(|estimate| estimate.fit).unwrap_or_default();
         Ok(fit.into_iter().filter(|(_, one)| !one.supported).map(|(name, _)| name).collect())
+    }
+
+    /// Adds the iterations that led to an estimate, for [`Sample::take_trace`].
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_trace(&mut self, trace: &[Vec<Iteration>]) -> Result<()> {
+        let mut lines = Vec::new();
+        for (run, iterations) in trace.iter().enumerate() {
+            for (iteration, Iteration { cost, gradient_norm, damping, inflation }) in
+                iterations.iter().enumerate()
+            {
+                finite("trace", [cost, gradient_norm, damping, inflation])?;
+                lines.push(json!({
+                    "kind": "iteration",
+                    "sample": self.id()?,
+                    "run": run,
+                    "iteration": iteration,
+                    "cost": cost,
+                    "gradient_norm": gradient_norm,
+                    "damping": damping,
+                    "noise": inflation,
+                }));
+            }
+        }
+        self.fields.set("trace", lines)
+    }
+
+    /// Takes the iterations out, a record each: `run` 0 is under all spectra as one Gaussian, the others each under a class.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if `trace` is not a list of objects.
+    pub fn take_trace(&mut self) -> Result<Vec<Fields>> {
+        let lines: Vec<Map<String, Value>> = self.fields.get("trace")?.unwrap_or_default();
+        self.fields.0.remove("trace");
+        Ok(lines.into_iter().map(Fields).collect())
     }
 
     /// The estimated spectrum, on its wavelengths; none if the sample has no estimate.
@@ -289,17 +326,24 @@ impl Sample {
 fn fit(fitted: &[Fitted]) -> Result<Value> {
     let mut all = Map::new();
     for Fitted { quantity, value, sd, supported } in fitted {
-        let name = match quantity {
-            Quantity::Exposure => "exposure",
-            Quantity::TiltDeg => "tilt_deg",
-            Quantity::Sky => "sky",
-            Quantity::SkyCctK => "sky_cct_k",
-            Quantity::AngleDeg => "angle_deg",
-        };
         finite("estimate.fit", [value, sd])?;
-        all.insert(name.to_owned(), json!({ "value": value, "sd": sd, "supported": supported }));
+        all.insert(
+            fitted_name(*quantity).to_owned(),
+            json!({ "value": value, "sd": sd, "supported": supported }),
+        );
     }
     Ok(Value::Object(all))
+}
+
+/// Field of a fitted number.
+pub(super) fn fitted_name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Exposure => "exposure",
+        Quantity::TiltDeg => "tilt_deg",
+        Quantity::Sky => "sky",
+        Quantity::SkyCctK => "sky_cct_k",
+        Quantity::AngleDeg => "angle_deg",
+    }
 }
 
 fn termination(termination: &Termination) -> Value {

@@ -349,6 +349,12 @@ impl Scene {
         Ok(camera)
     }
 
+    /// Whether a camera looks at the fold.
+    #[must_use]
+    pub fn has_camera(&self) -> bool {
+        self.fields.0.contains_key("camera")
+    }
+
     /// Whether the colour of the sky is given.
     #[must_use]
     pub fn has_sky_illuminant(&self) -> bool {

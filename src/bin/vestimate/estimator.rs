@@ -114,11 +114,7 @@ impl Transform for Estimator<'_> {
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
         let rgb = sample.facet_rgb()?;
-        let exposure = match self.args.exposure {
-            Some(exposure) => exposure,
-            None if self.args.fit.contains(&Fit::Exposure) => Exposure::Free,
-            None => sample.exposure()?.map_or(Exposure::Free, Exposure::Known),
-        };
+        let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
         let estimate = match &context.method {
             SceneMethod::Map(prior) => {
                 let sd = self.deviations(context, &rgb, sample)?;
@@ -130,6 +126,9 @@ impl Transform for Estimator<'_> {
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let wavelengths_nm = context.grid.wavelengths_nm();
+        if self.args.trace.is_some() {
+            sample.set_trace(&estimate.trace)?;
+        }
         sample.set_estimate("interreflection", &self.args.prior, wavelengths_nm, &estimate, with_covariance)
     }
 }
@@ -140,6 +139,34 @@ impl<'a> Estimator<'a> {
     pub fn new(args: &'a Args) -> Result<Self> {
         let fit = args.fit.iter().filter(|fit| **fit != Fit::Exposure).map(|fit| Quantity::from(*fit));
         Ok(Self { args, method: method(args)?, fit: fit.collect() })
+    }
+
+    /// The flags behind it.
+    pub fn args(&self) -> &Args {
+        self.args
+    }
+
+    /// How the exposure enters, `told` being what the sample says of it.
+    pub fn exposure_or(&self, told: Exposure) -> Exposure {
+        let fits = self.args.fit.contains(&Fit::Exposure);
+        self.args.exposure.or(fits.then_some(Exposure::Free)).unwrap_or(told)
+    }
+
+    /// The estimate from facets that all have noise of this standard deviation.
+    pub fn of_facets(
+        &self,
+        context: &Context,
+        rgb: &Colours,
+        noise_sd: f64,
+        exposure: Exposure,
+    ) -> Result<Estimate> {
+        let sd = deviations(rgb, |_, _| noise_sd, self.args.model_error.unwrap_or(0.0));
+        let SceneMethod::Map(prior) = &context.method else {
+            let problem = format!("--prior {} does not know how far off its estimates are", self.args.prior);
+            return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
+        };
+        let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
+        Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
     /// The paper's objective weighs all facets alike, white being 1.

@@ -1,6 +1,7 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
 mod estimator;
+mod plan;
 mod settings;
 
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use estimator::{Estimator, MUNSELL};
+use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
 use vfold::cli::{self, Common, ToolArgs};
@@ -58,6 +60,11 @@ struct Args {
     /// Draw estimates, their error bands and true spectra
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
+    /// Write the iterations of every estimate, one JSON record a line
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    #[command(flatten)]
+    planning: PlanArgs,
     #[command(flatten)]
     common: Common,
 }
@@ -81,16 +88,25 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let estimator = Estimator::new(args)?;
+    let mut reader = Reader::open(&args.samples)?;
+    if args.planning.plan {
+        return args.planning.run(&estimator, &mut reader, out);
+    }
     let mut curves = Vec::new();
-    pipe(&mut Reader::open(&args.samples)?, &estimator, |record| {
-        if let Record::Sample(sample) = &record {
+    let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
+    pipe(&mut reader, &estimator, |mut record| {
+        if let Record::Sample(sample) = &mut record {
             warn(args, sample)?;
+            if let Some(trace) = &mut trace {
+                sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
+            }
             if args.plot.is_some() && curves.len() < CURVES_MAX {
                 curves.extend(sample.curve()?);
             }
         }
         out.record(&record)
     })?;
+    trace.map_or(Ok(0), Output::finish)?;
     args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))
 }
 
