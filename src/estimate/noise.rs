@@ -3,9 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::forward::FacetModel;
+use crate::solve::Eigen;
 
 /// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
 const FLOOR: f64 = 1e-6;
+
+/// Directions in which the terms move facets by less than the root of that share of the most are rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// Facet by channel, none for a facet that was not measured.
 pub type FacetValues = Vec<Option<Vec<f64>>>;
@@ -43,17 +47,27 @@ pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
         .map(|column| DVector::from_iterator(usable.len(), usable.iter().map(|facet| column[*facet])))
         .collect();
     let channels = model.sources()[0].camera.channels();
-    let freedom = usable.len().saturating_sub(columns.len());
-    if freedom == 0 {
+    let Some(span) = span(&columns).filter(|span| span.ncols() < usable.len()) else {
         return vec![0.0; channels];
-    }
-    let q = DMatrix::from_columns(&columns).qr().q();
+    };
+    let freedom = usable.len() - span.ncols();
     let noise = |channel: usize| {
         let value = |facet: &usize| rgb[*facet].as_ref().and_then(|rgb| rgb.get(channel)).copied();
         let data =
             DVector::from_iterator(usable.len(), usable.iter().map(|facet| value(facet).unwrap_or(0.0)));
-        let left = &data - &q * q.tr_mul(&data);
+        let left = &data - &span * span.tr_mul(&data);
         (left.norm_squared() / freedom as f64).sqrt()
     };
     (0..channels).map(noise).collect()
+}
+
+/// Orthonormal vectors that the columns are made of, fewer than them by far: the terms of neighbouring folds are much alike.
+fn span(columns: &[DVector<f64>]) -> Option<DMatrix<f64>> {
+    let columns = DMatrix::from_columns(columns);
+    let directions = Eigen::of_symmetric(&columns * columns.transpose());
+    let least = ROUNDING * directions.values.iter().copied().fold(0.0, f64::max);
+    let kept =
+        directions.values.iter().zip(directions.vectors.column_iter()).filter(|(square, _)| **square > least);
+    let kept: Vec<_> = kept.map(|(_, direction)| direction).collect();
+    (!kept.is_empty()).then(|| DMatrix::from_columns(&kept))
 }

@@ -189,3 +189,39 @@ impl Amounts {
         DVector::from_iterator(self.jets.len(), self.jets.iter().map(product))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_have_their_derivatives() {
+        let node = Factor::Node { nodes: [43.0, 45.0, 47.0], at: 1 };
+        for factor in [Factor::One, Factor::Cosine, Factor::Sine, Factor::Amount, node] {
+            for x in [-3.0, 0.4, 44.1] {
+                let [[below, slope_below, _], at, [above, slope_above, _]] =
+                    [x - 1e-4, x, x + 1e-4].map(|x| factor.at(x));
+                let scale = 1.0 + at[0].abs() + at[1].abs();
+                assert!((at[1] - (above - below) / 2e-4).abs() < 1e-6 * scale, "{factor:?} {x}");
+                assert!((at[2] - (slope_above - slope_below) / 2e-4).abs() < 1e-6 * scale, "{factor:?} {x}");
+            }
+        }
+    }
+
+    /// Three nodes hold any quadratic polynomial.
+    #[test]
+    fn nodes_interpolate() {
+        let nodes = [50.0, 100.0, 160.0];
+        let of = |x: f64| 3.0 - 0.2 * x + 0.01 * x * x;
+        let parts = [0, 1, 2].map(|at| of(nodes[at]) * Factor::Node { nodes, at }.at(120.0)[0]);
+        assert!((parts.iter().sum::<f64>() - of(120.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_temperature_is_the_reciprocal_of_its_unknown() {
+        let colour = Unknown { quantity: Quantity::SkyCctK, mean: 100.0, sd: 30.0 };
+        let (cct_k, slope) = colour.at(1.0);
+        assert!((cct_k - 1e6 / 130.0).abs() < 1e-9);
+        assert!((slope - (colour.at(1.0 + 1e-5).0 - colour.at(1.0 - 1e-5).0) / 2e-5).abs() < 1e-3);
+    }
+}
