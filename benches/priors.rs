@@ -19,7 +19,7 @@ fn main() -> Result<()> {
     while let Some(record) = reader.read()? {
         match (record, &scene) {
             (Record::Scene(line), _) => {
-                scene = Some((SceneModel::known(line.model()?), priors(&line.grid()?)?))
+                scene = Some((SceneModel::known(line.model()?), priors(&line.grid()?)?));
             }
             (Record::Sample(sample), Some((scene, priors))) => {
                 count += 1.0;

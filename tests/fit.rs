@@ -148,7 +148,7 @@ fn a_trace_has_a_line_an_iteration() {
     let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     for sample in records.iter().filter(|record| record["kind"] == "sample") {
         let steps: Vec<&Value> = records.iter().filter(|record| record["sample"] == sample["id"]).collect();
-        assert_eq!(steps.len() as f64, number(&sample["estimate"]["iterations"]));
+        assert_eq!(steps.len() as u64, sample["estimate"]["iterations"].as_u64().unwrap());
         assert!(sample["trace"].is_null());
         // Within a run, at one noise, the cost falls.
         for pair in steps.windows(2).filter(|p| p[0]["run"] == p[1]["run"] && p[0]["noise"] == p[1]["noise"])

@@ -8,11 +8,10 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::error::{Error, Result};
+use super::compress::{compress, sample_terms, sum_of_rows, usable_facets, weighted};
+use crate::error::Result;
 use crate::estimate::Exposure;
 use crate::estimate::unknowns::{Amounts, SceneModel};
-use crate::forward::FacetModel;
-use crate::solve::Eigen;
 
 /// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
 pub struct Measured<'a> {
@@ -109,7 +108,7 @@ impl<'a> FacetData<'a> {
     /// `cutoff` standard deviations are left out.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
+    /// [`crate::Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
     pub fn new(scene: &'a SceneModel, measured: &Measured, exposure: Exposure, cutoff: f64) -> Result<Self> {
         let model = scene.facets();
         let usable = usable_facets(model, measured)?;
@@ -178,7 +177,7 @@ impl<'a> FacetData<'a> {
     /// Deeb et al., first term of eq. (36).
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
-        let [terms] = self.scene.facets().terms_of(reflectance);
+        let terms = self.scene.facets().terms_of(reflectance);
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.parts_of(&terms) * &amounts;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
@@ -191,7 +190,7 @@ impl<'a> FacetData<'a> {
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
-        let [terms, slopes, curvatures] = self.scene.facets().terms_of(reflectance);
+        let [terms, slopes, curvatures] = self.scene.facets().derivatives_of(reflectance);
         let (amounts, parts) = (self.scene.amounts(unknowns), self.parts_of(&terms));
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
         let values = &parts * &now;
@@ -326,95 +325,4 @@ impl<'a> FacetData<'a> {
             start = end;
         }
     }
-}
-
-/// Facets with a value in every channel; checks the shapes on the way.
-fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
-    let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
-    for (name, rows) in [("facet_rgb", measured.rgb), ("facet_sd", measured.sd)] {
-        if rows.len() != facets {
-            return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
-        }
-        if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
-            return Err(Error::field(
-                name,
-                format!("{} channels, but the scene's camera has {channels}", odd.len()),
-            ));
-        }
-    }
-    let usable: Vec<usize> =
-        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
-    if usable.is_empty() {
-        return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
-    }
-    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
-        return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
-    }
-    Ok(usable)
-}
-
-/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
-fn weighted(
-    model: &FacetModel,
-    measured: &Measured,
-    usable: &[usize],
-    channel: usize,
-) -> (DVector<f64>, Vec<DMatrix<f64>>) {
-    let column =
-        |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
-    let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
-    let data = usable.iter().zip(&weight).map(|(facet, weight)| weight * column(measured.rgb, *facet));
-    let entry = |facets: &DMatrix<f64>, row: usize, term| weight[row] * facets[(usable[row], term)];
-    let sources = model.sources().iter().map(|source| {
-        DMatrix::from_fn(usable.len(), model.terms(), |row, term| entry(&source.facets, row, term))
-    });
-    (DVector::from_iterator(usable.len(), data), sources.collect())
-}
-
-fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
-    rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
-}
-
-/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands, so that a card's
-/// spectrum meets dark and bright ones everywhere.
-fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
-    let bands = model.bands();
-    // 37 shares no factor with the usual numbers of wavebands.
-    let place = |band: usize| (37 * band % bands) as f64 + 0.5;
-    let chebyshev = |band: usize| (std::f64::consts::FRAC_PI_2 * place(band) / bands as f64).sin().powi(2);
-    let [samples] = model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>());
-    samples
-}
-
-/// Rotates data and models to the directions that reflectance can move by more than the noise.
-fn compress(
-    data: &DVector<f64>,
-    sources: &[DMatrix<f64>],
-    samples: &DMatrix<f64>,
-    cutoff: f64,
-) -> (DVector<f64>, Vec<DMatrix<f64>>) {
-    // First to the span of the terms, then to the span of what they do over all reflectances.
-    let columns: Vec<_> = sources.iter().flat_map(|source| source.column_iter()).collect();
-    let q = DMatrix::from_columns(&columns).qr().q();
-    let sources: Vec<_> = sources.iter().map(|source| q.tr_mul(source)).collect();
-    let reach: Vec<_> = sources.iter().map(|source| source * samples).collect();
-    let reach =
-        DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
-    let directions = Eigen::of_symmetric(&reach * reach.transpose());
-    // Below that share of the largest, squares of singular values are rounding.
-    let largest = directions.values.iter().copied().fold(0.0, f64::max);
-    let least = (cutoff * cutoff).max(1e-15 * largest);
-    let kept: Vec<_> = directions
-        .values
-        .iter()
-        .zip(directions.vectors.column_iter())
-        .filter(|(square, _)| **square > least)
-        .map(|(_, direction)| direction)
-        .collect();
-    if kept.is_empty() {
-        return (DVector::zeros(0), sources.iter().map(|source| source.rows(0, 0).into_owned()).collect());
-    }
-    let rotation = DMatrix::from_columns(&kept);
-    let values = rotation.tr_mul(&q.tr_mul(data));
-    (values, sources.iter().map(|source| rotation.tr_mul(source)).collect())
 }

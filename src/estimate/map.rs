@@ -7,13 +7,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
-use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
-use super::gaussian::{Gaussian, logistic};
+use super::data::FacetData;
+use super::facets::{ByLogit, Facets, Second, whitened};
 use super::prior::{Class, Prior};
 use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Linearised, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
@@ -54,7 +54,7 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
 fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Found {
     let inflation = (SORTING_NOISE * data.peak()).max(1.0);
     let all = Facets { data, gaussian: prior.broad() };
-    let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.from_reflectance(start));
+    let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
     let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
@@ -62,12 +62,12 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         let facets = Facets { data, gaussian: &start.class.gaussian };
         let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
         let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
-        facets.found(&solution, evidence)
+        Found::new(&facets, &solution, evidence)
     });
     let found: Vec<Found> = found.collect();
     let runs = found.iter().flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
-    let best = most_evident(found).unwrap_or_else(|| all.found(&sorted, 0.0));
+    let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
 }
 
@@ -103,6 +103,24 @@ fn most_evident(mut found: Vec<Found>) -> Option<Found> {
 }
 
 impl Found {
+    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
+        let (_, unknowns) = facets.split(&solution.w);
+        let Second { reflectance, exposure, .. } = &solution.at.second;
+        let unknowns: Vec<(f64, f64)> =
+            facets.data.scene().unknowns().iter().zip(&unknowns).map(|(unknown, w)| unknown.at(*w)).collect();
+        let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
+        let values = unknowns.iter().map(|(value, _)| *value);
+        Self {
+            ln_evidence,
+            point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
+            spread: facets.spread(&prior_sd, solution),
+            prior_sd,
+            residual_rms: facets.data.rms(&solution.at.residuals),
+            trace: vec![solution.trace.clone()],
+            termination: solution.termination,
+        }
+    }
+
     /// An unknown of the scene below its least value, and that value.
     fn impossible(&self, data: &FacetData) -> Option<(usize, f64)> {
         let values = &self.point[data.scene().facets().bands()..];
@@ -174,144 +192,4 @@ fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<Start
     let w = factor.solve(&(weight * jacobian.tr_mul(&residuals)));
     let cost = weight * (residuals - jacobian * &w).norm_squared() + w.norm_squared();
     Some(Start { class, w, ln_evidence: class.ln_share - 0.5 * (cost + factor.ln_determinant()) })
-}
-
-/// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
-fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
-    let (bands, coordinates) = gaussian.basis().shape();
-    let unknowns = jacobian.ncols() - bands;
-    let mut all =
-        (jacobian.columns(0, bands) * gaussian.basis()).resize_horizontally(coordinates + unknowns, 0.0);
-    all.columns_mut(coordinates, unknowns).copy_from(&jacobian.columns(bands, unknowns));
-    all
-}
-
-/// The facets as a model of the whitened logit of reflectance, followed by the scene's unknowns.
-struct Facets<'a> {
-    data: &'a FacetData<'a>,
-    gaussian: &'a Gaussian,
-}
-
-/// Residuals and the derivatives of the model by logit, then by the scene's unknowns, about a point.
-struct ByLogit {
-    logit: DVector<f64>,
-    unknowns: DVector<f64>,
-    residuals: DVector<f64>,
-    jacobian: DMatrix<f64>,
-    second: Second,
-}
-
-/// What second derivatives by logit are made of.
-struct Second {
-    reflectance: Vec<f64>,
-    exposure: FittedExposure,
-    by_reflectance: SecondDerivatives,
-}
-
-impl Facets<'_> {
-    /// Where to set out from a reflectance, the scene being as likely as can be.
-    fn from_reflectance(&self, reflectance: &[f64]) -> DVector<f64> {
-        self.gaussian.nearest(reflectance).resize_vertically(self.unknowns(), 0.0)
-    }
-
-    /// Logits and the scene's unknowns at `w`.
-    fn split(&self, w: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
-        let coordinates = self.gaussian.basis().ncols();
-        let logit = self.gaussian.logit_at(&w.rows(0, coordinates).into_owned());
-        (logit, w.rows(coordinates, w.len() - coordinates).into_owned())
-    }
-
-    fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
-        let (logit, unknowns) = self.split(w);
-        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
-            self.data.linearise(&reflectance, unknowns.as_slice());
-        for (band, r) in reflectance.iter().enumerate() {
-            jacobian.column_mut(band).scale_mut(r * (1.0 - r));
-            exposure.slopes[band] *= r * (1.0 - r);
-        }
-        let second = Second { reflectance, exposure, by_reflectance: second };
-        ByLogit { logit, unknowns, residuals, jacobian, second }
-    }
-
-    fn found(&self, solution: &Solution<Second>, ln_evidence: f64) -> Found {
-        let (_, unknowns) = self.split(&solution.w);
-        let Second { reflectance, exposure, .. } = &solution.at.second;
-        let unknowns: Vec<(f64, f64)> =
-            self.data.scene().unknowns().iter().zip(&unknowns).map(|(unknown, w)| unknown.at(*w)).collect();
-        let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
-        let values = unknowns.iter().map(|(value, _)| *value);
-        Found {
-            ln_evidence,
-            point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: self.spread(&prior_sd, solution),
-            prior_sd,
-            residual_rms: self.data.rms(&solution.at.residuals),
-            trace: vec![solution.trace.clone()],
-            termination: solution.termination,
-        }
-    }
-
-    /// Laplace's covariance as a factor, carried from whitened logits to reflectances, unknowns and exposure.
-    fn spread(&self, by_unknown: &[f64], solution: &Solution<Second>) -> Option<DMatrix<f64>> {
-        let Second { reflectance, exposure, .. } = &solution.at.second;
-        let bands = reflectance.len();
-        let point = bands + by_unknown.len() + 1;
-        // Derivatives of the point by logits and unknowns: point by both.
-        let mut slopes = DMatrix::zeros(point, point - 1);
-        for (n, r) in reflectance.iter().enumerate() {
-            slopes[(n, n)] = r * (1.0 - r);
-        }
-        for (n, slope) in (bands..).zip(by_unknown) {
-            slopes[(n, n)] = *slope;
-        }
-        slopes.row_mut(point - 1).tr_copy_from(&exposure.slopes);
-        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S the derivatives by what is whitened.
-        let information = solution.information()?;
-        let spread = information.l().solve_lower_triangular(&whitened(&slopes, self.gaussian).transpose())?;
-        let rows = spread.nrows();
-        let mut spread = spread.insert_row(rows, 0.0);
-        spread[(rows, point - 1)] = exposure.sd;
-        Some(spread)
-    }
-}
-
-impl Model for Facets<'_> {
-    type Second = Second;
-
-    fn unknowns(&self) -> usize {
-        self.gaussian.basis().ncols() + self.data.scene().unknowns().len()
-    }
-
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        let (logit, unknowns) = self.split(w);
-        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        self.data.residuals(&reflectance, unknowns.as_slice()).residuals
-    }
-
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let ByLogit { residuals, jacobian, second, .. } = self.by_logit(w);
-        Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
-    }
-
-    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> DMatrix<f64> {
-        let Curvature { slopes, reflectance, mut mixed, unknowns } =
-            self.data.curvature(&at.by_reflectance, multipliers);
-        let basis = self.gaussian.basis();
-        let mut weighted = basis.clone();
-        // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
-        for (band, r) in at.reflectance.iter().enumerate() {
-            let change = r * (1.0 - r);
-            let by_logit = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
-            weighted.row_mut(band).scale_mut(by_logit);
-            mixed.row_mut(band).scale_mut(change);
-        }
-        let (coordinates, count) = (basis.ncols(), unknowns.nrows());
-        let mut all = (basis.transpose() * weighted).resize(coordinates + count, coordinates + count, 0.0);
-        let mixed = basis.tr_mul(&mixed);
-        all.view_mut((0, coordinates), mixed.shape()).copy_from(&mixed);
-        all.view_mut((coordinates, 0), (count, coordinates)).tr_copy_from(&mixed);
-        all.view_mut((coordinates, coordinates), (count, count)).copy_from(&unknowns);
-        all
-    }
 }

@@ -1,7 +1,9 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
 
 pub mod classes;
+mod compress;
 pub mod data;
+mod facets;
 pub mod gaussian;
 pub mod map;
 pub mod noise;

@@ -173,36 +173,48 @@ impl FacetModel {
         &self.sources
     }
 
-    /// The terms and their first `N − 1` derivatives by reflectance, for a spectrum: term by waveband, `N` from 1 to 3.
+    /// The terms for a spectrum: term by waveband.
     ///
     /// One sheet: `r/(1 − rg)`, then `r/(1 + rg)` where panels are lit unevenly. With a card c: `r/d`, `rcg/d`, `c/d`,
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
     #[must_use]
-    pub fn terms_of<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
-        let derivatives = |family: &Family, r, g| {
-            let all = family.at(r, g);
-            std::array::from_fn(|n| all[n])
-        };
-        self.terms_in(0..reflectance.len(), reflectance, derivatives)
+    pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {
+        self.terms_in(0..reflectance.len(), reflectance, Family::value)
+    }
+
+    /// The terms with their first and second derivatives by reflectance.
+    #[must_use]
+    pub fn derivatives_of(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
+        let mut all = [(); 3].map(|()| DMatrix::zeros(self.terms(), reflectance.len()));
+        let poles = self.poles.len();
+        for (band, r) in reflectance.iter().enumerate() {
+            for (n, family) in self.families(band).iter().enumerate() {
+                let rows = band * self.terms() + n * poles;
+                let [values, slopes, curvatures] =
+                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[rows..rows + poles]);
+                let targets = values.iter_mut().zip(slopes).zip(curvatures);
+                for (((value, slope), curvature), g) in targets.zip(&self.poles) {
+                    [*value, *slope, *curvature] = family.at(*r, *g);
+                }
+            }
+        }
+        all
     }
 
     /// What `of` makes of every family, pole and waveband of `bands`: term by waveband.
-    fn terms_in<const N: usize>(
+    fn terms_in(
         &self,
         bands: impl ExactSizeIterator<Item = usize>,
         reflectance: &[f64],
-        of: impl Fn(&Family, f64, f64) -> [f64; N],
-    ) -> [DMatrix<f64>; N] {
-        let (terms, poles) = (self.terms(), self.poles.len());
-        let mut all = [(); N].map(|()| DMatrix::zeros(terms, bands.len()));
-        for (column, band) in bands.enumerate() {
-            for (n, family) in self.families(band).iter().enumerate() {
-                let start = column * terms + n * poles;
-                let mut targets =
-                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[start..start + poles]);
-                for (k, g) in self.poles.iter().enumerate() {
-                    let at = of(family, reflectance[band], *g);
-                    targets.iter_mut().zip(at).for_each(|(target, value)| target[k] = value);
+        of: impl Fn(&Family, f64, f64) -> f64,
+    ) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.terms(), bands.len());
+        for (mut column, band) in all.column_iter_mut().zip(bands) {
+            let families = self.families(band);
+            let targets = column.as_mut_slice().chunks_exact_mut(self.poles.len().max(1));
+            for (target, family) in targets.zip(families.iter()) {
+                for (value, g) in target.iter_mut().zip(&self.poles) {
+                    *value = of(family, reflectance[band], *g);
                 }
             }
         }
@@ -239,7 +251,7 @@ impl FacetModel {
     /// RGB of every facet, `of` being what a family makes of reflectance and pole.
     fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
         let bands = &self.seen_bands;
-        let [terms] = self.terms_in(bands.iter().copied(), reflectance, |family, r, g| [of(family, r, g)]);
+        let terms = self.terms_in(bands.iter().copied(), reflectance, of);
         let of_source = |source: &Source| {
             let camera = &source.camera;
             let weights =

@@ -3,6 +3,7 @@
 //! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
 //! through typed views and add their own.
 
+mod estimate;
 mod fields;
 mod model;
 mod npy;

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
+use super::estimate::fitted_name;
 use super::fields::{Fields, finite};
-use super::sample::fitted_name;
 use super::scene::Scene;
 use crate::error::Result;
 use crate::estimate::Estimate;

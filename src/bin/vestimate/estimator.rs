@@ -74,7 +74,12 @@ fn method(args: &Args) -> Result<Method> {
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
         spec => {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
-            Method::Map(spectrum::reflectances(spec)?, classes)
+            let spectra = spectrum::reflectances(spec)?;
+            if spectra.len() < 2 {
+                let problem = format!("'{spec}' is one spectrum, which tells nothing of others");
+                return Err(Error::usage("--prior", problem, "give a set or a file of two or more"));
+            }
+            Method::Map(spectra, classes)
         }
     })
 }
