@@ -97,7 +97,7 @@ struct LightRecord {
 /// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
 /// panel, residues for the facets of both.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "needs poles and residues; make the scene again with vkernel")]
 enum ResponseRecord {
     Shared(ModesRecord),
     Separate { panels: [ModesRecord; 2] },
