@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::prior::Prior;
+use vfold::estimate::unknowns::SceneModel;
 use vfold::estimate::{Exposure, classes, map};
 use vfold::spectrum::{Outside, reflectances};
 use vfold::stream::{Colours, Reader, Record};
@@ -30,7 +31,7 @@ fn main() -> Result<()> {
                 let chips: Vec<_> =
                     chips.iter().map(|chip| chip.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
                 let prior = Prior::from_spectra(grid.wavelengths_nm(), &chips, Some(&classes::of_munsell()))?;
-                scene = Some((line.model()?, prior));
+                scene = Some((SceneModel::known(line.model()?), prior));
             }
             Record::Sample(sample) => {
                 let Some((model, prior)) = &scene else { return Err(Error::Numeric("no scene".to_owned())) };

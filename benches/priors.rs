@@ -6,8 +6,8 @@
 use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
+use vfold::estimate::unknowns::SceneModel;
 use vfold::estimate::{Exposure, classes, map};
-use vfold::forward::FacetModel;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
 use vfold::stream::{Reader, Record, Sample};
 use vfold::{Error, Result};
@@ -18,11 +18,13 @@ fn main() -> Result<()> {
     let mut count = 0.0;
     while let Some(record) = reader.read()? {
         match (record, &scene) {
-            (Record::Scene(line), _) => scene = Some((line.model()?, priors(&line.grid()?)?)),
-            (Record::Sample(sample), Some((model, priors))) => {
+            (Record::Scene(line), _) => {
+                scene = Some((SceneModel::known(line.model()?), priors(&line.grid()?)?));
+            }
+            (Record::Sample(sample), Some((scene, priors))) => {
                 count += 1.0;
                 for (sum, prior) in squares.iter_mut().zip(priors) {
-                    *sum += rmse(model, prior, &sample)?;
+                    *sum += rmse(scene, prior, &sample)?;
                 }
             }
             _ => {}
@@ -43,17 +45,17 @@ fn priors(grid: &WavelengthGrid) -> Result<Vec<Prior>> {
         .collect()
 }
 
-fn rmse(model: &FacetModel, prior: &Prior, sample: &Sample) -> Result<f64> {
+fn rmse(scene: &SceneModel, prior: &Prior, sample: &Sample) -> Result<f64> {
     let rgb = sample.facet_rgb()?;
     let said = sample.facet_sd()?;
-    let noise = unexplained(model, &rgb);
+    let noise = unexplained(scene.facets(), &rgb);
     let noise_sd = |facet: usize, channel: usize| match &said {
         Some(said) => said[facet].as_ref().map_or(0.0, |sd| sd[channel]),
         None => noise[channel],
     };
     let sd = deviations(&rgb, noise_sd, 0.0);
     let exposure = sample.exposure()?.map_or(Exposure::Free, Exposure::Known);
-    let data = FacetData::new(model, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
+    let data = FacetData::new(scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
     let estimate = map::estimate(&data, prior, None);
     let truth = sample.truth()?.ok_or_else(|| Error::field("truth", "missing; vforward adds it"))?;
     let squares = estimate.reflectance.iter().zip(&truth.reflectance).map(|(a, b)| (a - b).powi(2));

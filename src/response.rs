@@ -196,6 +196,12 @@ pub enum ModeLight {
 }
 
 impl ModeLight {
+    /// Whether panels that are alike receive unlike light.
+    #[must_use]
+    pub fn is_uneven(self) -> bool {
+        matches!(self, Self::Sun([on_0, on_1]) if on_0.total_cmp(&on_1).is_ne())
+    }
+
     /// What a mode that both panels share gets on `panel` and on the other.
     fn on_both(self, panel: usize, pole: f64) -> (f64, f64) {
         match self {

@@ -3,14 +3,15 @@
 //! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers a channel
 //! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::error::{Error, Result};
+use super::compress::{compress, sample_terms, sum_of_rows, usable_facets, weighted};
+use crate::error::Result;
 use crate::estimate::Exposure;
-use crate::forward::FacetModel;
-use crate::solve::Eigen;
+use crate::estimate::unknowns::{Amounts, SceneModel};
 
 /// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
 pub struct Measured<'a> {
@@ -21,8 +22,11 @@ pub struct Measured<'a> {
 }
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
+///
+/// A point of the model is a reflectance a waveband, and a standard normal number for each unknown of the scene.
+#[derive(Clone)]
 pub struct FacetData<'a> {
-    model: &'a FacetModel,
+    scene: Cow<'a, SceneModel>,
     exposure: Exposure,
     values: DVector<f64>,
     channels: Vec<ChannelModel>,
@@ -33,13 +37,15 @@ pub struct FacetData<'a> {
     sums: SumRule,
 }
 
-/// What one channel's compressed data take of the terms, and the camera's weights: one of each a light.
+/// What one channel's compressed data take of the terms, and the camera's weights: one of each a source.
+#[derive(Clone)]
 struct ChannelModel {
     sources: Vec<DMatrix<f64>>,
     weights: Vec<DVector<f64>>,
 }
 
-/// The sum of all facet values: measured, and of the terms of each light.
+/// The sum of all facet values: measured, and of the terms of each source.
+#[derive(Clone)]
 struct SumRule {
     measured: f64,
     sources: Vec<DVector<f64>>,
@@ -53,21 +59,48 @@ pub struct Residuals {
     pub exposure: f64,
 }
 
-/// Residuals with the derivatives of the model by the reflectance, a column a waveband.
+/// Residuals with the derivatives of the model: a column a waveband by its reflectance, then a column an unknown of the scene.
 pub struct LinearisedFacets {
     /// Data minus model.
     pub residuals: DVector<f64>,
     /// Derivatives of the model.
     pub jacobian: DMatrix<f64>,
+    /// The exposure used.
+    pub exposure: FittedExposure,
     /// For [`FacetData::curvature`].
     pub second: SecondDerivatives,
 }
 
-/// What second derivatives at a reflectance are made of: exposure, and derivatives of the terms.
+/// An exposure as found from the facets.
+pub struct FittedExposure {
+    /// Value.
+    pub value: f64,
+    /// How far it moves with reflectances and unknowns, columns as in the Jacobian.
+    pub slopes: DVector<f64>,
+    /// Its own standard deviation, all else known.
+    pub sd: f64,
+}
+
+/// What second derivatives at a point are made of: exposure, amounts of the sources, the model of each at exposure 1, and
+/// derivatives of the terms.
 pub struct SecondDerivatives {
     exposure: f64,
+    amounts: Amounts,
+    parts: DMatrix<f64>,
     slopes: DMatrix<f64>,
     curvatures: DMatrix<f64>,
+}
+
+/// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
+pub struct Curvature {
+    /// `Σ λᵢ ∂mᵢ/∂r` a waveband.
+    pub slopes: DVector<f64>,
+    /// `Σ λᵢ ∂²mᵢ/∂r²` a waveband.
+    pub reflectance: DVector<f64>,
+    /// By reflectance and unknown: waveband by unknown.
+    pub mixed: DMatrix<f64>,
+    /// Unknown by unknown.
+    pub unknowns: DMatrix<f64>,
 }
 
 impl<'a> FacetData<'a> {
@@ -75,8 +108,9 @@ impl<'a> FacetData<'a> {
     /// `cutoff` standard deviations are left out.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
-    pub fn new(model: &'a FacetModel, measured: &Measured, exposure: Exposure, cutoff: f64) -> Result<Self> {
+    /// [`crate::Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
+    pub fn new(scene: &'a SceneModel, measured: &Measured, exposure: Exposure, cutoff: f64) -> Result<Self> {
+        let model = scene.facets();
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
         let samples = sample_terms(model);
@@ -96,7 +130,7 @@ impl<'a> FacetData<'a> {
         };
         let count = usable.len() * channels;
         Ok(Self {
-            model,
+            scene: Cow::Borrowed(scene),
             exposure,
             values: DVector::from_vec(values),
             channels: models,
@@ -118,59 +152,92 @@ impl<'a> FacetData<'a> {
         ((residuals.norm_squared() + self.outside.max(0.0)) / self.count as f64).sqrt()
     }
 
-    /// Residuals at a reflectance.
+    /// The scene and what is unknown of it.
+    #[must_use]
+    pub fn scene(&self) -> &SceneModel {
+        &self.scene
+    }
+
+    /// The same data with one unknown of the scene known to have this value.
+    #[must_use]
+    pub fn with_known(&self, unknown: usize, value: f64) -> Self {
+        let scene = self.scene.clone().into_owned().with_known(unknown, value);
+        Self { scene: Cow::Owned(scene), ..self.clone() }
+    }
+
+    /// Whether the exposure is found from the facets.
+    #[must_use]
+    pub fn fits_exposure(&self) -> bool {
+        self.exposure == Exposure::Free
+    }
+
+    /// Residuals at a point.
     ///
     /// # Source
     /// Deeb et al., first term of eq. (36).
     #[must_use]
-    pub fn residuals(&self, reflectance: &[f64]) -> Residuals {
-        let [terms] = self.model.terms_of(reflectance);
-        let (residuals, exposure, _) = self.compare(&terms);
-        Residuals { residuals, exposure }
+    pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
+        let terms = self.scene.facets().terms_of(reflectance);
+        let amounts = self.scene.amounts(unknowns).values();
+        let values = self.parts_of(&terms) * &amounts;
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
+        Residuals { residuals: &self.values - exposure * values, exposure }
     }
 
-    /// Residuals at a reflectance, with the derivatives of the model.
+    /// Residuals at a point, with the derivatives of the model.
     ///
     /// # Source
     /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
     #[must_use]
-    pub fn linearise(&self, reflectance: &[f64]) -> LinearisedFacets {
-        let [terms, slopes, curvatures] = self.model.terms_of(reflectance);
-        let (residuals, exposure, values) = self.compare(&terms);
-        let mut jacobian = exposure * self.columns_of(&slopes);
-        match self.exposure {
-            Exposure::Known(_) => {}
-            // What a change of the spectrum does beyond what a change of exposure undoes.
-            Exposure::Free => {
-                let along = jacobian.tr_mul(&values) / values.norm_squared().max(f64::MIN_POSITIVE);
-                jacobian.ger(-1.0, &values, &along, 1.0);
-            }
-            Exposure::Sum => {
-                let shares = self.sum_of(&slopes) / self.sum_of(&terms).sum().max(f64::MIN_POSITIVE);
-                jacobian.ger(-exposure, &values, &shares, 1.0);
-            }
+    pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
+        let [terms, slopes, curvatures] = self.scene.facets().derivatives_of(reflectance);
+        let (amounts, parts) = (self.scene.amounts(unknowns), self.parts_of(&terms));
+        let (now, by_unknown) = (amounts.values(), amounts.slopes());
+        let values = &parts * &now;
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
+        let mut jacobian = self.columns_of(&slopes, &now, by_unknown.ncols());
+        jacobian.columns_mut(slopes.ncols(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
+        jacobian *= exposure;
+        let square = values.norm_squared().max(f64::MIN_POSITIVE);
+        let (relative, sd) = match self.exposure {
+            Exposure::Known(_) => (DVector::zeros(jacobian.ncols()), 0.0),
+            Exposure::Free => (jacobian.tr_mul(&values) / (exposure * square), square.sqrt().recip()),
+            Exposure::Sum => (self.shares_of_sum(&terms, &slopes, &now, &by_unknown), 0.0),
+        };
+        // What a change of the spectrum does beyond what a change of exposure undoes.
+        jacobian.ger(-exposure, &values, &relative, 1.0);
+        LinearisedFacets {
+            residuals: &self.values - exposure * values,
+            jacobian,
+            exposure: FittedExposure { value: exposure, slopes: -exposure * relative, sd },
+            second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures },
         }
-        let second = SecondDerivatives { exposure, slopes, curvatures };
-        LinearisedFacets { residuals, jacobian, second }
     }
 
-    /// `Σ λᵢ ∂mᵢ/∂r` and `Σ λᵢ ∂²mᵢ/∂r²` a waveband, at the exposure of that reflectance.
+    /// `Σ λᵢ∇²mᵢ` at the exposure of that point.
     #[must_use]
-    pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> [DVector<f64>; 2] {
-        [&at.slopes, &at.curvatures].map(|of_terms| at.exposure * self.along(multipliers, of_terms))
+    pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> Curvature {
+        let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
+        let mixed = by_unknown
+            .column_iter()
+            .map(|amounts| at.exposure * self.along(multipliers, &at.slopes, &amounts.into_owned()));
+        let mixed: Vec<_> = mixed.collect();
+        Curvature {
+            slopes: at.exposure * self.along(multipliers, &at.slopes, &now),
+            reflectance: at.exposure * self.along(multipliers, &at.curvatures, &now),
+            mixed: if mixed.is_empty() {
+                DMatrix::zeros(at.slopes.ncols(), 0)
+            } else {
+                DMatrix::from_columns(&mixed)
+            },
+            unknowns: at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers)),
+        }
     }
 
     /// The largest datum in units of its noise.
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.peak
-    }
-
-    /// Residuals, exposure, and the model at exposure 1.
-    fn compare(&self, terms: &DMatrix<f64>) -> (DVector<f64>, f64, DVector<f64>) {
-        let values = self.values_of(terms);
-        let exposure = self.exposure_of(&values, || self.sum_of(terms).sum());
-        (&self.values - exposure * &values, exposure, values)
     }
 
     fn exposure_of(&self, values: &DVector<f64>, sum: impl Fn() -> f64) -> f64 {
@@ -181,149 +248,81 @@ impl<'a> FacetData<'a> {
         }
     }
 
-    /// Model of the compressed data at exposure 1.
-    fn values_of(&self, terms: &DMatrix<f64>) -> DVector<f64> {
-        let mut values = DVector::zeros(self.len());
-        self.each_part(|rows, compressed, weights| {
-            values.rows_mut(rows.start, rows.len()).gemv(1.0, compressed, &(terms * weights), 1.0);
+    /// Model of the compressed data at exposure 1, each source in the amount 1: datum by source.
+    fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut parts = DMatrix::zeros(self.len(), self.sums.sources.len());
+        self.each_part(|rows, source, compressed, weights| {
+            let mut part = parts.view_mut((rows.start, source), (rows.len(), 1));
+            part.gemm(1.0, compressed, &(terms * weights), 0.0);
         });
-        values
+        parts
     }
 
-    /// The same a waveband: its sum over the columns is [`FacetData::values_of`].
-    fn columns_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut columns = DMatrix::zeros(self.len(), terms.ncols());
-        self.each_part(|rows, compressed, weights| {
+    /// Sum of the sources in these amounts a waveband, and `more` columns of zeros.
+    fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
+        let mut columns = DMatrix::zeros(self.len(), terms.ncols() + more);
+        self.each_part(|rows, source, compressed, weights| {
             let mut part = compressed * terms;
-            part.column_iter_mut().zip(weights.iter()).for_each(|(mut column, weight)| column *= *weight);
-            let mut target = columns.rows_mut(rows.start, rows.len());
+            part.column_iter_mut()
+                .zip(weights.iter())
+                .for_each(|(mut column, weight)| column *= amounts[source] * weight);
+            let mut target = columns.view_mut((rows.start, 0), part.shape());
             target += part;
         });
         columns
     }
 
     /// `Σ λᵢ` times the model a waveband, without forming its columns.
-    fn along(&self, multipliers: &DVector<f64>, of_terms: &DMatrix<f64>) -> DVector<f64> {
+    fn along(
+        &self,
+        multipliers: &DVector<f64>,
+        of_terms: &DMatrix<f64>,
+        amounts: &DVector<f64>,
+    ) -> DVector<f64> {
         let mut along = DVector::zeros(of_terms.ncols());
-        self.each_part(|rows, compressed, weights| {
-            let by_term = compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
+        self.each_part(|rows, source, compressed, weights| {
+            let by_term = amounts[source] * compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
             along += of_terms.tr_mul(&by_term).component_mul(weights);
         });
         along
     }
 
     /// Sum over all facets and channels, a waveband.
-    fn sum_of(&self, terms: &DMatrix<f64>) -> DVector<f64> {
+    fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
         let mut sum = DVector::zeros(terms.ncols());
         for channel in &self.channels {
-            for (weights, facets) in channel.weights.iter().zip(&self.sums.sources) {
-                sum += terms.tr_mul(facets).component_mul(weights);
+            for (source, weights) in channel.weights.iter().enumerate() {
+                sum += terms.tr_mul(&(amounts[source] * &self.sums.sources[source])).component_mul(weights);
             }
         }
         sum
     }
 
-    /// Visits every channel under every light: its rows of the compressed data, what they take of the terms, and the
-    /// camera's weights a waveband.
-    fn each_part(&self, mut visit: impl FnMut(Range<usize>, &DMatrix<f64>, &DVector<f64>)) {
+    /// Derivatives of the logarithm of that sum, columns as in the Jacobian.
+    fn shares_of_sum(
+        &self,
+        terms: &DMatrix<f64>,
+        slopes: &DMatrix<f64>,
+        amounts: &DVector<f64>,
+        by_unknown: &DMatrix<f64>,
+    ) -> DVector<f64> {
+        let by_reflectance = self.sum_of(slopes, amounts);
+        let by_unknown =
+            by_unknown.column_iter().map(|amounts| self.sum_of(terms, &amounts.into_owned()).sum());
+        let all: Vec<f64> = by_reflectance.iter().copied().chain(by_unknown).collect();
+        DVector::from_vec(all) / self.sum_of(terms, amounts).sum().max(f64::MIN_POSITIVE)
+    }
+
+    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows take of the
+    /// terms, and the camera's weights a waveband.
+    fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
         let mut start = 0;
         for channel in &self.channels {
             let end = start + channel.sources[0].nrows();
-            for (compressed, weights) in channel.sources.iter().zip(&channel.weights) {
-                visit(start..end, compressed, weights);
+            for (source, compressed) in channel.sources.iter().enumerate() {
+                visit(start..end, source, compressed, &channel.weights[source]);
             }
             start = end;
         }
     }
-}
-
-/// Facets with a value in every channel; checks the shapes on the way.
-fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
-    let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
-    for (name, rows) in [("facet_rgb", measured.rgb), ("facet_sd", measured.sd)] {
-        if rows.len() != facets {
-            return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
-        }
-        if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
-            return Err(Error::field(
-                name,
-                format!("{} channels, but the scene's camera has {channels}", odd.len()),
-            ));
-        }
-    }
-    let usable: Vec<usize> =
-        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
-    if usable.is_empty() {
-        return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
-    }
-    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
-        return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
-    }
-    Ok(usable)
-}
-
-/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
-fn weighted(
-    model: &FacetModel,
-    measured: &Measured,
-    usable: &[usize],
-    channel: usize,
-) -> (DVector<f64>, Vec<DMatrix<f64>>) {
-    let column =
-        |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
-    let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
-    let data = usable.iter().zip(&weight).map(|(facet, weight)| weight * column(measured.rgb, *facet));
-    let entry = |facets: &DMatrix<f64>, row: usize, term| weight[row] * facets[(usable[row], term)];
-    let sources = model.sources().iter().map(|source| {
-        DMatrix::from_fn(usable.len(), model.terms(), |row, term| entry(&source.facets, row, term))
-    });
-    (DVector::from_iterator(usable.len(), data), sources.collect())
-}
-
-fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
-    rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
-}
-
-/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands, so that a card's
-/// spectrum meets dark and bright ones everywhere.
-fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
-    let bands = model.bands();
-    // 37 shares no factor with the usual numbers of wavebands.
-    let place = |band: usize| (37 * band % bands) as f64 + 0.5;
-    let chebyshev = |band: usize| (std::f64::consts::FRAC_PI_2 * place(band) / bands as f64).sin().powi(2);
-    let [samples] = model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>());
-    samples
-}
-
-/// Rotates data and models to the directions that reflectance can move by more than the noise.
-fn compress(
-    data: &DVector<f64>,
-    sources: &[DMatrix<f64>],
-    samples: &DMatrix<f64>,
-    cutoff: f64,
-) -> (DVector<f64>, Vec<DMatrix<f64>>) {
-    // First to the span of the terms, then to the span of what they do over all reflectances.
-    let columns: Vec<_> = sources.iter().flat_map(|source| source.column_iter()).collect();
-    let q = DMatrix::from_columns(&columns).qr().q();
-    let sources: Vec<_> = sources.iter().map(|source| q.tr_mul(source)).collect();
-    let reach: Vec<_> = sources.iter().map(|source| source * samples).collect();
-    let reach =
-        DMatrix::from_columns(&reach.iter().flat_map(|reach| reach.column_iter()).collect::<Vec<_>>());
-    let directions = Eigen::of_symmetric(&reach * reach.transpose());
-    // Below that share of the largest, squares of singular values are rounding.
-    let largest = directions.values.iter().copied().fold(0.0, f64::max);
-    let least = (cutoff * cutoff).max(1e-15 * largest);
-    let kept: Vec<_> = directions
-        .values
-        .iter()
-        .zip(directions.vectors.column_iter())
-        .filter(|(square, _)| **square > least)
-        .map(|(_, direction)| direction)
-        .collect();
-    if kept.is_empty() {
-        return (DVector::zeros(0), sources.iter().map(|source| source.rows(0, 0).into_owned()).collect());
-    }
-    let rotation = DMatrix::from_columns(&kept);
-    let values = rotation.tr_mul(&q.tr_mul(data));
-    (values, sources.iter().map(|source| rotation.tr_mul(source)).collect())
 }

@@ -7,15 +7,17 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
-use super::Estimate;
-use super::data::{FacetData, LinearisedFacets, SecondDerivatives};
-use super::gaussian::{Gaussian, logistic};
+use super::data::FacetData;
+use super::facets::{ByLogit, Facets, Second, whitened};
 use super::prior::{Class, Prior};
-use crate::solve::posterior::{Linearised, Model, Solution, first_inflation, maximise};
+use super::unknowns::{Quantity, Unknown};
+use super::{Estimate, Fitted};
+use crate::solve::Termination;
+use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
-const ITERATION_LIMIT: u32 = 500;
+const ITERATION_LIMIT: usize = 500;
 /// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger; this near to
 /// the maximum under all spectra.
 const SORTING_NOISE: f64 = 1e-3;
@@ -23,54 +25,138 @@ const SORTING_TOLERANCE: f64 = 0.3;
 /// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
 const CLASSES_TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -4.0;
+/// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
+/// nothing is known before, if it is below that share of the exposure.
+const SUPPORTED: f64 = 0.8;
+const EXPOSURE_SUPPORTED: f64 = 0.5;
 
-/// The most probable reflectance. `start` is a reflectance to set out from instead of the prior's mean; at a maximum of more
-/// evidence than all others it makes no difference.
+/// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from instead of the
+/// prior's mean; at a maximum of more evidence than all others it makes no difference.
 ///
 /// # Source
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
 #[must_use]
 pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estimate {
+    let found = most_probable(data, prior, start);
+    match found.impossible(data) {
+        None => found.into_estimate(data),
+        // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
+        Some((unknown, least)) => {
+            let on_bound = most_probable(&data.with_known(unknown, least), prior, start);
+            let Found { spread, prior_sd, mut trace, .. } = found;
+            trace.extend(on_bound.trace);
+            Found { spread, prior_sd, trace, ..on_bound }.into_estimate(data)
+        }
+    }
+}
+
+/// The maximum, whether or not all unknowns of the scene can be so.
+fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Found {
     let inflation = (SORTING_NOISE * data.peak()).max(1.0);
     let all = Facets { data, gaussian: prior.broad() };
-    let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| prior.broad().nearest(start));
+    let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let mut iterations = sorted.iterations;
     let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
     let found = starts.into_iter().map(|start| {
         let facets = Facets { data, gaussian: &start.class.gaussian };
         let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-        iterations += solution.iterations;
         let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
-        (evidence, facets, solution)
+        Found::new(&facets, &solution, evidence)
     });
-    let found: Vec<(f64, Estimate)> =
-        found.map(|(evidence, facets, solution)| (evidence, facets.estimate(&solution))).collect();
-    let estimate = most_evident(found).unwrap_or_else(|| all.estimate(&sorted));
-    Estimate { iterations, ..estimate }
+    let found: Vec<Found> = found.collect();
+    let runs = found.iter().flat_map(|found| found.trace.clone());
+    let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
+    let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
+    Found { trace, ..best }
 }
 
-/// The estimate of most evidence, its error bars widened by how far the others are from it.
-fn most_evident(mut found: Vec<(f64, Estimate)>) -> Option<Estimate> {
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let most = found.first()?.0;
-    let total: f64 = found.iter().map(|(evidence, _)| (evidence - most).exp()).sum();
-    let rows = found.iter().map(|(evidence, other)| {
-        let share = ((evidence - most).exp() / total).sqrt();
-        let apart =
-            other.reflectance.iter().zip(&found[0].1.reflectance).map(|(other, best)| share * (other - best));
-        let apart = RowDVector::from_iterator(other.reflectance.len(), apart);
-        Some(
-            (share * other.spread.as_ref()?)
-                .row_iter()
-                .map(nalgebra::Matrix::into_owned)
-                .chain([apart])
-                .collect::<Vec<_>>(),
-        )
+/// The maximum under one class.
+struct Found {
+    ln_evidence: f64,
+    /// Reflectances, unknowns in their own units, exposure.
+    point: Vec<f64>,
+    /// The product of its transpose with it is the covariance of the point.
+    spread: Option<DMatrix<f64>>,
+    /// Derivative of each unknown by its standard normal number: how far it was unknown.
+    prior_sd: Vec<f64>,
+    residual_rms: f64,
+    trace: Vec<Vec<Iteration>>,
+    termination: Termination,
+}
+
+/// That of most evidence, its error bars widened by how far the others are from it.
+fn most_evident(mut found: Vec<Found>) -> Option<Found> {
+    found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+    let most = found.first()?;
+    let odds = |other: &Found| (other.ln_evidence - most.ln_evidence).exp();
+    let total: f64 = found.iter().map(odds).sum();
+    let rows = found.iter().map(|other| {
+        let share = (odds(other) / total).sqrt();
+        let apart = other.point.iter().zip(&most.point).map(|(other, best)| share * (other - best));
+        let apart = RowDVector::from_iterator(other.point.len(), apart);
+        let own = share * other.spread.as_ref()?;
+        Some(own.row_iter().map(nalgebra::Matrix::into_owned).chain([apart]).collect::<Vec<_>>())
     });
     let spread = rows.collect::<Option<Vec<_>>>().map(|rows| DMatrix::from_rows(&rows.concat()));
-    Some(Estimate { spread, ..found.swap_remove(0).1 })
+    Some(Found { spread, ..found.swap_remove(0) })
+}
+
+impl Found {
+    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
+        let (_, unknowns) = facets.split(&solution.w);
+        let Second { reflectance, exposure, .. } = &solution.at.second;
+        let unknowns: Vec<(f64, f64)> =
+            facets.data.scene().unknowns().iter().zip(&unknowns).map(|(unknown, w)| unknown.at(*w)).collect();
+        let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
+        let values = unknowns.iter().map(|(value, _)| *value);
+        Self {
+            ln_evidence,
+            point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
+            spread: facets.spread(&prior_sd, solution),
+            prior_sd,
+            residual_rms: facets.data.rms(&solution.at.residuals),
+            trace: vec![solution.trace.clone()],
+            termination: solution.termination,
+        }
+    }
+
+    /// An unknown of the scene below its least value, and that value.
+    fn impossible(&self, data: &FacetData) -> Option<(usize, f64)> {
+        let values = &self.point[data.scene().facets().bands()..];
+        let below =
+            |(n, unknown): (usize, &Unknown)| (values[n] < unknown.least()).then_some((n, unknown.least()));
+        data.scene().unknowns().iter().enumerate().find_map(below)
+    }
+
+    fn into_estimate(self, data: &FacetData) -> Estimate {
+        let bands = data.scene().facets().bands();
+        let sd = |column: usize| self.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
+        let unknowns = data.scene().unknowns().iter().zip(&self.prior_sd).zip(bands..);
+        let unknowns = unknowns.map(|((unknown, prior_sd), column)| Fitted {
+            quantity: unknown.quantity,
+            value: self.point[column],
+            sd: sd(column),
+            supported: sd(column) < SUPPORTED * prior_sd.abs(),
+        });
+        let (last, exposure) = (self.point.len() - 1, self.point[self.point.len() - 1]);
+        let of_exposure = data.fits_exposure().then(|| Fitted {
+            quantity: Quantity::Exposure,
+            value: exposure,
+            sd: sd(last),
+            supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
+        });
+        Estimate {
+            reflectance: self.point[..bands].to_vec(),
+            fitted: of_exposure.into_iter().chain(unknowns).collect(),
+            spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
+            exposure,
+            residual_rms: self.residual_rms,
+            iterations: self.trace.iter().map(|run| run.len() as u32).sum(),
+            trace: self.trace,
+            termination: self.termination,
+        }
+    }
 }
 
 /// A class that the facets may belong to, and where to set out under it.
@@ -95,101 +181,15 @@ fn likely<'a>(prior: &'a Prior, about: &ByLogit, inflation: f64) -> Vec<Start<'a
 fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<Start<'a>> {
     let weight = inflation.powi(-2);
     let gaussian = &class.gaussian;
-    let jacobian = &about.jacobian * gaussian.basis();
-    let residuals = &about.residuals + &about.jacobian * (&about.logit - gaussian.mean());
+    let jacobian = whitened(&about.jacobian, gaussian);
+    let (bands, unknowns) = (about.logit.len(), about.unknowns.len());
+    let residuals = &about.residuals
+        + about.jacobian.columns(0, bands) * (&about.logit - gaussian.mean())
+        + about.jacobian.columns(bands, unknowns) * &about.unknowns;
     let mut information = weight * (jacobian.transpose() * &jacobian);
     (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
     let factor = Cholesky::new(information)?;
     let w = factor.solve(&(weight * jacobian.tr_mul(&residuals)));
     let cost = weight * (residuals - jacobian * &w).norm_squared() + w.norm_squared();
     Some(Start { class, w, ln_evidence: class.ln_share - 0.5 * (cost + factor.ln_determinant()) })
-}
-
-/// The facets as a model of the whitened logit of reflectance.
-struct Facets<'a> {
-    data: &'a FacetData<'a>,
-    gaussian: &'a Gaussian,
-}
-
-/// Residuals and the derivatives of the model by logit about a spectrum.
-struct ByLogit {
-    logit: DVector<f64>,
-    residuals: DVector<f64>,
-    jacobian: DMatrix<f64>,
-    second: Second,
-}
-
-/// What second derivatives by logit are made of.
-struct Second {
-    reflectance: Vec<f64>,
-    by_reflectance: SecondDerivatives,
-}
-
-impl Facets<'_> {
-    fn reflectance(&self, w: &DVector<f64>) -> Vec<f64> {
-        self.gaussian.logit_at(w).iter().map(|z| logistic(*z)).collect()
-    }
-
-    fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
-        let logit = self.gaussian.logit_at(w);
-        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let LinearisedFacets { residuals, mut jacobian, second } = self.data.linearise(&reflectance);
-        for (mut column, r) in jacobian.column_iter_mut().zip(&reflectance) {
-            column *= r * (1.0 - r);
-        }
-        ByLogit { logit, residuals, jacobian, second: Second { reflectance, by_reflectance: second } }
-    }
-
-    fn estimate(&self, solution: &Solution<Second>) -> Estimate {
-        let reflectance = self.reflectance(&solution.w);
-        let at = self.data.residuals(&reflectance);
-        Estimate {
-            spread: self.spread(&reflectance, solution),
-            exposure: at.exposure,
-            residual_rms: self.data.rms(&at.residuals),
-            iterations: solution.iterations,
-            termination: solution.termination,
-            reflectance,
-        }
-    }
-
-    /// Laplace's covariance as a factor, carried from logit to reflectance.
-    fn spread(&self, reflectance: &[f64], solution: &Solution<Second>) -> Option<DMatrix<f64>> {
-        // The covariance of the logits is B(I + JᵀJ)⁻¹Bᵀ, B the prior's basis.
-        let mut spread =
-            solution.information()?.l().solve_lower_triangular(&self.gaussian.basis().transpose())?;
-        spread.column_iter_mut().zip(reflectance).for_each(|(mut column, r)| column *= r * (1.0 - r));
-        Some(spread)
-    }
-}
-
-impl Model for Facets<'_> {
-    type Second = Second;
-
-    fn unknowns(&self) -> usize {
-        self.gaussian.basis().ncols()
-    }
-
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        self.data.residuals(&self.reflectance(w)).residuals
-    }
-
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let ByLogit { residuals, jacobian, second, .. } = self.by_logit(w);
-        Linearised { residuals, jacobian: jacobian * self.gaussian.basis(), second }
-    }
-
-    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> DMatrix<f64> {
-        let [slopes, curvatures] = self.data.curvature(&at.by_reflectance, multipliers);
-        // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
-        let by_logit =
-            at.reflectance.iter().zip(slopes.iter().zip(&curvatures)).map(|(r, (slope, curvature))| {
-                let change = r * (1.0 - r);
-                change * (change * curvature + (1.0 - 2.0 * r) * slope)
-            });
-        let basis = self.gaussian.basis();
-        let mut weighted = basis.clone();
-        weighted.row_iter_mut().zip(by_logit).for_each(|(mut row, weight)| row *= weight);
-        basis.transpose() * weighted
-    }
 }

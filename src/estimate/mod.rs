@@ -1,16 +1,21 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
 
 pub mod classes;
+mod compress;
 pub mod data;
+mod facets;
 pub mod gaussian;
 pub mod map;
 pub mod noise;
 pub mod prior;
 pub mod smooth;
+pub mod unknowns;
 
 use nalgebra::DMatrix;
+use unknowns::Quantity;
 
 use crate::solve::Termination;
+use crate::solve::posterior::Iteration;
 
 /// How the exposure of the picture enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +38,29 @@ pub struct Estimate {
     pub spread: Option<DMatrix<f64>>,
     /// Exposure: as known, or as found.
     pub exposure: f64,
+    /// Numbers of the scene that were found along with the spectrum.
+    pub fitted: Vec<Fitted>,
     /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
     pub residual_rms: f64,
     /// Iterations.
     pub iterations: u32,
+    /// What happened in them, by runs: under all spectra, then under each likely class. Empty from a method that keeps no trace.
+    pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,
+}
+
+/// A number of the scene as found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Value.
+    pub value: f64,
+    /// Standard deviation, in the same unit.
+    pub sd: f64,
+    /// Whether the facets say more of it than was known before.
+    pub supported: bool,
 }
 
 impl Estimate {

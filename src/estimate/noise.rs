@@ -3,9 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::forward::FacetModel;
+use crate::solve::Eigen;
 
 /// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
 const FLOOR: f64 = 1e-6;
+
+/// Directions in which the terms move facets by less than the root of that share of the most are rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// Facet by channel, none for a facet that was not measured.
 pub type FacetValues = Vec<Option<Vec<f64>>>;
@@ -31,7 +35,7 @@ pub fn deviations(
 /// Noise a channel, told from the facets alone: the root mean square of what no reflectance explains.
 ///
 /// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
-/// directions are noise. Zero where there are no more facets than terms.
+/// directions are noise. Zero where the terms can be any facets.
 #[must_use]
 pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
     let usable: Vec<usize> =
@@ -43,17 +47,26 @@ pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
         .map(|column| DVector::from_iterator(usable.len(), usable.iter().map(|facet| column[*facet])))
         .collect();
     let channels = model.sources()[0].camera.channels();
-    let freedom = usable.len().saturating_sub(columns.len());
-    if freedom == 0 {
+    if usable.is_empty() {
         return vec![0.0; channels];
     }
-    let q = DMatrix::from_columns(&columns).qr().q();
+    let span = span(&columns);
+    let freedom = usable.len() - span.ncols();
     let noise = |channel: usize| {
         let value = |facet: &usize| rgb[*facet].as_ref().and_then(|rgb| rgb.get(channel)).copied();
         let data =
             DVector::from_iterator(usable.len(), usable.iter().map(|facet| value(facet).unwrap_or(0.0)));
-        let left = &data - &q * q.tr_mul(&data);
-        (left.norm_squared() / freedom as f64).sqrt()
+        let left = &data - &span * span.tr_mul(&data);
+        if freedom == 0 { 0.0 } else { (left.norm_squared() / freedom as f64).sqrt() }
     };
     (0..channels).map(noise).collect()
+}
+
+/// Orthonormal vectors that the columns are made of, fewer than them by far: the terms of neighbouring folds are much alike.
+fn span(columns: &[DVector<f64>]) -> DMatrix<f64> {
+    let columns = DMatrix::from_columns(columns);
+    let Eigen { values, vectors } = Eigen::of_symmetric(&columns * columns.transpose());
+    let least = ROUNDING * values.iter().copied().fold(0.0, f64::max);
+    let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > least).collect();
+    vectors.select_columns(&kept)
 }

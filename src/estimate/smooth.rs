@@ -45,9 +45,11 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         _ => Termination::NoProgress { gradient_norm },
     };
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
-    let at = data.residuals(&reflectance);
+    let at = data.residuals(&reflectance, &[]);
     Ok(Estimate {
         spread: None,
+        fitted: Vec::new(),
+        trace: Vec::new(),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
@@ -100,7 +102,7 @@ impl CostFunction for Objective<'_> {
     type Output = f64;
 
     fn cost(&self, r: &DVector<f64>) -> std::result::Result<f64, SolverError> {
-        Ok(self.data.residuals(r.as_slice()).residuals.norm_squared() + r.dot(&(&self.penalty * r)))
+        Ok(self.data.residuals(r.as_slice(), &[]).residuals.norm_squared() + r.dot(&(&self.penalty * r)))
     }
 }
 
@@ -109,7 +111,7 @@ impl Gradient for Objective<'_> {
     type Gradient = DVector<f64>;
 
     fn gradient(&self, r: &DVector<f64>) -> std::result::Result<DVector<f64>, SolverError> {
-        let at = self.data.linearise(r.as_slice());
+        let at = self.data.linearise(r.as_slice(), &[]);
         Ok(2.0 * (&self.penalty * r - at.jacobian.tr_mul(&at.residuals)))
     }
 }
@@ -119,7 +121,7 @@ impl Hessian for Objective<'_> {
     type Hessian = DMatrix<f64>;
 
     fn hessian(&self, r: &DVector<f64>) -> std::result::Result<DMatrix<f64>, SolverError> {
-        let at = self.data.linearise(r.as_slice());
+        let at = self.data.linearise(r.as_slice(), &[]);
         Ok(2.0 * (at.jacobian.tr_mul(&at.jacobian) + &self.penalty))
     }
 }

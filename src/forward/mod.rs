@@ -7,4 +7,4 @@ pub mod noise;
 pub mod nonuniform;
 pub mod render;
 
-pub use model::{FacetModel, Lighting};
+pub use model::{Card, FacetModel, Lighting, Lit};

@@ -24,7 +24,7 @@ pub struct Lighting {
 
 impl Lighting {
     /// The lights of the scene: the sun, and the sky if there is one, each with the camera's response to it.
-    pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> {
+    pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> + Clone {
         let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
         let sky = (ModeLight::Sky(self.light.sky()), &self.sky);
         std::iter::once(sun).chain((self.light.sky() > 0.0).then_some(sky))
@@ -33,9 +33,32 @@ impl Lighting {
     /// The wavebands in which at least one channel sees one of the lights.
     #[must_use]
     pub fn seen_bands(&self) -> Vec<usize> {
-        let seen = |band: &usize| self.sources().any(|(_, camera)| camera.sees(*band));
-        (0..self.sun.bands()).filter(seen).collect()
+        seen_bands(self.sources().map(|(_, camera)| camera))
     }
+}
+
+fn seen_bands<'a>(cameras: impl Iterator<Item = &'a CameraResponse> + Clone) -> Vec<usize> {
+    let bands = cameras.clone().next().map_or(0, CameraResponse::bands);
+    (0..bands).filter(|band| cameras.clone().any(|camera| camera.sees(*band))).collect()
+}
+
+/// A light on a fold of known response, and how the camera sees it.
+pub struct Lit<'a> {
+    /// Which of the responses.
+    pub response: usize,
+    /// The light.
+    pub light: ModeLight,
+    /// The camera's response to it.
+    pub camera: &'a CameraResponse,
+}
+
+/// A card of known reflectance in the place of one panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// Its panel, 0 or 1; the other is the sheet.
+    pub panel: usize,
+    /// Reflectance a waveband.
+    pub reflectance: Vec<f64>,
 }
 
 /// Facet RGB of a fold under known light, for any reflectance of its panels.
@@ -52,8 +75,8 @@ pub struct FacetModel {
 enum Panels {
     /// One sheet, lit unevenly (odd modes excited) or evenly.
     One { odd: bool },
-    /// One panel is a card of known reflectance a waveband, the other is the sheet.
-    Card { panel: usize, reflectance: Vec<f64> },
+    /// The sheet beside a card.
+    Card(Card),
 }
 
 /// One light: how much of each term every facet takes, and how the camera sees it.
@@ -69,49 +92,62 @@ impl FacetModel {
     /// A fold of one sheet.
     #[must_use]
     pub fn one_sheet(response: &Response, lighting: &Lighting) -> Self {
-        let [e0, e1] = lighting.light.panel_irradiance();
-        let even = matches!(response.modes(), Modes::Shared(_)) && e0.total_cmp(&e1).is_eq();
-        Self::new(response, lighting, Panels::One { odd: !even })
+        Self::under(response, lighting, None)
     }
 
     /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other one the sheet.
     #[must_use]
     pub fn with_card(response: &Response, lighting: &Lighting, panel: usize, reflectance: Vec<f64>) -> Self {
-        Self::new(response, lighting, Panels::Card { panel, reflectance })
+        Self::under(response, lighting, Some(Card { panel, reflectance }))
     }
 
-    fn new(response: &Response, lighting: &Lighting, panels: Panels) -> Self {
-        let (poles, seen_bands) = (response.poles(), lighting.seen_bands());
+    fn under(response: &Response, lighting: &Lighting, card: Option<Card>) -> Self {
+        let lights: Vec<Lit> =
+            lighting.sources().map(|(light, camera)| Lit { response: 0, light, camera }).collect();
+        Self::new(std::slice::from_ref(response), &lights, card)
+    }
+
+    /// A fold of one sheet, or of a sheet and a card, with a source for each of `lights`. Several `responses`, of as many
+    /// facets each, are the fold at several angles.
+    #[must_use]
+    pub fn new(responses: &[Response], lights: &[Lit], card: Option<Card>) -> Self {
+        let poles = responses.iter().flat_map(Response::poles).collect();
+        let odd = responses.iter().any(|response| matches!(response.modes(), Modes::Separate(_)))
+            || lights.iter().any(|lit| lit.light.is_uneven());
+        let panels = card.map_or(Panels::One { odd }, Panels::Card);
+        let seen_bands = seen_bands(lights.iter().map(|lit| lit.camera));
         let mut model = Self { poles, panels, sources: Vec::new(), seen_bands };
-        for (light, camera) in lighting.sources() {
-            model.add_source(response, camera, light);
+        for lit in lights {
+            let first = responses[..lit.response].iter().map(|response| response.poles().len()).sum();
+            model.add_source(&responses[lit.response], first, lit);
         }
         model
     }
 
-    fn add_source(&mut self, response: &Response, camera: &CameraResponse, light: ModeLight) {
+    /// Adds a light on a fold whose poles begin at `first`.
+    fn add_source(&mut self, response: &Response, first: usize, lit: &Lit) {
         let count = response.facets();
         let mut facets = DMatrix::zeros(2 * count, self.terms());
         let poles = self.poles.len();
         for facet in 0..2 * count {
             let panel = facet / count;
-            for (k, mode) in response.excitations(panel, facet % count, light).iter().enumerate() {
-                match self.panels {
+            for (k, mode) in (first..).zip(response.excitations(panel, facet % count, lit.light)) {
+                match &self.panels {
                     Panels::One { odd } => {
                         facets[(facet, k)] = 0.5 * (mode.own + mode.other);
-                        if odd {
+                        if *odd {
                             facets[(facet, poles + k)] = 0.5 * (mode.own - mode.other);
                         }
                     }
-                    Panels::Card { panel: card, .. } => {
-                        let own = if panel == card { 2 } else { 0 };
+                    Panels::Card(card) => {
+                        let own = if panel == card.panel { 2 } else { 0 };
                         facets[(facet, own * poles + k)] = mode.own;
                         facets[(facet, poles + k)] = mode.other;
                     }
                 }
             }
         }
-        self.sources.push(Source { facets, camera: camera.clone() });
+        self.sources.push(Source { facets, camera: lit.camera.clone() });
     }
 
     /// Number of terms: functions of reflectance that all facets combine.
@@ -121,7 +157,7 @@ impl FacetModel {
             * match self.panels {
                 Panels::One { odd: false } => 1,
                 Panels::One { odd: true } => 2,
-                Panels::Card { .. } => 3,
+                Panels::Card(_) => 3,
             }
     }
 
@@ -137,36 +173,48 @@ impl FacetModel {
         &self.sources
     }
 
-    /// The terms and their first `N − 1` derivatives by reflectance, for a spectrum: term by waveband, `N` from 1 to 3.
+    /// The terms for a spectrum: term by waveband.
     ///
     /// One sheet: `r/(1 − rg)`, then `r/(1 + rg)` where panels are lit unevenly. With a card c: `r/d`, `rcg/d`, `c/d`,
     /// `d = 1 − rcg²`. Never `1/r`: black is a legal reflectance.
     #[must_use]
-    pub fn terms_of<const N: usize>(&self, reflectance: &[f64]) -> [DMatrix<f64>; N] {
-        let derivatives = |family: &Family, r, g| {
-            let all = family.at(r, g);
-            std::array::from_fn(|n| all[n])
-        };
-        self.terms_in(0..reflectance.len(), reflectance, derivatives)
+    pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {
+        self.terms_in(0..reflectance.len(), reflectance, Family::value)
+    }
+
+    /// The terms with their first and second derivatives by reflectance.
+    #[must_use]
+    pub fn derivatives_of(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
+        let mut all = [(); 3].map(|()| DMatrix::zeros(self.terms(), reflectance.len()));
+        let poles = self.poles.len();
+        for (band, r) in reflectance.iter().enumerate() {
+            for (n, family) in self.families(band).iter().enumerate() {
+                let rows = band * self.terms() + n * poles;
+                let [values, slopes, curvatures] =
+                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[rows..rows + poles]);
+                let targets = values.iter_mut().zip(slopes).zip(curvatures);
+                for (((value, slope), curvature), g) in targets.zip(&self.poles) {
+                    [*value, *slope, *curvature] = family.at(*r, *g);
+                }
+            }
+        }
+        all
     }
 
     /// What `of` makes of every family, pole and waveband of `bands`: term by waveband.
-    fn terms_in<const N: usize>(
+    fn terms_in(
         &self,
         bands: impl ExactSizeIterator<Item = usize>,
         reflectance: &[f64],
-        of: impl Fn(&Family, f64, f64) -> [f64; N],
-    ) -> [DMatrix<f64>; N] {
-        let (terms, poles) = (self.terms(), self.poles.len());
-        let mut all = [(); N].map(|()| DMatrix::zeros(terms, bands.len()));
-        for (column, band) in bands.enumerate() {
-            for (n, family) in self.families(band).iter().enumerate() {
-                let start = column * terms + n * poles;
-                let mut targets =
-                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[start..start + poles]);
-                for (k, g) in self.poles.iter().enumerate() {
-                    let at = of(family, reflectance[band], *g);
-                    targets.iter_mut().zip(at).for_each(|(target, value)| target[k] = value);
+        of: impl Fn(&Family, f64, f64) -> f64,
+    ) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.terms(), bands.len());
+        for (mut column, band) in all.column_iter_mut().zip(bands) {
+            let families = self.families(band);
+            let targets = column.as_mut_slice().chunks_exact_mut(self.poles.len().max(1));
+            for (target, family) in targets.zip(families.iter()) {
+                for (value, g) in target.iter_mut().zip(&self.poles) {
+                    *value = of(family, reflectance[band], *g);
                 }
             }
         }
@@ -177,7 +225,7 @@ impl FacetModel {
     fn families(&self, band: usize) -> Families {
         match &self.panels {
             Panels::One { odd } => Families { all: [EVEN, ODD, ODD], count: 1 + usize::from(*odd) },
-            Panels::Card { reflectance, .. } => beside_card(reflectance[band]),
+            Panels::Card(card) => beside_card(card.reflectance[band]),
         }
     }
 
@@ -203,7 +251,7 @@ impl FacetModel {
     /// RGB of every facet, `of` being what a family makes of reflectance and pole.
     fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
         let bands = &self.seen_bands;
-        let [terms] = self.terms_in(bands.iter().copied(), reflectance, |family, r, g| [of(family, r, g)]);
+        let terms = self.terms_in(bands.iter().copied(), reflectance, of);
         let of_source = |source: &Source| {
             let camera = &source.camera;
             let weights =

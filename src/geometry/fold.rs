@@ -119,6 +119,15 @@ impl Fold {
         Ok(Self { depths: [self.depths[0], depth], ..self })
     }
 
+    /// The same fold opened by another angle.
+    ///
+    /// # Errors
+    /// An angle outside (0, 180].
+    pub fn with_angle_deg(self, angle_deg: f64) -> Result<Self> {
+        let fold = Self::new(angle_deg, self.width, self.depths[0], self.facets)?;
+        Ok(Self { depths: self.depths, spacing: self.spacing, ..fold })
+    }
+
     /// The same fold with its facet rows spaced otherwise.
     #[must_use]
     pub fn with_spacing(self, spacing: Spacing) -> Self {

@@ -70,6 +70,16 @@ impl Light {
         self.slant_deg
     }
 
+    /// What the panels of `fold` receive alike from the sun on the bisecting plane, and what panel 0 receives more and
+    /// panel 1 less for each unit of the sine of its tilt.
+    ///
+    /// The irradiance at a tilt is `even·cos(tilt) ± odd·sin(tilt)`.
+    #[must_use]
+    pub fn even_and_odd(&self, fold: &Fold) -> [f64; 2] {
+        let (sin, cos) = (fold.angle_rad() / 2.0).sin_cos();
+        [sin, cos].map(|share| self.slant_deg.to_radians().cos() * share)
+    }
+
     /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's.
     #[must_use]
     pub fn sky(&self) -> f64 {

@@ -61,10 +61,23 @@ pub struct Solution<S> {
     pub w: DVector<f64>,
     /// The model there.
     pub at: Linearised<S>,
-    /// Iterations over all stages.
-    pub iterations: u32,
+    /// Iterations over all stages, each as it began.
+    pub trace: Vec<Iteration>,
     /// Why it stopped.
     pub termination: Termination,
+}
+
+/// Where an iteration began.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// `|ρ(w)|² + |w|²`, the noise inflated.
+    pub cost: f64,
+    /// Norm of the gradient in the metric of the Hessian.
+    pub gradient_norm: f64,
+    /// Damping of the first trial.
+    pub damping: f64,
+    /// Factor by which the noise is inflated.
+    pub inflation: f64,
 }
 
 impl<S> Solution<S> {
@@ -101,10 +114,10 @@ pub fn maximise<M: Model>(
     start: DVector<f64>,
     inflation: (f64, f64),
     tolerance: f64,
-    limit: u32,
+    limit: usize,
 ) -> Solution<M::Second> {
     let (mut now, last) = inflation;
-    let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, iterations: 0 };
+    let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, trace: Vec::new() };
     let mut steps = 0;
     let termination = loop {
         let Some(newton) = search.gauss_newton(now.powi(-2)) else {
@@ -119,10 +132,11 @@ pub fn maximise<M: Model>(
         } else if gradient_norm <= tolerance {
             break Termination::Converged { gradient_norm };
         }
-        if search.iterations >= limit {
+        if search.trace.len() >= limit {
             break Termination::IterationLimit;
         }
         steps += 1;
+        search.note(&newton);
         if !search.step(&newton) {
             if now <= last {
                 break Termination::NoProgress { gradient_norm };
@@ -130,8 +144,13 @@ pub fn maximise<M: Model>(
             (steps, search.damping) = (STEPS_A_STAGE, 0.0);
         }
     };
-    let Search { w, at, iterations, .. } = search;
-    Solution { w, at, iterations, termination }
+    let Search { w, at, trace, .. } = search;
+    Solution { w, at, trace, termination }
+}
+
+/// Twice what is minimised.
+fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
+    weight * residuals.norm_squared() + w.norm_squared()
 }
 
 /// `I + weight·JᵀJ`.
@@ -152,7 +171,7 @@ struct Search<'a, M: Model> {
     w: DVector<f64>,
     at: Linearised<M::Second>,
     damping: f64,
-    iterations: u32,
+    trace: Vec<Iteration>,
 }
 
 /// Gauss and Newton's step, the data weighted by `weight`, and what it was made of.
@@ -177,9 +196,17 @@ impl<M: Model> Search<'_, M> {
         Some(GaussNewton { weight, hessian, factor, descent, direction, decrement })
     }
 
+    fn note(&mut self, newton: &GaussNewton) {
+        self.trace.push(Iteration {
+            cost: cost(newton.weight, &self.w, &self.at.residuals),
+            gradient_norm: newton.decrement,
+            damping: self.damping,
+            inflation: newton.weight.sqrt().recip(),
+        });
+    }
+
     /// One step, damped until it lowers the cost; whether any did.
     fn step(&mut self, newton: &GaussNewton) -> bool {
-        self.iterations += 1;
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
         let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.at.second, &multipliers);
         for _ in 0..TRIALS {
@@ -205,9 +232,7 @@ impl<M: Model> Search<'_, M> {
         if direction.norm() > LONGEST {
             return None;
         }
-        let cost = |w: &DVector<f64>, residuals: &DVector<f64>| {
-            newton.weight * residuals.norm_squared() + w.norm_squared()
-        };
+        let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
         let next = &self.w + &direction;
         let residuals = self.model.residuals(&next);

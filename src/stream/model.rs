@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::finite;
 use crate::error::{Error, Result};
-use crate::forward::{FacetModel, Lighting};
+use crate::forward::{Card, FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Spacing};
 use crate::kernel::mesh::{Mesh, respond};
 use crate::response::Response;
@@ -66,9 +66,17 @@ impl Scene {
     }
 
     fn model_with(&self, response: &Response, lighting: &Lighting) -> Result<FacetModel> {
-        let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else {
-            return Ok(FacetModel::one_sheet(response, lighting));
-        };
+        Ok(match self.card()? {
+            None => FacetModel::one_sheet(response, lighting),
+            Some(Card { panel, reflectance }) => {
+                FacetModel::with_card(response, lighting, panel, reflectance)
+            }
+        })
+    }
+
+    /// The card, if a panel is one.
+    pub(super) fn card(&self) -> Result<Option<Card>> {
+        let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else { return Ok(None) };
         if card.panel > 1 {
             return Err(Error::field("reference_panel.panel", format!("{} is neither 0 nor 1", card.panel)));
         }
@@ -77,6 +85,6 @@ impl Scene {
         {
             return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
         }
-        Ok(FacetModel::with_card(response, lighting, card.panel, card.reflectance))
+        Ok(Some(Card { panel: card.panel, reflectance: card.reflectance }))
     }
 }

@@ -7,11 +7,9 @@ use serde_json::json;
 
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
-use crate::estimate::Estimate;
 use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
-use crate::solve::Termination;
 
 /// Largest value of a facet that is read: sums and squares of such numbers stay finite.
 const LARGEST: f64 = 1e30;
@@ -89,62 +87,6 @@ impl Sample {
         Ok(sd)
     }
 
-    /// Adds an estimate, with its covariance (waveband by waveband) if asked to.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_estimate(
-        &mut self,
-        method: &str,
-        prior: &str,
-        wavelengths_nm: &[f64],
-        estimate: &Estimate,
-        with_covariance: bool,
-    ) -> Result<()> {
-        let sd = estimate.reflectance_sd();
-        finite("estimate.reflectance", &estimate.reflectance)?;
-        finite("estimate.reflectance_sd", sd.iter().flatten())?;
-        finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
-        let mut record = json!({
-            "method": method,
-            "prior": prior,
-            "wavelengths_nm": wavelengths_nm,
-            "reflectance": estimate.reflectance,
-            "exposure": estimate.exposure,
-            "residual_rms": estimate.residual_rms,
-            "iterations": estimate.iterations,
-            "termination": termination(&estimate.termination),
-        });
-        if let Some(sd) = sd {
-            record["reflectance_sd"] = json!(sd);
-        }
-        if let Some(covariance) = estimate.covariance().filter(|_| with_covariance) {
-            let rows = covariance.row_iter().map(|row| row.iter().copied().collect());
-            record["covariance"] = json!(rows.collect::<Vec<Vec<f64>>>());
-        }
-        self.fields.set("estimate", record)
-    }
-
-    /// The estimated spectrum, on its wavelengths; none if the sample has no estimate.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
-    pub fn estimated(&self) -> Result<Option<ReflectanceRecord>> {
-        self.fields.get("estimate")
-    }
-
-    /// The standard deviation of the estimated spectrum, if there is one.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a list of numbers.
-    pub fn estimated_sd(&self) -> Result<Option<Vec<f64>>> {
-        #[derive(Deserialize)]
-        struct Deviation {
-            reflectance_sd: Option<Vec<f64>>,
-        }
-        Ok(self.fields.get::<Deviation>("estimate")?.and_then(|estimate| estimate.reflectance_sd))
-    }
-
     /// Says how many bounces of light the facets' values are made of.
     ///
     /// # Errors
@@ -162,18 +104,6 @@ impl Sample {
     pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
         finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
         self.fields.set("truth", truth)
-    }
-
-    /// Residuals of the estimate in units of their expected size, if there is an estimate.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a number.
-    pub fn residual_rms(&self) -> Result<Option<f64>> {
-        #[derive(Deserialize)]
-        struct Fit {
-            residual_rms: f64,
-        }
-        Ok(self.fields.get::<Fit>("estimate")?.map(|fit| fit.residual_rms))
     }
 
     /// The estimate as a curve to draw; none if there is none.
@@ -260,18 +190,6 @@ impl Sample {
         }
         let record: Option<MetricsRecord> = self.fields.get("metrics")?;
         Ok(record.map(|MetricsRecord { rmse, ciede2000, pd }| Metrics { rmse, ciede2000, pd }))
-    }
-}
-
-fn termination(termination: &Termination) -> serde_json::Value {
-    match termination {
-        Termination::Converged { gradient_norm } => {
-            json!({ "reason": "converged", "gradient_norm": gradient_norm })
-        }
-        Termination::IterationLimit => json!({ "reason": "iteration limit" }),
-        Termination::NoProgress { gradient_norm } => {
-            json!({ "reason": "no progress", "gradient_norm": gradient_norm })
-        }
     }
 }
 

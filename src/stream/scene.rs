@@ -96,8 +96,8 @@ struct LightRecord {
 
 /// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
 /// panel, residues for the facets of both.
-#[derive(Serialize)]
-#[serde(untagged)]
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "needs poles and residues; make the scene again with vkernel")]
 enum ResponseRecord {
     Shared(ModesRecord),
     Separate { panels: [ModesRecord; 2] },
@@ -237,7 +237,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or their shapes disagree.
     pub fn response(&self) -> Result<Response> {
-        let record = self.response_record()?;
+        let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
         let facets = self.fold()?.facets().len();
         Response::new(match record {
             ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
@@ -245,18 +245,6 @@ impl Scene {
                 Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
             }
         })
-    }
-
-    fn response_record(&self) -> Result<ResponseRecord> {
-        #[derive(Deserialize)]
-        struct Separate {
-            panels: Option<[ModesRecord; 2]>,
-        }
-        let remedy = "make the scene with vkernel";
-        match self.fields.require::<Separate>("response", remedy)?.panels {
-            Some(panels) => Ok(ResponseRecord::Separate { panels }),
-            None => Ok(ResponseRecord::Shared(self.fields.require("response", remedy)?)),
-        }
     }
 
     /// Says how good the response is and which mesh gave it.
@@ -275,6 +263,19 @@ impl Scene {
             record["kernel"] = kernel_record(source);
         }
         self.fields.set("accuracy", record)
+    }
+
+    /// The mesh on which the bounces were solved, as `vkernel --mesh` names it.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not there.
+    pub fn mesh(&self) -> Result<String> {
+        #[derive(Deserialize)]
+        struct Solved {
+            mesh: String,
+        }
+        let solved: Solved = self.fields.require("accuracy", "make the scene with vkernel")?;
+        Ok(solved.mesh)
     }
 
     /// Relative error that the response was allowed.
@@ -347,6 +348,18 @@ impl Scene {
         }
         not_negative("camera.sensitivities", camera.sensitivities.iter().flatten())?;
         Ok(camera)
+    }
+
+    /// Whether a camera looks at the fold.
+    #[must_use]
+    pub fn has_camera(&self) -> bool {
+        self.fields.0.contains_key("camera")
+    }
+
+    /// Whether the colour of the sky is given.
+    #[must_use]
+    pub fn has_sky_illuminant(&self) -> bool {
+        self.fields.0.get("sky_illuminant").is_some_and(|sky| !sky.is_null())
     }
 
     /// The lights as the camera responds to them.

@@ -1,0 +1,229 @@
+//! Estimates of the samples of a stream.
+
+use vfold::cli;
+use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::noise::{deviations, unexplained};
+use vfold::estimate::prior::Prior;
+use vfold::estimate::unknowns::{Quantity, SceneModel};
+use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
+use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
+use vfold::{Error, Result};
+
+use super::Args;
+use super::settings::{Fit, NoiseSd, Smoothness};
+
+/// The prior whose classes are known.
+pub const MUNSELL: &str = "munsell";
+/// Least change that counts to the paper's estimator, white being 1.
+const SMOOTH_CUTOFF: f64 = 1e-8;
+/// What a real fold does that the model does not, relative to the facet's value.
+const MODEL_ERROR: f64 = 3e-4;
+/// Least change that counts, in standard deviations.
+const CUTOFF: f64 = 1e-2;
+
+/// How spectra are estimated, from `--prior`.
+enum Method {
+    /// Spectra of the prior, and their classes where they are known.
+    Map(Vec<Spectrum>, Option<Vec<usize>>),
+    Smooth(Smoothness),
+}
+
+/// What the samples of one scene need.
+pub struct Context {
+    grid: WavelengthGrid,
+    scene: SceneModel,
+    method: SceneMethod,
+    start: Option<Vec<f64>>,
+}
+
+/// The method on the wavelengths of a scene.
+enum SceneMethod {
+    Map(Prior),
+    Smooth(Smoothness),
+}
+
+/// Estimates as the flags ask for.
+pub struct Estimator<'a> {
+    args: &'a Args,
+    method: Method,
+    /// What is fitted beside spectrum and exposure.
+    fit: Vec<Quantity>,
+}
+
+/// The paper's estimator fits an exposure and nothing else of the scene.
+fn check_fit(args: &Args) -> Result<()> {
+    if args.fit.contains(&Fit::Exposure) && args.exposure.is_some_and(|given| given != Exposure::Free) {
+        let problem = "exposure is given by --exposure already";
+        return Err(Error::usage("--fit", problem, "leave one of them out"));
+    }
+    if args.fit.iter().any(|fit| *fit != Fit::Exposure) && !args.has_prior() {
+        let problem = format!("nothing but exposure is fitted with --prior {}", args.prior);
+        return Err(Error::usage("--fit", problem, "leave --prior out or give spectra"));
+    }
+    Ok(())
+}
+
+fn method(args: &Args) -> Result<Method> {
+    check_fit(args)?;
+    if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
+        return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
+    }
+    Ok(match args.prior.as_str() {
+        "smooth" => Method::Smooth(args.smoothness),
+        "none" => Method::Smooth(Smoothness::Weight(0.0)),
+        spec => {
+            let classes = (spec == MUNSELL).then(classes::of_munsell);
+            let spectra = spectrum::reflectances(spec)?;
+            if spectra.len() < 2 {
+                let problem = format!("'{spec}' is one spectrum, which tells nothing of others");
+                return Err(Error::usage("--prior", problem, "give a set or a file of two or more"));
+            }
+            Method::Map(spectra, classes)
+        }
+    })
+}
+
+impl Transform for Estimator<'_> {
+    type Context = Context;
+
+    fn scene(&self, scene: &mut Scene) -> Result<Context> {
+        let grid = scene.grid()?;
+        if let Some(spec) = &self.args.reference_panel {
+            let card = cli::one_reflectance("--reference-panel", spec)?;
+            let reflectance = card.on(&grid, Outside::Refuse)?;
+            scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
+        }
+        let method = match &self.method {
+            Method::Map(spectra, classes) => {
+                let on_grid: Vec<_> =
+                    spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
+                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
+            }
+            Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
+        };
+        if !self.args.common.no_history {
+            scene.fields.add_history("vestimate")?;
+        }
+        let start = match &self.args.start {
+            Some(spec) => Some(cli::one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?),
+            None => None,
+        };
+        let scene = if self.fit.is_empty() {
+            SceneModel::known(scene.model()?)
+        } else {
+            scene.model_to_fit(&self.fit)?
+        };
+        Ok(Context { grid, scene, method, start })
+    }
+
+    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
+        let rgb = sample.facet_rgb()?;
+        let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
+        let estimate = match &context.method {
+            SceneMethod::Map(prior) => {
+                let sd = self.deviations(context, &rgb, sample)?;
+                let measured = Measured { rgb: &rgb, sd: &sd };
+                let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
+                map::estimate(&data, prior, context.start.as_deref())
+            }
+            SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
+        };
+        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
+        let wavelengths_nm = context.grid.wavelengths_nm();
+        if self.args.trace.is_some() {
+            sample.set_trace(&estimate.trace)?;
+        }
+        sample.set_estimate("interreflection", &self.args.prior, wavelengths_nm, &estimate, with_covariance)
+    }
+}
+
+impl<'a> Estimator<'a> {
+    /// # Errors
+    /// Flags that contradict each other, or a prior that cannot be read.
+    pub fn new(args: &'a Args) -> Result<Self> {
+        let fit = args.fit.iter().filter(|fit| **fit != Fit::Exposure).map(|fit| Quantity::from(*fit));
+        Ok(Self { args, method: method(args)?, fit: fit.collect() })
+    }
+
+    /// The flags behind it.
+    pub fn args(&self) -> &Args {
+        self.args
+    }
+
+    /// How the exposure enters, `told` being what the sample says of it.
+    pub fn exposure_or(&self, told: Exposure) -> Exposure {
+        let fits = self.args.fit.contains(&Fit::Exposure);
+        self.args.exposure.or(fits.then_some(Exposure::Free)).unwrap_or(told)
+    }
+
+    /// The estimate from facets that all have noise of this standard deviation.
+    pub fn of_facets(
+        &self,
+        context: &Context,
+        rgb: &Colours,
+        noise_sd: f64,
+        exposure: Exposure,
+    ) -> Result<Estimate> {
+        let sd = deviations(rgb, |_, _| noise_sd, self.args.model_error.unwrap_or(0.0));
+        let SceneMethod::Map(prior) = &context.method else {
+            let problem = format!("--prior {} does not know how far off its estimates are", self.args.prior);
+            return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
+        };
+        let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
+        Ok(map::estimate(&data, prior, context.start.as_deref()))
+    }
+
+    /// The paper's objective weighs all facets alike, white being 1.
+    fn smooth(
+        &self,
+        context: &Context,
+        sample: &Sample,
+        exposure: Exposure,
+        smoothness: Smoothness,
+    ) -> Result<Estimate> {
+        let rgb = sample.facet_rgb()?;
+        let sd: Colours =
+            rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
+        let measured = Measured { rgb: &rgb, sd: &sd };
+        let data = FacetData::new(&context.scene, &measured, exposure, SMOOTH_CUTOFF)?;
+        let middle = vec![0.5; context.grid.len()];
+        let start = context.start.as_ref().unwrap_or(&middle);
+        match smoothness {
+            Smoothness::Weight(weight) => smooth::estimate(&data, weight, start),
+            Smoothness::Auto => {
+                let noise = self.deviations(context, &rgb, sample)?;
+                smooth::estimate_by_discrepancy(&data, root_mean_square(&noise), start)
+            }
+        }
+    }
+
+    /// How far each facet may be off: its noise, and what the model leaves out.
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
+        let model_error = match self.args.model_error {
+            Some(error) => error,
+            None if sample.is_photograph()? => MODEL_ERROR,
+            None => 0.0,
+        };
+        if let NoiseSd::All(sd) = self.args.noise_sd {
+            return Ok(deviations(rgb, |_, _| sd, model_error));
+        }
+        let Some(said) = sample.facet_sd()? else {
+            let noise = unexplained(context.scene.facets(), rgb);
+            return Ok(deviations(rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), model_error));
+        };
+        if said.len() != rgb.len() {
+            return Err(Error::field(
+                "facet_sd",
+                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
+            ));
+        }
+        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
+        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
+    }
+}
+
+fn root_mean_square(facets: &Colours) -> f64 {
+    let values: Vec<f64> = facets.iter().flatten().flatten().copied().collect();
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}

@@ -1,0 +1,128 @@
+//! `vestimate`: from facet RGB to the spectrum of the sheet.
+
+mod estimator;
+mod plan;
+mod settings;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use estimator::{Estimator, MUNSELL};
+use plan::PlanArgs;
+use settings::{Fit, NoiseSd, Smoothness};
+use vfold::Result;
+use vfold::cli::{self, Common, ToolArgs};
+use vfold::estimate::Exposure;
+use vfold::plot::spectra::{CURVES_MAX, draw};
+use vfold::stream::{Output, Reader, Record, Sample, pipe};
+
+/// Residuals, in units of their expected size, beyond which the scene cannot be right.
+const MISFIT: f64 = 5.0;
+
+/// Estimate spectral reflectance from the facet RGB of a folded sheet
+#[derive(Parser)]
+#[command(
+    name = "vestimate",
+    version,
+    after_help = "Examples:\n  vkernel | vextract photo.tif --camera nikon-d5100 --panel0 ... --panel1 ... | vestimate --plot spectrum.svg\n  \
+                  vestimate --prior smooth --smoothness 1e-4 samples.ndjson"
+)]
+struct Args {
+    /// Scenes and samples from vforward or vextract [default: standard input]
+    #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
+    samples: String,
+    /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none
+    #[arg(long, value_name = "SPEC|smooth|none", default_value = MUNSELL)]
+    prior: String,
+    /// Weight of the squared second differences of the spectrum, for --prior smooth; auto: what the noise allows
+    #[arg(long, value_name = "X|auto", default_value = "1e-5", allow_negative_numbers = true, value_parser = settings::smoothness)]
+    smoothness: Smoothness,
+    /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
+    #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = settings::noise_sd)]
+    noise_sd: NoiseSd,
+    /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    model_error: Option<f64>,
+    /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
+    #[arg(long, value_name = "X|free|sum", value_parser = settings::exposure)]
+    exposure: Option<Exposure>,
+    /// What is fitted along with the spectrum: the exposure (as --exposure free), the tilt of the sun, the sky with its colour
+    /// (unless the scene has a sky illuminant), the angle of the fold; the scene's values are what is expected
+    #[arg(long, value_name = "exposure,tilt,sky,angle", value_delimiter = ',', hide_possible_values = true)]
+    fit: Vec<Fit>,
+    /// Panel 1 is a card of this reflectance [default: what the scene says]
+    #[arg(long, value_name = "SPEC")]
+    reference_panel: Option<String>,
+    /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
+    #[arg(long, value_name = "SPEC|X")]
+    start: Option<String>,
+    /// Draw estimates, their error bands and true spectra
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+    /// Write the iterations of every estimate, one JSON record a line
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    #[command(flatten)]
+    planning: PlanArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl Args {
+    /// Whether estimates know spectra, and how far off they may be.
+    fn has_prior(&self) -> bool {
+        !matches!(self.prior.as_str(), "smooth" | "none")
+    }
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+}
+
+fn main() -> ExitCode {
+    cli::run(tool)
+}
+
+fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    let estimator = Estimator::new(args)?;
+    let mut reader = Reader::open(&args.samples)?;
+    if args.planning.plan {
+        return args.planning.run(&estimator, &mut reader, out);
+    }
+    let mut curves = Vec::new();
+    let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
+    pipe(&mut reader, &estimator, |mut record| {
+        if let Record::Sample(sample) = &mut record {
+            warn(args, sample)?;
+            if let Some(trace) = &mut trace {
+                sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
+            }
+            if args.plot.is_some() && curves.len() < CURVES_MAX {
+                curves.extend(sample.curve()?);
+            }
+        }
+        out.record(&record)
+    })?;
+    trace.map_or(Ok(0), Output::finish)?;
+    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))
+}
+
+/// Says when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing, and when they say nothing
+/// of what was to be fitted.
+fn warn(args: &Args, sample: &Sample) -> Result<()> {
+    if args.common.quiet || !args.has_prior() {
+        return Ok(());
+    }
+    if let Some(rms) = sample.residual_rms()?.filter(|rms| *rms > MISFIT) {
+        let problem = format!("facets are {rms:.0} times further from the model than their noise");
+        let remedy = "check angle, corners, light, camera and exposure";
+        cli::say("vestimate", &format!("{}: {problem}; {remedy}", sample.id()?));
+    }
+    for name in sample.unsupported()? {
+        cli::say("vestimate", &format!("{}: the facets do not tell {name}; it is as expected", sample.id()?));
+    }
+    Ok(())
+}

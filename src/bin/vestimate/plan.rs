@@ -1,0 +1,90 @@
+//! `--plan`: what estimates will be worth, before any photograph.
+
+use clap::Args;
+use vfold::cli::OpticsArgs;
+use vfold::estimate::Exposure;
+use vfold::spectrum::{self, Outside, WavelengthGrid};
+use vfold::stream::{ExpectedError, Output, Reader, Record, Scene, Transform, plan};
+use vfold::{Error, Result};
+
+use super::estimator::Estimator;
+use super::settings::NoiseSd;
+
+/// Noise of facets, white being 1, if none is given.
+const NOISE_SD: f64 = 1e-3;
+
+/// What is planned.
+#[derive(Args)]
+#[command(next_help_heading = "Planning")]
+pub struct PlanArgs {
+    /// Take scenes without samples and say how far off estimates will be: one record a scene, for --noise-sd [default: 1e-3]
+    #[arg(long, conflicts_with_all = ["plot", "trace"])]
+    pub plan: bool,
+    /// Reflectances that will be photographed [default: cc24]
+    #[arg(long, value_name = "SPEC", requires = "plan")]
+    pub reflectance: Option<String>,
+    /// Camera of a scene that has none [default: canon-5d-mark-ii]
+    #[arg(long, value_name = "SPEC", requires = "plan")]
+    pub camera: Option<String>,
+    /// Illuminant of a scene that has none [default: D65]
+    #[arg(long, value_name = "SPEC", requires = "plan")]
+    pub illuminant: Option<String>,
+    /// Illuminant of its sky [default: that of the sun]
+    #[arg(long, value_name = "SPEC", requires = "plan")]
+    pub sky_illuminant: Option<String>,
+}
+
+impl PlanArgs {
+    /// Writes a plan for every scene of `reader`, and no other record.
+    pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
+        while let Some(record) = reader.read()? {
+            if let Record::Scene(mut scene) = record {
+                self.complete(&mut scene).map_err(|e| reader.at(e))?;
+                let plan = self.of_scene(estimator, &mut scene).map_err(|e| reader.at(e))?;
+                out.fields(&plan)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives camera and light to a scene that has none.
+    fn complete(&self, scene: &mut Scene) -> Result<()> {
+        if scene.has_camera() {
+            let flags = [&self.camera, &self.illuminant, &self.sky_illuminant];
+            if flags.iter().any(|flag| flag.is_some()) {
+                let problem = "the scene has a camera and an illuminant already";
+                return Err(Error::usage(
+                    "--camera",
+                    problem,
+                    "leave these flags out, or plan with vkernel's scene",
+                ));
+            }
+            return Ok(());
+        }
+        let optics = OpticsArgs {
+            illuminant: self.illuminant.clone().unwrap_or_else(|| "D65".to_owned()),
+            sky_illuminant: self.sky_illuminant.clone(),
+            wavelengths_nm: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
+        };
+        scene.set_optics(&optics.resolve(self.camera.as_deref().unwrap_or("canon-5d-mark-ii"))?)
+    }
+
+    /// Estimates from facets without noise, taken to have it: their error bars are what to expect.
+    fn of_scene(&self, estimator: &Estimator, scene: &mut Scene) -> Result<vfold::stream::Fields> {
+        let context = estimator.scene(scene)?;
+        let (grid, model) = (scene.grid()?, scene.model()?);
+        let noise_sd = match estimator.args().noise_sd {
+            NoiseSd::All(sd) => sd,
+            NoiseSd::Auto => NOISE_SD,
+        };
+        let set = self.reflectance.as_deref().unwrap_or("cc24");
+        let mut expected = ExpectedError::default();
+        for spectrum in spectrum::reflectances(set)? {
+            let facets = model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
+            let rgb: Vec<_> = facets.row_iter().map(|row| Some(row.iter().copied().collect())).collect();
+            let exposure = estimator.exposure_or(Exposure::Known(1.0));
+            expected.add(&estimator.of_facets(&context, &rgb, noise_sd, exposure)?);
+        }
+        plan(scene, set, noise_sd, &expected)
+    }
+}

@@ -1,0 +1,69 @@
+//! Values of flags.
+
+use clap::ValueEnum;
+use vfold::estimate::Exposure;
+use vfold::estimate::unknowns::Quantity;
+
+/// Where the standard deviations of facets come from.
+#[derive(Clone, Copy)]
+pub enum NoiseSd {
+    Auto,
+    All(f64),
+}
+
+/// Weight of smoothness in the paper's objective.
+#[derive(Clone, Copy)]
+pub enum Smoothness {
+    Auto,
+    /// In units of white squared.
+    Weight(f64),
+}
+
+/// What `--fit` takes.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Fit {
+    /// Value of white facing the sun.
+    Exposure,
+    /// Sun off the bisecting plane.
+    Tilt,
+    /// Amount of skylight, and its colour unless the scene says it.
+    Sky,
+    /// Angle between the panels.
+    Angle,
+}
+
+impl From<Fit> for Quantity {
+    fn from(fit: Fit) -> Self {
+        match fit {
+            Fit::Exposure => Self::Exposure,
+            Fit::Tilt => Self::TiltDeg,
+            Fit::Sky => Self::Sky,
+            Fit::Angle => Self::AngleDeg,
+        }
+    }
+}
+
+pub fn smoothness(text: &str) -> Result<Smoothness, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Smoothness::Auto),
+        Ok(weight) if weight >= 0.0 && f64::is_finite(weight) => Ok(Smoothness::Weight(weight)),
+        _ => Err("write a weight, 0 or more, or auto".to_owned()),
+    }
+}
+
+pub fn noise_sd(text: &str) -> Result<NoiseSd, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(NoiseSd::Auto),
+        Ok(sd) if sd >= 0.0 && f64::is_finite(sd) => Ok(NoiseSd::All(sd)),
+        _ => Err("write a standard deviation, 0 or more, or auto".to_owned()),
+    }
+}
+
+pub fn exposure(text: &str) -> Result<Exposure, String> {
+    match text.parse() {
+        _ if text == "free" => Ok(Exposure::Free),
+        _ if text == "sum" => Ok(Exposure::Sum),
+        Ok(exposure) if exposure > 0.0 && f64::is_finite(exposure) => Ok(Exposure::Known(exposure)),
+        _ => Err("write a number above 0, free or sum".to_owned()),
+    }
+}

@@ -1,0 +1,102 @@
+//! Facets that were measured, in units of their noise, as few numbers as hold all that a reflectance can do to them.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::data::Measured;
+use crate::error::{Error, Result};
+use crate::forward::FacetModel;
+use crate::solve::Eigen;
+
+/// Facets with a value in every channel; checks the shapes on the way.
+pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
+    let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
+    for (name, rows) in [("facet_rgb", measured.rgb), ("facet_sd", measured.sd)] {
+        if rows.len() != facets {
+            return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
+        }
+        if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
+            return Err(Error::field(
+                name,
+                format!("{} channels, but the scene's camera has {channels}", odd.len()),
+            ));
+        }
+    }
+    let usable: Vec<usize> =
+        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
+    if usable.is_empty() {
+        return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
+    }
+    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
+        return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
+    }
+    Ok(usable)
+}
+
+/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
+pub fn weighted(
+    model: &FacetModel,
+    measured: &Measured,
+    usable: &[usize],
+    channel: usize,
+) -> (DVector<f64>, Vec<DMatrix<f64>>) {
+    let column =
+        |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
+    let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
+    let data = usable.iter().zip(&weight).map(|(facet, weight)| weight * column(measured.rgb, *facet));
+    let entry = |facets: &DMatrix<f64>, row: usize, term| weight[row] * facets[(usable[row], term)];
+    let sources = model.sources().iter().map(|source| {
+        DMatrix::from_fn(usable.len(), model.terms(), |row, term| entry(&source.facets, row, term))
+    });
+    (DVector::from_iterator(usable.len(), data), sources.collect())
+}
+
+pub fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
+    rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
+}
+
+/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands, so that a card's
+/// spectrum meets dark and bright ones everywhere.
+pub fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
+    let bands = model.bands();
+    // 37 shares no factor with the usual numbers of wavebands.
+    let place = |band: usize| (37 * band % bands) as f64 + 0.5;
+    let chebyshev = |band: usize| (std::f64::consts::FRAC_PI_2 * place(band) / bands as f64).sin().powi(2);
+    model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>())
+}
+
+/// Rotates data and models to the directions that reflectance can move by more than the noise.
+pub fn compress(
+    data: &DVector<f64>,
+    sources: &[DMatrix<f64>],
+    samples: &DMatrix<f64>,
+    cutoff: f64,
+) -> (DVector<f64>, Vec<DMatrix<f64>>) {
+    // Skies of several colours light the facets alike.
+    let mut distinct: Vec<&DMatrix<f64>> = Vec::new();
+    for source in sources {
+        if !distinct.contains(&source) {
+            distinct.push(source);
+        }
+    }
+    // First to the span of the terms, then to the span of what they do over all reflectances.
+    let columns: Vec<_> = distinct.iter().flat_map(|source| source.column_iter()).collect();
+    let q = DMatrix::from_columns(&columns).qr().q();
+    let reach = distinct.iter().map(|source| q.transpose() * *source * samples);
+    let square = reach.map(|reach| &reach * reach.transpose()).sum::<DMatrix<f64>>();
+    let directions = Eigen::of_symmetric(square);
+    // Below that share of the largest, squares of singular values are rounding.
+    let largest = directions.values.iter().copied().fold(0.0, f64::max);
+    let least = (cutoff * cutoff).max(1e-15 * largest);
+    let kept: Vec<_> = directions
+        .values
+        .iter()
+        .zip(directions.vectors.column_iter())
+        .filter(|(square, _)| **square > least)
+        .map(|(_, direction)| direction)
+        .collect();
+    if kept.is_empty() {
+        return (DVector::zeros(0), sources.iter().map(|source| source.rows(0, 0).into_owned()).collect());
+    }
+    let rotation = (q * DMatrix::from_columns(&kept)).transpose();
+    (&rotation * data, sources.iter().map(|source| &rotation * source).collect())
+}

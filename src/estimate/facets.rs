@@ -1,0 +1,129 @@
+//! The facets as a model of standard normal numbers: those behind a spectrum, then those behind the scene's unknowns.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
+use super::gaussian::{Gaussian, logistic};
+use crate::solve::posterior::{Linearised, Model, Solution};
+
+/// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
+pub fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
+    let (bands, coordinates) = gaussian.basis().shape();
+    let unknowns = jacobian.ncols() - bands;
+    let mut all =
+        (jacobian.columns(0, bands) * gaussian.basis()).resize_horizontally(coordinates + unknowns, 0.0);
+    all.columns_mut(coordinates, unknowns).copy_from(&jacobian.columns(bands, unknowns));
+    all
+}
+
+/// The facets as a model of the whitened logit of reflectance, followed by the scene's unknowns.
+pub struct Facets<'a> {
+    pub data: &'a FacetData<'a>,
+    pub gaussian: &'a Gaussian,
+}
+
+/// Residuals and the derivatives of the model by logit, then by the scene's unknowns, about a point.
+pub struct ByLogit {
+    pub logit: DVector<f64>,
+    pub unknowns: DVector<f64>,
+    pub residuals: DVector<f64>,
+    pub jacobian: DMatrix<f64>,
+    pub second: Second,
+}
+
+/// What second derivatives by logit are made of.
+pub struct Second {
+    pub reflectance: Vec<f64>,
+    pub exposure: FittedExposure,
+    pub by_reflectance: SecondDerivatives,
+}
+
+impl Facets<'_> {
+    /// Where to set out from a reflectance, the scene being as likely as can be.
+    pub fn set_out_from(&self, reflectance: &[f64]) -> DVector<f64> {
+        self.gaussian.nearest(reflectance).resize_vertically(self.unknowns(), 0.0)
+    }
+
+    /// Logits and the scene's unknowns at `w`.
+    pub fn split(&self, w: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        let coordinates = self.gaussian.basis().ncols();
+        let logit = self.gaussian.logit_at(&w.rows(0, coordinates).into_owned());
+        (logit, w.rows(coordinates, w.len() - coordinates).into_owned())
+    }
+
+    pub fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
+        let (logit, unknowns) = self.split(w);
+        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
+        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
+            self.data.linearise(&reflectance, unknowns.as_slice());
+        for (band, r) in reflectance.iter().enumerate() {
+            jacobian.column_mut(band).scale_mut(r * (1.0 - r));
+            exposure.slopes[band] *= r * (1.0 - r);
+        }
+        let second = Second { reflectance, exposure, by_reflectance: second };
+        ByLogit { logit, unknowns, residuals, jacobian, second }
+    }
+
+    /// Laplace's covariance as a factor, carried from whitened logits to reflectances, unknowns and exposure.
+    pub fn spread(&self, by_unknown: &[f64], solution: &Solution<Second>) -> Option<DMatrix<f64>> {
+        let Second { reflectance, exposure, .. } = &solution.at.second;
+        let bands = reflectance.len();
+        let point = bands + by_unknown.len() + 1;
+        // Derivatives of the point by logits and unknowns: point by both.
+        let mut slopes = DMatrix::zeros(point, point - 1);
+        for (n, r) in reflectance.iter().enumerate() {
+            slopes[(n, n)] = r * (1.0 - r);
+        }
+        for (n, slope) in (bands..).zip(by_unknown) {
+            slopes[(n, n)] = *slope;
+        }
+        slopes.row_mut(point - 1).tr_copy_from(&exposure.slopes);
+        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S the derivatives by what is whitened.
+        let information = solution.information()?;
+        let spread = information.l().solve_lower_triangular(&whitened(&slopes, self.gaussian).transpose())?;
+        let rows = spread.nrows();
+        let mut spread = spread.insert_row(rows, 0.0);
+        spread[(rows, point - 1)] = exposure.sd;
+        Some(spread)
+    }
+}
+
+impl Model for Facets<'_> {
+    type Second = Second;
+
+    fn unknowns(&self) -> usize {
+        self.gaussian.basis().ncols() + self.data.scene().unknowns().len()
+    }
+
+    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+        let (logit, unknowns) = self.split(w);
+        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
+        self.data.residuals(&reflectance, unknowns.as_slice()).residuals
+    }
+
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
+        let ByLogit { residuals, jacobian, second, .. } = self.by_logit(w);
+        Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
+    }
+
+    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> DMatrix<f64> {
+        let Curvature { slopes, reflectance, mut mixed, unknowns } =
+            self.data.curvature(&at.by_reflectance, multipliers);
+        let basis = self.gaussian.basis();
+        let mut weighted = basis.clone();
+        // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
+        for (band, r) in at.reflectance.iter().enumerate() {
+            let change = r * (1.0 - r);
+            let by_logit = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
+            weighted.row_mut(band).scale_mut(by_logit);
+            mixed.row_mut(band).scale_mut(change);
+        }
+        let (coordinates, count) = (basis.ncols(), unknowns.nrows());
+        let mut all = (basis.transpose() * weighted).resize(coordinates + count, coordinates + count, 0.0);
+        let mixed = basis.tr_mul(&mixed);
+        all.view_mut((0, coordinates), mixed.shape()).copy_from(&mixed);
+        all.view_mut((coordinates, 0), (count, coordinates)).tr_copy_from(&mixed);
+        all.view_mut((coordinates, coordinates), (count, count)).copy_from(&unknowns);
+        all
+    }
+}
