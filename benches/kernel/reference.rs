@@ -51,12 +51,12 @@ pub fn tolerance(fold: &Fold) -> f64 {
     }
 }
 
-/// Whether the bounces between so many patches along a side take minutes.
+/// Whether so many patches along a side take half a minute, themselves or on undivided panels.
 pub fn too_many(fold: &Fold, patches: usize) -> bool {
     patches > PATCHES_MAX[usize::from(fold.angle_deg() < 10.0)]
 }
 
-/// Irradiance of every facet at each of the reflectances, and the error it is believed to have; none where it takes minutes.
+/// Irradiance of every facet at each of the reflectances, and the error it is believed to have; none where it takes half a minute.
 pub fn irradiances(fold: &Fold) -> Option<([Vec<f64>; 3], f64)> {
     if too_many(fold, fold.facets().rows) {
         return None;
