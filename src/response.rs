@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kernel::panel::PanelOperator;
 use crate::solve::{Eigen, dot};
 
-/// Most Lanczos steps: a 0.1° fold takes about 500.
+/// Most Lanczos steps: an undivided fold of 1° takes about 600.
 const STEPS_MAX: usize = 1000;
 /// Poles nearer to zero than this have no twin of the other sign.
 const NO_POLE: f64 = 1e-13;

@@ -65,18 +65,17 @@ fn parts_add_up_to_the_whole() {
 #[test]
 fn bounces_end_and_are_finite() {
     for fold in folds(4, 3) {
-        for mesh in [Mesh::Facets, Mesh::Auto] {
-            let narrow = mesh == Mesh::Auto && fold.angle_deg() < 10.0;
-            let Some((response, _)) = (!narrow).then(|| respond(&fold, mesh, 1e-2).unwrap()) else {
-                continue;
-            };
+        // Undivided panels narrower than this take seconds each.
+        let meshes = if fold.angle_deg() < 10.0 { &[Mesh::Facets][..] } else { &[Mesh::Facets, Mesh::Auto] };
+        for mesh in meshes {
+            let (response, _) = respond(&fold, *mesh, 1e-2).unwrap();
             assert!(response.poles().iter().all(|g| g.abs() < 1.0), "{fold:?}");
             assert!(irradiances(&response).all(|e| e.is_finite() && e > -1e-2), "{fold:?} {mesh}");
         }
     }
 }
 
-/// Narrow folds on undivided panels take seconds when panels are square, so one stands for all.
+/// The narrow fold that stands for all.
 #[test]
 fn a_fold_of_one_degree_is_solved() {
     let fold = Fold::new(1.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();

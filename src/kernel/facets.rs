@@ -8,7 +8,7 @@ use super::spectra::Spectra;
 use crate::geometry::FacetGrid;
 
 /// Columns from which products by FFT along the crease are faster than by the entries themselves.
-const FFT_FROM: usize = 8;
+const FFT_FROM: usize = 16;
 /// Unknowns that are worth a second thread.
 const THREADS_FROM: usize = 1000;
 

@@ -10,6 +10,7 @@ mod npy;
 mod photograph;
 mod plan;
 mod reader;
+mod response;
 mod sample;
 mod saves;
 mod scene;

@@ -3,14 +3,14 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::fields::{Fields, finite};
+use super::fields::Fields;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::Lighting;
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::Method;
 use crate::kernel::mesh::{Accuracy, KernelSource};
-use crate::response::{ModeSet, Modes, Response};
+use crate::response::Response;
 use crate::spectrum::WavelengthGrid;
 
 /// The stream's format, in every scene.
@@ -94,42 +94,6 @@ struct LightRecord {
     panel_irradiance: [f64; 2],
 }
 
-/// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
-/// panel, residues for the facets of both.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "needs poles and residues; make the scene again with vkernel")]
-enum ResponseRecord {
-    Shared(ModesRecord),
-    Separate { panels: [ModesRecord; 2] },
-}
-
-#[derive(Serialize, Deserialize)]
-struct ModesRecord {
-    poles: Vec<f64>,
-    residues: Vec<Vec<f64>>,
-}
-
-impl From<&ModeSet> for ModesRecord {
-    fn from(set: &ModeSet) -> Self {
-        let residues = set.residues.chunks(set.poles.len()).map(<[f64]>::to_vec).collect();
-        Self { poles: set.poles.clone(), residues }
-    }
-}
-
-impl ModesRecord {
-    fn into_modes(self, facets: usize) -> Result<ModeSet> {
-        let poles = self.poles.len();
-        if self.residues.len() != facets || self.residues.iter().any(|row| row.len() != poles) {
-            return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
-        }
-        Ok(ModeSet { poles: self.poles, residues: self.residues.concat() })
-    }
-
-    fn numbers(&self) -> impl Iterator<Item = &f64> {
-        self.poles.iter().chain(self.residues.iter().flatten())
-    }
-}
-
 impl Scene {
     /// The scene of a fold and its light, bounces solved.
     ///
@@ -160,18 +124,9 @@ impl Scene {
             "light",
             LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() },
         )?;
-        let record = match response.modes() {
-            Modes::Shared(set) => ResponseRecord::Shared(set.into()),
-            Modes::Separate(sets) => ResponseRecord::Separate { panels: sets.each_ref().map(Into::into) },
-        };
-        match &record {
-            ResponseRecord::Shared(modes) => finite("response", modes.numbers())?,
-            ResponseRecord::Separate { panels } => {
-                finite("response", panels.iter().flat_map(ModesRecord::numbers))?;
-            }
-        }
-        fields.set("response", record)?;
-        Ok(Self { fields })
+        let mut scene = Self { fields };
+        scene.set_response(response)?;
+        Ok(scene)
     }
 
     /// A scene from its record.
@@ -230,21 +185,6 @@ impl Scene {
         let light: LightRecord = self.fields.require("light", "make the scene with vkernel")?;
         Light::new(&self.fold()?, light.tilt_deg, light.slant_deg, light.sky)
             .map_err(|e| Error::field("light", e))
-    }
-
-    /// Poles and residues of the bounces.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if they are missing or their shapes disagree.
-    pub fn response(&self) -> Result<Response> {
-        let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
-        let facets = self.fold()?.facets().len();
-        Response::new(match record {
-            ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
-            ResponseRecord::Separate { panels: [on_0, on_1] } => {
-                Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
-            }
-        })
     }
 
     /// Says how good the response is and which mesh gave it.
