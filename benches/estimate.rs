@@ -1,71 +1,60 @@
-//! Time of one estimate in process, one thread, for the samples on standard input:
+//! Time beside error of the estimates of the samples on standard input, which carry their true reflectance; one thread. Prints a
+//! row of a table: mean RMSE, mean CIEDE2000 (10°, D65), median time of an estimate and median iterations, for the default
+//! estimator and then for the paper's with the weight of smoothness given:
 //!
-//! `vkernel | vforward --reflectance cc24 --noise-sd 1e-3 | cargo bench --bench estimate`
+//! `vkernel | vforward --reflectance cc24 --noise-sd 1e-3 | cargo bench --bench estimate -- 1e-3`
+//!
+//! `benches/estimates.sh` makes a table of such rows.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
+#![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
 
-use std::hint::black_box;
-use std::time::{Duration, Instant};
+#[allow(dead_code, reason = "other benchmarks use the rest")]
+mod common;
+#[path = "common/samples.rs"]
+mod samples;
 
-use vfold::estimate::data::{FacetData, Measured};
+use common::timed;
+use samples::{Batch, Shot};
+use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::SceneModel;
-use vfold::estimate::{Exposure, classes, map};
-use vfold::spectrum::{Outside, reflectances};
-use vfold::stream::{Colours, Reader, Record};
+use vfold::estimate::{Estimate, classes, map, smooth};
+use vfold::score::rmse;
+use vfold::spectrum::illuminant;
 use vfold::{Error, Result};
 
-/// Facets without a standard deviation are computed ones: what rounding leaves, relative to white.
-const ROUNDING: f64 = 1e-6;
-/// Each estimate is made that often; the fastest counts.
-const REPEATS: usize = 5;
-
 fn main() -> Result<()> {
-    let mut reader = Reader::open("-")?;
-    let (mut scene, mut times, mut iterations) = (None, Vec::new(), Vec::new());
-    while let Some(record) = reader.read()? {
-        match record {
-            Record::Scene(line) => {
-                let grid = line.grid()?;
-                let chips = reflectances("munsell")?;
-                let chips: Vec<_> =
-                    chips.iter().map(|chip| chip.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
-                let prior = Prior::from_spectra(grid.wavelengths_nm(), &chips, Some(&classes::of_munsell()))?;
-                scene = Some((SceneModel::known(line.model()?), prior));
-            }
-            Record::Sample(sample) => {
-                let Some((model, prior)) = &scene else { return Err(Error::Numeric("no scene".to_owned())) };
-                let rgb = sample.facet_rgb()?;
-                let sd = sample.facet_sd()?.unwrap_or_else(|| rounding(&rgb));
-                let measured = Measured { rgb: &rgb, sd: &sd };
-                let exposure = sample.exposure()?.map_or(Exposure::Free, Exposure::Known);
-                let mut best = [Duration::MAX; 2];
-                for _ in 0..REPEATS {
-                    let start = Instant::now();
-                    let data = FacetData::new(model, &measured, exposure, 1e-2)?;
-                    let compressed = start.elapsed();
-                    let estimate = black_box(map::estimate(&data, prior, None));
-                    best = [best[0].min(compressed), best[1].min(start.elapsed())];
-                    iterations.push(estimate.iterations);
-                }
-                times.push(best);
-            }
-            Record::Other(_) => {}
-        }
-    }
-    iterations.sort_unstable();
-    let middle = |mut times: Vec<Duration>| {
-        times.sort_unstable();
-        times.get(times.len() / 2).map_or(f64::NAN, |time| time.as_secs_f64() * 1e3)
-    };
-    println!("samples                {}", times.len());
-    println!("compression, median ms {:.3}", middle(times.iter().map(|time| time[0]).collect()));
-    println!("estimate, median ms    {:.3}", middle(times.iter().map(|time| time[1]).collect()));
-    println!("iterations, median     {}", iterations.get(iterations.len() / 2).copied().unwrap_or(0));
+    common::on_one_thread();
+    let smoothness: f64 = std::env::args()
+        .find_map(|argument| argument.parse().ok())
+        .ok_or_else(|| Error::Numeric("no weight of smoothness; write one after --".to_owned()))?;
+    let batch = Batch::read()?;
+    let classes = classes::of_munsell();
+    let prior = Prior::from_spectra(batch.grid.wavelengths_nm(), &batch.chips()?, Some(&classes))?;
+    let default = row(&batch, |shot| Ok(map::estimate(&shot.data(&batch.scene)?, &prior, None)))?;
+    let grey = vec![0.5; batch.grid.len()];
+    let papers = row(&batch, |shot| smooth::estimate(&shot.unweighted(&batch.scene)?, smoothness, &grey))?;
+    println!("{default} | {papers}");
     Ok(())
 }
 
-fn rounding(rgb: &Colours) -> Colours {
-    let sd = ROUNDING * rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
-    rgb.iter().map(|facet| facet.as_ref().map(|values| vec![sd; values.len()])).collect()
+/// Scores and times one estimator.
+fn row(batch: &Batch, estimate: impl Fn(&Shot) -> Result<Estimate>) -> Result<String> {
+    let d65 = Colorimeter::new(&batch.grid, &illuminant("D65")?, Observer::Cie1964_10deg)?;
+    let (mut times, mut iterations, mut scores) = (Vec::new(), Vec::new(), [0.0; 2]);
+    for shot in &batch.shots {
+        let (ms, made) = timed(|| estimate(shot));
+        let made = made?;
+        times.push(ms);
+        iterations.push(f64::from(made.iterations));
+        scores[0] += rmse(&shot.truth, &made.reflectance);
+        scores[1] += d65.delta_e_2000(&shot.truth, &made.reflectance);
+    }
+    let [rmse, delta_e] = scores.map(|sum| sum / batch.shots.len() as f64);
+    Ok(format!("{rmse:.4} | {delta_e:.3} | {:.2} | {}", median(times), median(iterations)))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }

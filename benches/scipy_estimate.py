@@ -78,7 +78,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--smoothness", type=float, default=1e-5)
     args = parser.parse_args()
-    print(f"{'sample':24}{'method':14}{'cost':>16}{'over the best':>16}{'ms':>10}{'RMSE':>10}")
+    print("| sample | method | cost | over the best | ms | RMSE |\n|---|---|---|---|---|---|")
     scene = None
     for line in sys.stdin:
         record = json.loads(line)
@@ -99,7 +99,7 @@ def compare(scene, sample, smoothness):
     costs = [np.sum(residuals(r) ** 2) for _, r, _ in found]
     for (name, r, ms), cost in zip(found, costs, strict=True):
         rmse = np.sqrt(np.mean((r - truth) ** 2))
-        print(f"{sample['id']:24}{name:14}{cost:16.9e}{cost - min(costs):16.2e}{f'{ms:.1f}' if ms else '':>10}{rmse:10.4f}", flush=True)
+        print(f"| {sample['id']} | {name} | {cost:.9e} | {cost - min(costs):.1e} | {f'{ms:.0f}' if ms else ''} | {rmse:.4f} |", flush=True)
 
 
 if __name__ == "__main__":

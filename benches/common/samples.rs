@@ -1,0 +1,83 @@
+//! Samples on standard input, ready to be estimated in process as `vestimate` does.
+
+use vfold::estimate::Exposure;
+use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::noise::{deviations, unexplained};
+use vfold::estimate::unknowns::SceneModel;
+use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
+use vfold::stream::{Colours, Reader, Record, Sample};
+use vfold::{Error, Result};
+
+/// Least change that counts, in standard deviations.
+pub const CUTOFF: f64 = 1e-2;
+
+/// A scene and its samples.
+pub struct Batch {
+    /// What is known of the scene.
+    pub scene: SceneModel,
+    /// Its wavelengths.
+    pub grid: WavelengthGrid,
+    /// Its samples.
+    pub shots: Vec<Shot>,
+}
+
+/// The facets of a sheet that is known.
+pub struct Shot {
+    rgb: Colours,
+    sd: Colours,
+    exposure: Exposure,
+    /// Reflectance a waveband.
+    pub truth: Vec<f64>,
+}
+
+impl Batch {
+    /// Reads one scene and all of its samples.
+    pub fn read() -> Result<Self> {
+        let mut reader = Reader::open("-")?;
+        let Some(Record::Scene(scene)) = reader.read()? else {
+            return Err(Error::Numeric("no scene; pipe vkernel | vforward into the benchmark".to_owned()));
+        };
+        let mut batch =
+            Self { scene: SceneModel::known(scene.model()?), grid: scene.grid()?, shots: Vec::new() };
+        while let Some(record) = reader.read()? {
+            if let Record::Sample(sample) = record {
+                batch.shots.push(Shot::new(&batch.scene, &sample)?);
+            }
+        }
+        Ok(batch)
+    }
+
+    /// The Munsell chips on the scene's wavelengths.
+    pub fn chips(&self) -> Result<Vec<Vec<f64>>> {
+        reflectances("munsell")?.iter().map(|chip| chip.on(&self.grid, Outside::Refuse)).collect()
+    }
+}
+
+impl Shot {
+    fn new(scene: &SceneModel, sample: &Sample) -> Result<Self> {
+        let rgb = sample.facet_rgb()?;
+        let sd = match sample.facet_sd()? {
+            Some(said) => {
+                deviations(&rgb, |facet, channel| said[facet].as_ref().map_or(0.0, |sd| sd[channel]), 0.0)
+            }
+            None => {
+                let noise = unexplained(scene.facets(), &rgb);
+                deviations(&rgb, |_, channel| noise[channel], 0.0)
+            }
+        };
+        let exposure = sample.exposure()?.map_or(Exposure::Free, Exposure::Known);
+        let truth = sample.truth()?.ok_or_else(|| Error::field("truth", "missing; vforward adds it"))?;
+        Ok(Self { rgb, sd, exposure, truth: truth.reflectance })
+    }
+
+    /// The facets in units of their noise.
+    pub fn data<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
+        FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &self.sd }, self.exposure, CUTOFF)
+    }
+
+    /// The facets, white being 1, as the paper's objective has them.
+    pub fn unweighted<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
+        let ones: Colours = self.rgb.iter().map(|rgb| rgb.as_ref().map(|rgb| vec![1.0; rgb.len()])).collect();
+        FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &ones }, self.exposure, 1e-8)
+    }
+}

@@ -1,0 +1,52 @@
+#!/bin/sh
+# Time beside error of estimates, as a table in benches/results/estimates.md: the ColorChecker, and every set (CSV file) given as
+# an argument, with three cameras, without noise and with facet noise of 1e-3 of white. About a minute on one thread.
+set -eu
+cd "$(dirname "$0")/.."
+target=${CARGO_TARGET_DIR:-target}
+cargo build --quiet --release --bins --benches
+bin=$target/release
+python=$target/scipy/bin/python
+table=benches/results/estimates.md
+
+rows() {
+    for set in cc24 "$@"; do
+        for camera in canon-5d-mark-ii sigma-sd-merrill nikon-d5100; do
+            for noise in 0 1e-3; do
+                # The paper's estimator with the power of ten that suits the noise best.
+                case $noise in 0) smoothness=1e-8 ;; *) smoothness=1e-3 ;; esac
+                printf '| %s | %s | %s | ' "$(basename "$set" .csv)" $camera $noise
+                "$bin/vkernel" | "$bin/vforward" --reflectance "$set" --camera $camera --noise-sd $noise |
+                    cargo bench --quiet --bench estimate -- $smoothness | sed 's/$/ |/'
+            done
+        done
+    done
+}
+
+scipy() {
+    if ! { { [ -x "$python" ] || python3 -m venv "$target/scipy"; } >/dev/null 2>&1 &&
+        "$python" -m pip install --quiet --disable-pip-version-check scipy==1.14.1 2>/dev/null; }; then
+        echo 'SciPy: pip cannot install it here; left out'
+        return
+    fi
+    echo "The paper's objective, eq. (36) with a smoothness of 1e-5, minimised by \`vestimate --prior smooth\` and by two methods of"
+    echo 'SciPy 1.14.1 (`benches/scipy_estimate.py`):'
+    echo
+    "$bin/vkernel" --mesh facets | "$bin/vforward" --reflectance cc24:blue-sky cc24:orange cc24:neutral-5 |
+        "$bin/vestimate" --prior smooth | "$python" benches/scipy_estimate.py
+}
+
+{
+    echo '# Estimates'
+    echo
+    echo "45°, 10 x 10 facets a panel, D65, exposure known; $(rustc --version | cut -d' ' -f1,2), one thread of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(date +%F)."
+    echo 'Means of RMSE and CIEDE2000 (10°, D65), medians of time and iterations; the four columns on the right are the'
+    echo "paper's estimator (\`--prior smooth\`)."
+    echo
+    echo '| set | camera | facet noise | RMSE | CIEDE2000 | ms | iterations | RMSE | CIEDE2000 | ms | iterations |'
+    echo '|---|---|---|---|---|---|---|---|---|---|---|'
+    rows "$@"
+    echo
+    scipy
+} | tee "$table.new"
+mv "$table.new" "$table"
