@@ -3,7 +3,7 @@
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
 //! Which classes the facets may belong to is told from all spectra as one Gaussian and the model linearised where that
 //! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
-//! gives error bars (Laplace's approximation), wider where classes disagree.
+//! gives error bars (Laplace's approximation), wider where classes disagree or facets are further from the model than their noise.
 
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
@@ -110,12 +110,16 @@ impl Found {
             facets.data.scene().unknowns().iter().zip(&unknowns).map(|(unknown, w)| unknown.at(*w)).collect();
         let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
         let values = unknowns.iter().map(|(value, _)| *value);
+        let residual_rms = facets.data.rms(&solution.at.residuals);
+        // Facets further from the model than their noise: the noise, or the scene, is not what it was said to be (R. T. Birge,
+        // *Physical Review* 40 (1932), p. 207).
+        let widened = residual_rms.max(1.0);
         Self {
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: facets.spread(&prior_sd, solution),
+            spread: facets.spread(&prior_sd, solution).map(|spread| widened * spread),
             prior_sd,
-            residual_rms: facets.data.rms(&solution.at.residuals),
+            residual_rms,
             trace: vec![solution.trace.clone()],
             termination: solution.termination,
         }
