@@ -20,7 +20,7 @@ mod scale;
 mod transfer;
 mod write;
 
-pub use corners::{PANEL_CORNERS, check_inside, parse_corners};
+pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
 pub use facets::{FacetMeasurement, measure};
 pub use homography::{Homography, Point};
 pub use orientation::Orientation;

@@ -25,7 +25,10 @@ use vfold::{Error, Result};
     after_help = "Example:\n  vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\\n    \
                   --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate\n\n\
                   Corners of a panel: crease end 0, crease end 1, outer end 1, outer end 0, as x,y in pixels from the top left\n\
-                  corner of the upright picture; the centre of the first pixel is at 0.5,0.5."
+                  corner of the upright picture; the centre of the first pixel is at 0.5,0.5.\n\n\
+                  --regions FILE holds the corners for every IMAGE: {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ...}. A list of\n\
+                  such objects, each with \"image\": \"NAME\", has those of the IMAGE of that name, with or without its ending. With\n\
+                  \"width\" and \"height\", px, of a picture of another size, such as a preview, corners are scaled."
 )]
 struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG
@@ -60,7 +63,7 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
-    let panels = args.regions.panels()?;
+    let regions = args.regions.given()?;
     args.calibration.check()?;
     let mut reader = Reader::open(&args.scene)?;
     let Some(Record::Scene(mut scene)) = reader.read()? else {
@@ -83,7 +86,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| args.reading.open(path)));
     let mut made = samples
         .zip(&args.images)
-        .map(|(photograph, path)| sample::sample(args, &id, &fold, &panels, path, photograph));
+        .map(|(photograph, path)| sample::sample(args, &id, &fold, &regions, path, photograph));
     if let [_] = args.images.as_slice()
         && let Some(only) = made.next()
     {

@@ -4,24 +4,26 @@ use std::path::Path;
 
 use vfold::cli;
 use vfold::geometry::Fold;
-use vfold::image::{Homography, Photograph, measure};
+use vfold::image::{Photograph, measure};
 use vfold::stream::{ImageRecord, Sample};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::regions::{GivenRegions, panels};
 
 pub fn sample(
     args: &Args,
     scene: &str,
     fold: &Fold,
-    panels: &[Homography],
+    given: &GivenRegions,
     path: &Path,
     photograph: Result<Photograph>,
 ) -> Result<Sample> {
     let photograph = photograph?;
+    let panels = panels(&given.of(path, &photograph)?)?;
     let grid = fold.facets();
     let row_edges = fold.spacing().edges(grid.rows);
-    let facets = measure(&photograph, panels, &row_edges, grid.cols, args.regions.margin)?;
+    let facets = measure(&photograph, &panels, &row_edges, grid.cols, args.regions.margin)?;
     if args.common.verbose {
         let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
         let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();
@@ -35,7 +37,7 @@ pub fn sample(
     }
     let mut sample = Sample::new(scene, &name(path))?;
     sample.set_photograph(
-        &ImageRecord::new(path, photograph.info(), panels, args.regions.margin),
+        &ImageRecord::new(path, photograph.info(), &panels, args.regions.margin),
         &facets,
         2 * grid.len(),
     )?;
