@@ -3,6 +3,7 @@
 //! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
 //! through typed views and add their own.
 
+mod calibration;
 mod estimate;
 mod fields;
 mod model;
@@ -18,6 +19,7 @@ mod scene;
 mod unknowns;
 mod writer;
 
+pub use calibration::CalibrationRecord;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};

@@ -1,20 +1,24 @@
 //! `vextract`: the mean colour of every facet in photographs of a fold.
 
+mod batch;
 mod calibration;
 mod camera;
 mod reading;
 mod regions;
 mod sample;
+mod target;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use calibration::CalibrationArgs;
 use clap::Parser;
 use reading::ReadingArgs;
 use regions::RegionArgs;
+use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
-use vfold::stream::{Output, Reader, Record};
+use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
 /// Measure the facets of a folded sheet in photographs
@@ -64,16 +68,9 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let regions = args.regions.given()?;
-    args.calibration.check()?;
-    let mut reader = Reader::open(&args.scene)?;
-    let Some(Record::Scene(mut scene)) = reader.read()? else {
-        return Err(Error::Record {
-            path: args.scene.clone(),
-            line: 1,
-            problem: "no scene".to_owned(),
-            remedy: "pipe vkernel into vextract, or give --scene FILE".to_owned(),
-        });
-    };
+    let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
+    let flat_field = args.reading.flat_field()?.map(Arc::new);
+    let mut scene = read_scene(&args.scene)?;
     let first = args.reading.open(&args.images[0]);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         scene.set_optics(&args.optics.resolve(camera)?)?;
@@ -81,27 +78,26 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let fold = scene.fold()?;
-    let id = scene.id()?;
-    let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| args.reading.open(path)));
-    let mut made = samples
-        .zip(&args.images)
-        .map(|(photograph, path)| sample::sample(args, &id, &fold, &regions, path, photograph));
-    if let [_] = args.images.as_slice()
-        && let Some(only) = made.next()
-    {
+    let (id, fold) = (scene.id()?, scene.fold()?);
+    let setup = Setup { args, scene: &scene, id, fold, regions, calibration, flat_field };
+    if let [only] = args.images.as_slice() {
         // Nothing to go on with: the one photograph's error is the tool's.
-        let only = only?;
+        let sample = setup.sample(only, first)?;
         out.scene(&scene)?;
-        return out.sample(&only);
+        return out.sample(&sample);
     }
     out.scene(&scene)?;
-    for (made, path) in made.zip(&args.images) {
-        let sample = match made {
-            Ok(sample) => sample,
-            Err(error) => sample::failed(&id, path, &error)?,
-        };
-        out.sample(&sample)?;
+    batch::measure(&setup, &args.images, first, |sample| out.sample(&sample))
+}
+
+fn read_scene(path: &str) -> Result<Scene> {
+    match Reader::open(path)?.read()? {
+        Some(Record::Scene(scene)) => Ok(scene),
+        _ => Err(Error::Record {
+            path: path.to_owned(),
+            line: 1,
+            problem: "no scene".to_owned(),
+            remedy: "pipe vkernel into vextract, or give --scene FILE".to_owned(),
+        }),
     }
-    Ok(())
 }

@@ -1,9 +1,9 @@
 //! How photographs are read.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{Photograph, ReadOptions, Transfer};
+use vfold::image::{FlatField, Photograph, ReadOptions, Transfer};
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -17,6 +17,9 @@ pub struct ReadingArgs {
     /// Stored number that means 1, from which on pixels are clipped
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
+    /// Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1
+    #[arg(long, value_name = "IMAGE")]
+    white: Option<PathBuf>,
 }
 
 impl ReadingArgs {
@@ -27,6 +30,10 @@ impl ReadingArgs {
             white_level: self.white_level,
         };
         Photograph::open(path, &options)
+    }
+
+    pub fn flat_field(&self) -> Result<Option<FlatField>> {
+        self.white.as_ref().map(|path| FlatField::new(self.open(path)?, path)).transpose()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{Homography, PANEL_CORNERS, Photograph, parse_corners};
+use vfold::image::{CHART_CORNERS, Homography, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
 use vfold::stream::{Regions, RegionsFile};
 use vfold::{Error, Result};
 
@@ -15,7 +15,13 @@ pub struct RegionArgs {
     /// Corners of panel 1 [default: only panel 0 is measured]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel1: Option<String>,
-    /// JSON file of corners, see below; the flags above win over it
+    /// Corners of a colour chart's block of patches, to calibrate with: see below
+    #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
+    chart: Option<String>,
+    /// Corners of a white card in the picture, to calibrate with
+    #[arg(long, value_name = "x,y x,y x,y x,y", conflicts_with = "chart", allow_hyphen_values = true)]
+    white_region: Option<String>,
+    /// JSON file of panel0, panel1, chart and white: see below; the flags above win over it
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
     /// Stay this far from the panels' edges
@@ -39,9 +45,14 @@ impl RegionArgs {
         let flags = Regions {
             panel0: corners("--panel0", &self.panel0, &PANEL_CORNERS)?,
             panel1: corners("--panel1", &self.panel1, &PANEL_CORNERS)?,
+            chart: corners("--chart", &self.chart, &CHART_CORNERS)?,
+            white: corners("--white-region", &self.white_region, &WHITE_CORNERS)?,
             ..Regions::default()
         };
         let file = self.regions.as_deref().map(RegionsFile::open).transpose()?;
+        if file.is_none() {
+            panels(&flags)?;
+        }
         Ok(GivenRegions { flags, file })
     }
 }
