@@ -41,7 +41,7 @@ impl FlatField {
             });
         }
         if 2 * pixels < width * height {
-            let problem = "most of the flat field is clipped or no number";
+            let problem = "most of the flat field is clipped or not finite";
             return Err(Error::picture(path, problem, "expose it less, or check --white-level"));
         }
         if sums.iter().any(|sum| *sum <= 0.0) {

@@ -63,7 +63,7 @@ impl Target {
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((order, other)) = better else { return given };
         let problem = format!(
-            "the {} is turned or mirrored: its corners fit in another order, within {:.1} %",
+            "the {} is turned or mirrored: its corners fit in another order, within {:.2} %",
             self.name,
             100.0 * other
         );
