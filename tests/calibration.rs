@@ -121,20 +121,22 @@ fn imperfect_chart(camera: &Camera, expected: &[[f64; 3]], stream: u64) -> Vec<P
     expected.iter().enumerate().map(patch).collect()
 }
 
-/// Unweighted least squares, the paper's words taken literally; evaluated at `measured`.
-fn plain_polynomial(patches: &[Patch], measured: f64) -> f64 {
-    let powers = |x: f64| [1.0, x, x * x];
-    let matrix = DMatrix::from_fn(patches.len(), 3, |row, col| powers(patches[row].measured[0])[col]);
-    let values = DVector::from_iterator(patches.len(), patches.iter().map(|patch| patch.expected[0]));
-    let terms = matrix.svd(true, true).solve(&values, 0.0).unwrap();
-    powers(measured).iter().zip(&terms).map(|(power, term)| power * term).sum()
+/// Least squares with some powers of what was measured, every patch with its `weight`; evaluated at `measured`.
+fn least_squares(patches: &[Patch], powers: &[i32], weight: fn(f64) -> f64, measured: f64) -> f64 {
+    let weight = |row: usize| weight(patches[row].expected[0]);
+    let term = |row: usize, col: usize| weight(row) * patches[row].measured[0].powi(powers[col]);
+    let matrix = DMatrix::from_fn(patches.len(), powers.len(), term);
+    let values = DVector::from_fn(patches.len(), |row, _| weight(row) * patches[row].expected[0]);
+    let coefficients = matrix.svd(true, true).solve(&values, 0.0).unwrap();
+    powers.iter().zip(&coefficients).map(|(power, coefficient)| coefficient * measured.powi(*power)).sum()
 }
 
-/// Rms error, percent, at shares of white, of the calibration and of plain least squares, over 300 charts.
-fn errors_percent(camera: impl Fn(&[f64; 3]) -> Camera, shares: [f64; 3]) -> [[f64; 3]; 2] {
+/// Rms error, percent, at shares of white over 300 charts: of the calibration, of the paper's words taken literally, and of a
+/// polynomial through the origin fitted to relative errors.
+fn errors_percent(camera: impl Fn(&[f64; 3]) -> Camera, shares: [f64; 3]) -> [[f64; 3]; 3] {
     let sidecar = sidecar();
     let (expected, white) = (expected(&sidecar), numbers::<3>(&sidecar["white_rgb"]));
-    let mut squares = [[0.0; 3]; 2];
+    let mut squares = [[0.0; 3]; 3];
     for chart in 0..300 {
         let camera = camera(&normal(10_000 + chart));
         let patches = imperfect_chart(&camera, &expected, chart);
@@ -144,7 +146,8 @@ fn errors_percent(camera: impl Fn(&[f64; 3]) -> Camera, shares: [f64; 3]) -> [[f
             let measured = camera.photograph(light);
             let got = [
                 calibration.value(0, measured) / calibration.exposure(),
-                plain_polynomial(&patches, measured),
+                least_squares(&patches, &[0, 1, 2], |_| 1.0, measured),
+                least_squares(&patches, &[1, 2], f64::recip, measured),
             ];
             got.iter()
                 .zip(&mut squares)
@@ -159,15 +162,17 @@ fn dark_facets_stay_right_where_plain_least_squares_fails() {
     for (what, offset_sd, curvature_sd, limits) in [
         ("gain", 0.0, 0.0, [2.8, 0.8, 0.6]),
         ("gain and curvature", 0.0, 0.05, [2.8, 0.8, 0.6]),
-        ("gain, curvature and stray light", 0.002, 0.05, [3.0, 0.8, 0.6]),
+        ("gain, curvature and stray light", 0.003, 0.05, [3.5, 0.8, 0.6]),
     ] {
         let camera = |random: &[f64; 3]| Camera {
             gain: 0.7 * (1.0 + 0.1 * random[0]),
             offset: offset_sd * random[1],
             curvature: curvature_sd * random[2],
         };
-        let [ours, plain] = errors_percent(camera, [0.03, 0.1, 0.3]);
-        println!("{what}: {ours:.2?} %, plain least squares {plain:.2?} % at 3, 10 and 30 % of white");
+        let [ours, plain, origin] = errors_percent(camera, [0.03, 0.1, 0.3]);
+        println!(
+            "{what}: {ours:.2?} %, plain {plain:.2?} %, origin {origin:.2?} % at 3, 10 and 30 % of white"
+        );
         assert!(ours.iter().zip(&limits).all(|(ours, limit)| ours < limit), "{what}");
         assert!(ours[0] < plain[0] / 2.0, "{what}");
     }

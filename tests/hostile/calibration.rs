@@ -88,7 +88,7 @@ fn charts_and_white_cards() {
         + r#"
         printf 'wavelength,a,b\n400,0,0.5\n700,0,0.5\n' > dark.csv
         printf 'wavelength,a,b\n500,0.2,0.5\n600,0.2,0.5\n' > narrow.csv
-        oiiotool photo.exr --ch R -o grey.exr
+        oiiotool photo.exr --ch R -d uint16 -o grey.tif
         oiiotool photo.exr --mulc 0 -o black.exr
         oiiotool photo.exr --resize 64x48 -o small.exr
         echo 'this is no picture' > text.png
@@ -129,10 +129,10 @@ fn charts_and_white_cards() {
             case("sh marked --white-reflectance 1.2", 1, &["1.2", "0..1"]),
             case("sh marked --white-region '1,1 9,1 9,9 1,9'", 1, &["white card", "does not rise"]),
             case(
-                "vextract grey.exr --scene scene.json --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442' \
+                "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442' \
                  --white-region '200,200 260,200 260,260 200,260'",
                 1,
-                &["grey.exr", "1 channels", "camera 3"],
+                &["grey.tif", "1 channels", "camera 3"],
             ),
             case("sh marked --white missing.exr", 1, &["missing.exr", "No such file"]),
             case("sh marked --white text.png", 1, &["text.png", "not a PNG"]),

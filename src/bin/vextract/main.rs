@@ -21,18 +21,33 @@ use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
+const AFTER_HELP: &str = "\
+Examples:
+  vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\
+    --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate
+  vextract *.tif --scene scene.json --regions corners.json --white sheet.tif -o samples.ndjson
+
+Corners are x,y in pixels from the top left corner of the upright picture; the centre of the first pixel is at 0.5,0.5.
+  panel  crease end 0, crease end 1, outer end 1, outer end 0
+  chart  outer corners of the first patch, of the end of the first row, of the last patch, of the start of the last row
+  white  any four round the card
+
+A chart or card gives the sample its exposure, and each channel a polynomial of second degree that makes facets what the scene's camera
+would have shown. The record's 'calibration' has patches, coefficients and residuals.
+
+--regions FILE has the corners for every IMAGE:
+  {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
+or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or without its ending. Corners found in a
+picture of another size, such as a preview, are scaled if \"width\" and \"height\" say its pixels.
+
+Of several photographs one that cannot be measured is a record with an 'error', and the exit status is 3.";
+
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]
 #[command(
     name = "vextract",
     version,
-    after_help = "Example:\n  vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\\n    \
-                  --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate\n\n\
-                  Corners of a panel: crease end 0, crease end 1, outer end 1, outer end 0, as x,y in pixels from the top left\n\
-                  corner of the upright picture; the centre of the first pixel is at 0.5,0.5.\n\n\
-                  --regions FILE holds the corners for every IMAGE: {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ...}. A list of\n\
-                  such objects, each with \"image\": \"NAME\", has those of the IMAGE of that name, with or without its ending. With\n\
-                  \"width\" and \"height\", px, of a picture of another size, such as a preview, corners are scaled."
+    after_help = AFTER_HELP
 )]
 struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG

@@ -7,6 +7,7 @@ use vfold::image::{FlatField, Photograph, ReadOptions, Transfer};
 use vfold::{Error, Result};
 
 #[derive(Args)]
+#[command(next_help_heading = "Reading photographs")]
 pub struct ReadingArgs {
     /// Curve of the stored numbers; auto: sRGB for 8 bits, linear for the rest
     #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]

@@ -8,6 +8,7 @@ use vfold::stream::{Regions, RegionsFile};
 use vfold::{Error, Result};
 
 #[derive(Args)]
+#[command(next_help_heading = "Regions")]
 pub struct RegionArgs {
     /// Corners of panel 0
     #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "regions"], allow_hyphen_values = true)]
@@ -15,13 +16,13 @@ pub struct RegionArgs {
     /// Corners of panel 1 [default: only panel 0 is measured]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel1: Option<String>,
-    /// Corners of a colour chart's block of patches, to calibrate with: see below
+    /// Corners of a colour chart's block of patches, to calibrate with
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
     /// Corners of a white card in the picture, to calibrate with
     #[arg(long, value_name = "x,y x,y x,y x,y", conflicts_with = "chart", allow_hyphen_values = true)]
     white_region: Option<String>,
-    /// JSON file of panel0, panel1, chart and white: see below; the flags above win over it
+    /// JSON file of corners, see below; the flags above win over it
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
     /// Stay this far from the panels' edges
