@@ -16,7 +16,7 @@ use vfold::geometry::{FacetGrid, Fold, Light};
 use vfold::image::{Photograph, Point, ReadOptions, measure_patches};
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 
-const SIDECAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/e_chart_purple_45.json");
+const SIDECAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/reference/e_chart_purple_45.json");
 const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos/e_chart_purple_45.tif");
 
 fn sidecar() -> Value {

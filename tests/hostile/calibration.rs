@@ -92,6 +92,12 @@ fn charts_and_white_cards() {
         oiiotool photo.exr --mulc 0 -o black.exr
         oiiotool photo.exr --resize 64x48 -o small.exr
         echo 'this is no picture' > text.png
+        cat > chart <<'END'
+        sh marked --chart "200,200 260,200 260,260 200,260" "$@"
+END
+        cat > card <<'END'
+        sh marked --white-region "200,200 260,200 260,260 200,260" "$@"
+END
         "#;
     assert_refused(
         &setup,
@@ -111,22 +117,18 @@ fn charts_and_white_cards() {
                 2,
                 &["--white-region", "--chart"],
             ),
-            case("sh marked --chart-cos 0", 2, &["--chart-cos", "above 0"]),
-            case("sh marked --chart-cos 1.01", 2, &["--chart-cos", "at most 1"]),
-            case("sh marked --chart-cos NaN", 2, &["--chart-cos", "NaN"]),
-            case("sh marked --white-cos -1", 2, &["--white-cos", "-1"]),
-            case("sh marked --chart-grid 24", 2, &["--chart-grid", "10x10"]),
-            case("sh marked --chart-grid 5x5", 2, &["--chart-grid", "24 patches of 'cc24'"]),
-            case("sh marked --chart-grid 9999999999x9999999999", 2, &["--chart-grid", "24 patches"]),
-            case("sh marked --chart-reference cc42", 1, &["cc42", "cc24"]),
-            case("sh marked --chart-reference narrow.csv --chart-grid 1x2", 1, &["narrow:a", "500..600 nm"]),
-            case(
-                "sh marked --chart-reference dark.csv --chart-grid 1x2 --chart '200,200 260,200 260,260 200,260'",
-                1,
-                &["dark:a", "no light"],
-            ),
-            case("sh marked --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
-            case("sh marked --white-reflectance 1.2", 1, &["1.2", "0..1"]),
+            case("sh chart --chart-cos 0", 2, &["--chart-cos", "above 0"]),
+            case("sh chart --chart-cos 1.01", 2, &["--chart-cos", "at most 1"]),
+            case("sh chart --chart-cos NaN", 2, &["--chart-cos", "NaN"]),
+            case("sh card --white-cos -1", 2, &["--white-cos", "-1"]),
+            case("sh chart --chart-grid 24", 2, &["--chart-grid", "10x10"]),
+            case("sh chart --chart-grid 5x5", 2, &["--chart-grid", "24 patches of 'cc24'"]),
+            case("sh chart --chart-grid 9999999999x9999999999", 2, &["--chart-grid", "24 patches"]),
+            case("sh chart --chart-reference cc42", 1, &["cc42", "cc24"]),
+            case("sh chart --chart-reference narrow.csv --chart-grid 1x2", 1, &["narrow:a", "500..600 nm"]),
+            case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "no light"]),
+            case("sh card --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
+            case("sh card --white-reflectance 1.2", 1, &["1.2", "0..1"]),
             case("sh marked --white-region '1,1 9,1 9,9 1,9'", 1, &["white card", "does not rise"]),
             case(
                 "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442' \
@@ -134,6 +136,8 @@ fn charts_and_white_cards() {
                 1,
                 &["grey.tif", "1 channels", "camera 3"],
             ),
+            case("sh marked --chart-cos 0.5", 2, &["--chart", "--regions"]),
+            case("sh marked --white-reflectance 0.9", 2, &["--white-region", "--regions"]),
             case("sh marked --white missing.exr", 1, &["missing.exr", "No such file"]),
             case("sh marked --white text.png", 1, &["text.png", "not a PNG"]),
             case("sh marked --white black.exr", 1, &["black.exr", "dark"]),

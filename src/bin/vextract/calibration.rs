@@ -18,19 +18,31 @@ pub struct CalibrationArgs {
     #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"], allow_negative_numbers = true)]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
-    #[arg(long, value_name = "SPEC", default_value = "cc24")]
+    #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
     chart_reference: String,
     /// Patches of the chart
-    #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", value_parser = cli::pair::<usize>)]
+    #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place", value_parser = cli::pair::<usize>)]
     chart_grid: (usize, usize),
     /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the panels
-    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 1.0,
+        requires = "chart_place",
+        allow_negative_numbers = true
+    )]
     chart_cos: f64,
     /// Reflectance of the white card
-    #[arg(long, value_name = "SPEC", default_value = "1")]
+    #[arg(long, value_name = "SPEC", default_value = "1", requires = "white_place")]
     white_reflectance: String,
     /// Cosine of the angle between the sun and the white card's normal
-    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 1.0,
+        requires = "white_place",
+        allow_negative_numbers = true
+    )]
     white_cos: f64,
 }
 

@@ -27,20 +27,25 @@ Examples:
     --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate
   vextract *.tif --scene scene.json --regions corners.json --white sheet.tif -o samples.ndjson
 
-Corners are x,y in pixels from the top left corner of the upright picture; the centre of the first pixel is at 0.5,0.5.
+Corners are x,y in pixels from the top left corner of the upright picture; the centre of the
+first pixel is at 0.5,0.5. Order:
   panel  crease end 0, crease end 1, outer end 1, outer end 0
-  chart  outer corners of the first patch, of the end of the first row, of the last patch, of the start of the last row
+  chart  outer corners of the first patch, the end of the first row, the last patch, the start
+         of the last row
   white  any four round the card
 
-A chart or card gives the sample its exposure, and each channel a polynomial of second degree that makes facets what the scene's camera
-would have shown. The record's 'calibration' has patches, coefficients and residuals.
+A chart or card gives the sample its exposure, and each channel a polynomial of second degree
+that makes facets what the scene's camera would have shown. The record's 'calibration' has
+patches, coefficients and residuals.
 
 --regions FILE has the corners for every IMAGE:
   {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
-or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or without its ending. Corners found in a
-picture of another size, such as a preview, are scaled if \"width\" and \"height\" say its pixels.
+or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
+without its ending. Corners found in a picture of another size, such as a preview, are scaled
+if \"width\" and \"height\" say its pixels.
 
-Of several photographs one that cannot be measured is a record with an 'error', and the exit status is 3.";
+Of several photographs one that cannot be measured is a record with an 'error', and the exit
+status is 3.";
 
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]

@@ -2,13 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use vfold::image::{CHART_CORNERS, Homography, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
 use vfold::stream::{Regions, RegionsFile};
 use vfold::{Error, Result};
 
 #[derive(Args)]
-#[command(next_help_heading = "Regions")]
+#[command(
+    next_help_heading = "Regions",
+    group = ArgGroup::new("chart_place").args(["chart", "regions"]).multiple(true),
+    group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
+)]
 pub struct RegionArgs {
     /// Corners of panel 0
     #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "regions"], allow_hyphen_values = true)]
