@@ -9,19 +9,12 @@
 //! large as the residuals say, and constant and curvature have priors: 2.5 %, and 0.5 % at 30 % of white
 //! (`tests/calibration.rs` measures both).
 
-use nalgebra::{Matrix3, Vector3};
+mod curve;
+
+use curve::Curve;
 
 use crate::error::{Error, Result};
 
-/// Standard deviation of the polynomial's constant before the picture, of the brightest patch: stray light and black level.
-const OFFSET_SD: f64 = 5e-3;
-/// Standard deviation of the quadratic term at the brightest patch before the picture, of that patch.
-const CURVATURE_SD: f64 = 0.05;
-/// Relative error of a patch before the picture, worth as much as so many patches: ageing, dirt, another batch.
-const PATCH_SD: f64 = 0.01;
-const PATCH_SD_COUNT: f64 = 2.0;
-/// The relative error settles within a few rounds.
-const ROUNDS: usize = 20;
 /// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to 0.12, patches in the
 /// wrong order 0.45 and more.
 const LARGEST_RESIDUAL: f64 = 0.25;
@@ -77,16 +70,14 @@ impl Calibration {
     /// ```
     pub fn fit(patches: &[Patch], reference_channel: usize) -> Result<Self> {
         let channels = patches.first().map_or(0, |patch| patch.expected.len());
-        if let Some(dark) = patches.iter().find(|patch| patch.expected.iter().any(|value| *value <= 0.0)) {
-            return Err(Error::Numeric(format!("patch '{}' has no light to give", dark.name)));
-        }
-        let mut curves = (0..channels).map(|n| Curve::fit(patches, n)).collect::<Result<Vec<_>>>()?;
+        patches.iter().try_for_each(|patch| check(patch, channels))?;
+        let curves = (0..channels).map(|n| Curve::fit(patches, n)).collect::<Result<Vec<_>>>()?;
         let Some(reference) = curves.get(reference_channel) else {
             return Err(Error::Numeric("there is nothing to calibrate with".to_owned()));
         };
-        let (exposure, relative_sd) = (reference.brightest.0 / reference.white(), reference.white_sd());
-        curves.iter_mut().for_each(|curve| curve.exposure = exposure);
-        let calibration = Self { curves, exposure, exposure_sd: exposure * relative_sd };
+        let (exposure, exposure_sd) = reference.gain();
+        let curves = curves.into_iter().map(|curve| curve.at_exposure(exposure)).collect();
+        let calibration = Self { curves, exposure, exposure_sd };
         let worst = calibration.residual_rms(patches).into_iter().fold(0.0, f64::max);
         if worst > LARGEST_RESIDUAL {
             return Err(Error::Numeric(format!(
@@ -126,8 +117,7 @@ impl Calibration {
     /// The polynomial of a channel: constant, linear and quadratic coefficient.
     #[must_use]
     pub fn coefficients(&self, channel: usize) -> [f64; 3] {
-        let Curve { terms, brightest: (measured, expected), exposure, .. } = &self.curves[channel];
-        [0, 1, 2].map(|power| exposure * expected * terms[power] / measured.powi(power as i32))
+        self.curves[channel].coefficients()
     }
 
     /// How far a patch is from what it should be, a share of that per channel.
@@ -153,96 +143,16 @@ impl Calibration {
     }
 }
 
-/// A channel's polynomial, between values as shares of the brightest patch's.
-#[derive(Clone, Debug, PartialEq)]
-struct Curve {
-    terms: Vector3<f64>,
-    covariance: Matrix3<f64>,
-    /// The brightest patch, measured and expected.
-    brightest: (f64, f64),
-    exposure: f64,
-}
-
-/// A patch in one channel: what was measured, its standard error, what was expected.
-type Datum = (f64, f64, f64);
-
-impl Curve {
-    fn fit(patches: &[Patch], channel: usize) -> Result<Self> {
-        let data =
-            patches.iter().map(|p| (p.measured[channel], p.standard_error[channel], p.expected[channel]));
-        let brightest =
-            data.clone().fold((0.0, 0.0), |(m, e): (f64, f64), datum| (m.max(datum.0), e.max(datum.2)));
-        let falls =
-            || Error::Numeric(format!("channel {channel} does not rise with what the patches should be"));
-        if !(brightest.0 > 0.0 && brightest.1 > 0.0) {
-            return Err(falls());
-        }
-        let shares: Vec<Datum> =
-            data.map(|(m, sd, e)| (m / brightest.0, sd / brightest.0, e / brightest.1)).collect();
-        let (terms, covariance) = posterior(&shares).ok_or_else(falls)?;
-        let curve = Self { terms, covariance, brightest, exposure: 1.0 };
-        // the slope is linear: positive at both ends, positive between
-        if [0.0, brightest.0].iter().any(|end| curve.slope(*end) <= 0.0) { Err(falls()) } else { Ok(curve) }
+/// A patch must have all channels, and light in each.
+fn check(patch: &Patch, channels: usize) -> Result<()> {
+    let Patch { name, measured, standard_error, expected } = patch;
+    if [measured, standard_error, expected].iter().any(|values| values.len() != channels) {
+        return Err(Error::Numeric(format!("patch '{name}' has not all of {channels} channels")));
     }
-
-    /// Place on the curve up to the brightest patch, and how far beyond it.
-    fn place(&self, measured: f64) -> (f64, f64) {
-        let share = measured / self.brightest.0;
-        (share.min(1.0), (share - 1.0).max(0.0))
+    if expected.iter().any(|value| *value <= 0.0) {
+        return Err(Error::Numeric(format!("patch '{name}' has no light to give")));
     }
-
-    fn value(&self, measured: f64) -> f64 {
-        let (share, beyond) = self.place(measured);
-        let value = self.terms.dot(&powers(share)) + beyond * self.terms.dot(&slopes(share));
-        self.exposure * self.brightest.1 * value
-    }
-
-    fn slope(&self, measured: f64) -> f64 {
-        let (share, _) = self.place(measured);
-        self.exposure * self.brightest.1 / self.brightest.0 * self.terms.dot(&slopes(share))
-    }
-
-    /// Expected value of the brightest patch at exposure 1, and its relative standard deviation.
-    fn white(&self) -> f64 {
-        self.brightest.1 * self.terms.sum()
-    }
-
-    fn white_sd(&self) -> f64 {
-        self.covariance.sum().max(0.0).sqrt() / self.terms.sum()
-    }
-}
-
-fn powers(x: f64) -> Vector3<f64> {
-    Vector3::new(1.0, x, x * x)
-}
-
-fn slopes(x: f64) -> Vector3<f64> {
-    Vector3::new(0.0, 1.0, 2.0 * x)
-}
-
-/// Most probable polynomial and its covariance; the patches' relative error is found along with them.
-fn posterior(data: &[Datum]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
-    let prior = Matrix3::from_diagonal(&Vector3::new(OFFSET_SD.powi(-2), 0.0, CURVATURE_SD.powi(-2)));
-    let (mut relative, mut found) = (PATCH_SD, None);
-    for _ in 0..ROUNDS {
-        let variance = |(_, sd, expected): &Datum| (relative * expected).powi(2) + sd * sd;
-        let (mut matrix, mut vector) = (prior, Vector3::zeros());
-        for datum in data {
-            let x = powers(datum.0);
-            matrix += x * x.transpose() / variance(datum);
-            vector += x * (datum.2 / variance(datum));
-        }
-        let covariance = matrix.try_inverse()?;
-        let terms = covariance * vector;
-        let residual = |datum: &Datum| terms.dot(&powers(datum.0)) - datum.2;
-        let chi2: f64 = data.iter().map(|datum| residual(datum).powi(2) / variance(datum)).sum();
-        let spare = (data.len() as f64 - 2.0).max(0.0);
-        let square =
-            (PATCH_SD_COUNT * PATCH_SD.powi(2) + relative * relative * chi2) / (PATCH_SD_COUNT + spare);
-        relative = square.sqrt();
-        found = Some((terms, covariance));
-    }
-    found.filter(|(terms, _)| terms.iter().all(|term| term.is_finite()))
+    Ok(())
 }
 
 #[cfg(test)]

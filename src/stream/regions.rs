@@ -187,17 +187,12 @@ impl Regions {
                 format!("corners of a picture of {w} x {h} px, used on one of {width} x {height} px");
             return Err(Error::regions(path, problem, "find them in this photograph, uncropped and upright"));
         }
-        let scaled = |corners: Option<Corners>| {
-            corners.map(|corners| corners.map(|p| Point::new(x_scale * p.x, y_scale * p.y)))
-        };
-        Ok(Self {
-            panel0: scaled(self.panel0),
-            panel1: scaled(self.panel1),
-            chart: scaled(self.chart),
-            white: scaled(self.white),
-            image: self.image.clone(),
-            size: Some([width, height]),
-        })
+        let mut scaled = self.clone();
+        let Self { panel0, panel1, chart, white, .. } = &mut scaled;
+        for corner in [panel0, panel1, chart, white].into_iter().flatten().flatten() {
+            *corner = Point::new(x_scale * corner.x, y_scale * corner.y);
+        }
+        Ok(scaled)
     }
 
     /// The same regions, those of `others` where they have none.
