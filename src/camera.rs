@@ -91,6 +91,12 @@ impl CameraResponse {
         self.weights.iter().map(|channel| channel.iter().sum()).collect()
     }
 
+    /// The channel in which white is 1.
+    #[must_use]
+    pub fn reference_channel(&self) -> usize {
+        self.reference_channel
+    }
+
     /// Number of channels.
     #[must_use]
     pub fn channels(&self) -> usize {

@@ -132,6 +132,16 @@ pub enum Error {
         /// What to give instead.
         remedy: String,
     },
+    /// A file of regions cannot be used.
+    #[error("{path}: {problem}; {remedy}")]
+    Regions {
+        /// The file.
+        path: String,
+        /// What is wrong, with the field.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
 
     // ---- numbers ----
     /// A check ran and found a law broken.
@@ -181,6 +191,11 @@ impl Error {
             problem: problem.to_string(),
             remedy: remedy.into(),
         }
+    }
+
+    /// A file of regions with what is wrong with it and what to do.
+    pub fn regions(path: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Regions { path: path.to_owned(), problem: problem.into(), remedy: remedy.into() }
     }
 
     /// A record's field with what is wrong with it.

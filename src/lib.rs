@@ -27,14 +27,15 @@
 //!
 //! ```text
 //! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
-//!               stream -> plot, score, progress, files
+//!               stream -> plot, score, progress, files, calibrate
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> files
 //!               score, colorimetry -> spectrum                          all -> error
 //! ```
-//! JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
+//! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 
+pub mod calibrate;
 pub mod camera;
 pub mod cli;
 pub mod colorimetry;

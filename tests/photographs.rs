@@ -70,6 +70,45 @@ fn photographs_give_their_spectra() {
     }
 }
 
+/// The chart faces the light, the panels do not.
+#[test]
+fn a_chart_in_the_picture_makes_the_exposure_known() {
+    let path = Path::new(ALL).join("e_chart_purple_45.json");
+    if !path.exists() {
+        println!("left out: {} is not there", path.display());
+        return;
+    }
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    let corner = |(patch, corner): (usize, usize)| {
+        let [x, y] = [0, 1].map(|k| &sidecar["chart_px"][patch]["corners_TL_TR_BR_BL"][corner][k]);
+        format!("{x},{y}")
+    };
+    let run = Workdir::new().sh(&format!(
+        r#"
+cat > truth.csv <<END
+{truth}END
+vkernel --angle-deg 45 |
+vextract "{photo}" --camera canon-5d-mark-ii --illuminant D50 --panel0 "{panel0}" --panel1 "{panel1}" --chart "{chart}" |
+vestimate -q | vscore --truth truth.csv
+"#,
+        truth = csv(&sidecar, "reflectance"),
+        photo = path.with_extension("tif").display(),
+        panel0 = corners(&sidecar["panels_px"]["A"]),
+        panel1 = corners(&sidecar["panels_px"]["B"]),
+        chart = [(0, 0), (5, 1), (23, 2), (18, 3)].map(corner).join(" "),
+    ));
+    assert!(run.status == 0 && run.stderr.is_empty(), "{}", run.stderr);
+    let sample: Value =
+        run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).find(is_sample).unwrap();
+    let exposure = number(&sample["exposure"]) / number(&sidecar["white_rgb"][1]);
+    let [rmse, delta_e] = ["rmse", "ciede2000"].map(|score| number(&sample["metrics"][score]));
+    println!(
+        "by its chart: exposure {:+.3} %, RMSE {rmse:.4}, CIEDE2000 {delta_e:.3}",
+        100.0 * (exposure - 1.0)
+    );
+    assert!((exposure - 1.0).abs() < 0.002 && rmse < 0.012 && delta_e < 0.2);
+}
+
 /// The sidecars of all pictures that the tools read.
 fn sidecars() -> Vec<PathBuf> {
     let folder = if Path::new(ALL).exists() { ALL } else { COPIES };

@@ -6,6 +6,14 @@ use crate::{Error, Result};
 /// The corners of a panel, in the order in which they are given.
 pub const PANEL_CORNERS: [&str; 4] = ["crease end 0", "crease end 1", "outer end 1", "outer end 0"];
 
+/// The outer corners of a chart's block of patches, in the order in which they are given: clockwise from the first patch where the
+/// chart is seen upright.
+pub const CHART_CORNERS: [&str; 4] =
+    ["first patch", "end of the first row", "last patch", "start of the last row"];
+
+/// The corners of a white card, in any order round it.
+pub const WHITE_CORNERS: [&str; 4] = ["corner 1", "corner 2", "corner 3", "corner 4"];
+
 /// Reads four corners, `"x,y x,y x,y x,y"`, in px.
 ///
 /// # Arguments

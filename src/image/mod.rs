@@ -1,7 +1,7 @@
 //! From a picture file to the mean colour of every facet of a folded sheet.
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
-//! [`measure`] averages the light over each facet. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart. [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -11,8 +11,10 @@ mod corners;
 mod decode;
 mod exif;
 mod facets;
+mod flat_field;
 mod homography;
 mod orientation;
+mod patches;
 mod photograph;
 mod pixel_area;
 mod plane_fit;
@@ -20,10 +22,12 @@ mod scale;
 mod transfer;
 mod write;
 
-pub use corners::{PANEL_CORNERS, check_inside, parse_corners};
+pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
 pub use facets::{FacetMeasurement, measure};
+pub use flat_field::FlatField;
 pub use homography::{Homography, Point};
 pub use orientation::Orientation;
+pub use patches::{corner_orders, measure_patches};
 pub use photograph::{Photograph, PhotographInfo, Pixel};
 pub use scale::ReadOptions;
 pub use transfer::{Transfer, srgb_to_linear};

@@ -5,15 +5,17 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use image::{DynamicImage, ImageFormat};
 
 use super::decode::{Decoded, decode};
 use super::exif::CameraNotes;
+use super::flat_field::FlatField;
 use super::orientation::{Layout, Orientation};
 use super::scale::{ReadOptions, Scale};
 use super::transfer::Transfer;
-use crate::Result;
+use crate::{Error, Result};
 
 /// What is known about a photograph besides its pixels.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +95,7 @@ pub struct Photograph {
     scale: Scale,
     /// Linear light of every integer; empty for floats.
     table: Vec<f64>,
+    flat_field: Option<Arc<FlatField>>,
     info: PhotographInfo,
 }
 
@@ -142,9 +145,23 @@ impl Photograph {
             colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
             alpha: color.has_alpha().then_some(channels),
             table: scale.table(bits),
+            flat_field: None,
             info: PhotographInfo::new(camera, stored_size, format, &scale),
             scale,
         })
+    }
+
+    /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if the flat field has another size.
+    pub fn with_flat_field(self, flat_field: Arc<FlatField>, path: &Path) -> Result<Self> {
+        let ([w, h], [width, height]) = (flat_field.size(), [self.width(), self.height()]);
+        if [w, h] != [width, height] {
+            let problem = format!("the picture has {width} x {height} px, the flat field {w} x {h}");
+            return Err(Error::picture(path, problem, "take both with the same camera and framing"));
+        }
+        Ok(Self { flat_field: Some(flat_field), ..self })
     }
 
     /// Width of the upright picture, px.
@@ -181,7 +198,15 @@ impl Photograph {
 
     /// Shows the pixels in `columns` of row `y` one after another, with their columns.
     #[inline]
-    pub(super) fn visit(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+    pub(super) fn visit(&self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
+        match &self.flat_field {
+            None => self.visit_uneven(columns, y, visitor),
+            Some(flat) => self.visit_uneven(columns, y, |x, pixel| visitor(x, flat.divide(x, y, pixel))),
+        }
+    }
+
+    #[inline]
+    fn visit_uneven(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
         let integer = |v: usize| self.table[v];
         let float = |v: f32| self.scale.linear(v.into());
         match &self.samples {

@@ -3,6 +3,7 @@
 //! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
 //! through typed views and add their own.
 
+mod calibration;
 mod estimate;
 mod fields;
 mod model;
@@ -10,6 +11,7 @@ mod npy;
 mod photograph;
 mod plan;
 mod reader;
+mod regions;
 mod response;
 mod sample;
 mod saves;
@@ -17,12 +19,14 @@ mod scene;
 mod unknowns;
 mod writer;
 
+pub use calibration::CalibrationRecord;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
 pub use reader::{Reader, Record, Transform, pipe};
+pub use regions::{Corners, Regions, RegionsFile};
 pub use sample::{Colours, ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
 pub use scene::{CameraRecord, Optics, Scene, SpectrumRecord};

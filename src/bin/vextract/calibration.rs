@@ -1,24 +1,128 @@
 //! What the numbers of a photograph are worth.
 
+use std::path::Path;
+
 use clap::Args;
-use vfold::{Error, Result};
+use vfold::calibrate::Calibration;
+use vfold::image::{FacetMeasurement, Photograph};
+use vfold::spectrum::{WavelengthGrid, reflectances};
+use vfold::stream::{CalibrationRecord, Regions, Scene};
+use vfold::{Error, Result, cli};
+
+use super::target::Target;
 
 #[derive(Args)]
+#[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, if known
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
-    pub exposure: Option<f64>,
+    #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"], allow_negative_numbers = true)]
+    exposure: Option<f64>,
+    /// Reflectances of the chart's patches, row by row
+    #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
+    chart_reference: String,
+    /// Patches of the chart
+    #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place", value_parser = cli::pair::<usize>)]
+    chart_grid: (usize, usize),
+    /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the panels
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 1.0,
+        requires = "chart_place",
+        allow_negative_numbers = true
+    )]
+    chart_cos: f64,
+    /// Reflectance of the white card
+    #[arg(long, value_name = "SPEC", default_value = "1", requires = "white_place")]
+    white_reflectance: String,
+    /// Cosine of the angle between the sun and the white card's normal
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 1.0,
+        requires = "white_place",
+        allow_negative_numbers = true
+    )]
+    white_cos: f64,
 }
 
 impl CalibrationArgs {
+    /// What the flags say, spectra on the scene's wavelengths.
+    ///
     /// # Errors
-    /// [`Error::Usage`] if the exposure is no number above 0.
-    pub fn check(&self) -> Result<()> {
-        match self.exposure {
-            Some(x) if !(x > 0.0 && x.is_finite()) => {
-                Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"))
+    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference; as [`reflectances`].
+    pub fn given(&self, grid: &WavelengthGrid) -> Result<GivenCalibration> {
+        if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
+            return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
+        }
+        for (flag, cos) in [("--chart-cos", self.chart_cos), ("--white-cos", self.white_cos)] {
+            if !(cos > 0.0 && cos <= 1.0) {
+                let problem = format!("{cos} is no cosine of an angle at which the sun shines on it");
+                return Err(Error::usage(flag, problem, "give a number above 0, at most 1"));
             }
-            _ => Ok(()),
+        }
+        let chart = reflectances(&self.chart_reference)?;
+        let (rows, cols) = self.chart_grid;
+        if rows.checked_mul(cols) != Some(chart.len()) {
+            let (reference, count) = (&self.chart_reference, chart.len());
+            let problem = format!("{rows}x{cols} are not the {count} patches of '{reference}'");
+            return Err(Error::usage(
+                "--chart-grid",
+                problem,
+                "give its rows x columns, or --chart-reference",
+            ));
+        }
+        let white = cli::one_reflectance("--white-reflectance", &self.white_reflectance)?;
+        Ok(GivenCalibration {
+            exposure: self.exposure,
+            chart: Target::new(("chart", "--chart"), (rows, cols), self.chart_cos, &chart, grid)?,
+            white: Target::new(("white card", "--white-region"), (1, 1), self.white_cos, &[white], grid)?,
+        })
+    }
+}
+
+/// What can calibrate a photograph.
+pub struct GivenCalibration {
+    pub exposure: Option<f64>,
+    chart: Target,
+    white: Target,
+}
+
+impl GivenCalibration {
+    /// The calibration by what is marked in a photograph, if anything is.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if chart or card are clipped, turned, or nothing like what they should be; [`Error::Usage`] if there
+    /// are several ways to calibrate.
+    pub fn calibrate(
+        &self,
+        scene: &Scene,
+        regions: &Regions,
+        path: &Path,
+        photograph: &Photograph,
+    ) -> Result<Option<(Calibration, CalibrationRecord)>> {
+        let (target, corners) = match (regions.chart, regions.white, self.exposure) {
+            (None, None, _) => return Ok(None),
+            (Some(corners), None, None) => (&self.chart, corners),
+            (None, Some(corners), None) => (&self.white, corners),
+            _ => {
+                let problem = "two of chart, white card and --exposure say what the numbers are worth";
+                return Err(Error::usage("--regions", problem, "keep one of them"));
+            }
+        };
+        target.calibrate(&scene.lighting()?, path, photograph, corners).map(Some)
+    }
+}
+
+/// Makes measured values those of the scene's camera.
+pub fn apply(calibration: &Calibration, facets: &mut [FacetMeasurement]) {
+    for facet in facets {
+        let Some(mean) = &mut facet.mean else { continue };
+        for (channel, sd) in facet.standard_error.iter_mut().flatten().enumerate() {
+            *sd = calibration.sd(channel, mean[channel], *sd);
+        }
+        for (channel, value) in mean.iter_mut().enumerate() {
+            *value = calibration.value(channel, *value);
         }
     }
 }

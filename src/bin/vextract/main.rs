@@ -1,31 +1,58 @@
 //! `vextract`: the mean colour of every facet in photographs of a fold.
 
+mod batch;
 mod calibration;
 mod camera;
 mod reading;
 mod regions;
 mod sample;
+mod target;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use calibration::CalibrationArgs;
 use clap::Parser;
 use reading::ReadingArgs;
 use regions::RegionArgs;
+use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
-use vfold::stream::{Output, Reader, Record};
+use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
+
+const AFTER_HELP: &str = "\
+Examples:
+  vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\
+    --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate
+  vextract *.tif --scene scene.json --regions corners.json --white sheet.tif -o samples.ndjson
+
+Corners are x,y in pixels from the top left corner of the upright picture; the centre of the
+first pixel is at 0.5,0.5. Order:
+  panel  crease end 0, crease end 1, outer end 1, outer end 0
+  chart  outer corners of the first patch, the end of the first row, the last patch, the start
+         of the last row
+  white  any four round the card
+
+A chart or card gives the sample its exposure, and each channel a polynomial of second degree
+that makes facets what the scene's camera would have shown. The record's 'calibration' has
+patches, coefficients and residuals.
+
+--regions FILE has the corners for every IMAGE:
+  {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
+or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
+without its ending. Corners found in a picture of another size, such as a preview, are scaled
+if \"width\" and \"height\" say its pixels.
+
+Of several photographs one that cannot be measured is a record with an 'error', and the exit
+status is 3.";
 
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]
 #[command(
     name = "vextract",
     version,
-    after_help = "Example:\n  vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\\n    \
-                  --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate\n\n\
-                  Corners of a panel: crease end 0, crease end 1, outer end 1, outer end 0, as x,y in pixels from the top left\n\
-                  corner of the upright picture; the centre of the first pixel is at 0.5,0.5."
+    after_help = AFTER_HELP
 )]
 struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG
@@ -60,17 +87,10 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
-    let panels = args.regions.panels()?;
-    args.calibration.check()?;
-    let mut reader = Reader::open(&args.scene)?;
-    let Some(Record::Scene(mut scene)) = reader.read()? else {
-        return Err(Error::Record {
-            path: args.scene.clone(),
-            line: 1,
-            problem: "no scene".to_owned(),
-            remedy: "pipe vkernel into vextract, or give --scene FILE".to_owned(),
-        });
-    };
+    let regions = args.regions.given()?;
+    let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
+    let flat_field = args.reading.flat_field()?.map(Arc::new);
+    let mut scene = read_scene(&args.scene)?;
     let first = args.reading.open(&args.images[0]);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         scene.set_optics(&args.optics.resolve(camera)?)?;
@@ -78,27 +98,26 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let fold = scene.fold()?;
-    let id = scene.id()?;
-    let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| args.reading.open(path)));
-    let mut made = samples
-        .zip(&args.images)
-        .map(|(photograph, path)| sample::sample(args, &id, &fold, &panels, path, photograph));
-    if let [_] = args.images.as_slice()
-        && let Some(only) = made.next()
-    {
+    let (id, fold) = (scene.id()?, scene.fold()?);
+    let setup = Setup { args, scene: &scene, id, fold, regions, calibration, flat_field };
+    if let [only] = args.images.as_slice() {
         // Nothing to go on with: the one photograph's error is the tool's.
-        let only = only?;
+        let sample = setup.sample(only, first)?;
         out.scene(&scene)?;
-        return out.sample(&only);
+        return out.sample(&sample);
     }
     out.scene(&scene)?;
-    for (made, path) in made.zip(&args.images) {
-        let sample = match made {
-            Ok(sample) => sample,
-            Err(error) => sample::failed(&id, path, &error)?,
-        };
-        out.sample(&sample)?;
+    batch::measure(&setup, &args.images, first, |sample| out.sample(&sample))
+}
+
+fn read_scene(path: &str) -> Result<Scene> {
+    match Reader::open(path)?.read()? {
+        Some(Record::Scene(scene)) => Ok(scene),
+        _ => Err(Error::Record {
+            path: path.to_owned(),
+            line: 1,
+            problem: "no scene".to_owned(),
+            remedy: "pipe vkernel into vextract, or give --scene FILE".to_owned(),
+        }),
     }
-    Ok(())
 }

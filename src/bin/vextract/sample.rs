@@ -1,55 +1,88 @@
 //! From a photograph to its sample.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use vfold::cli;
 use vfold::geometry::Fold;
-use vfold::image::{Homography, Photograph, measure};
-use vfold::stream::{ImageRecord, Sample};
+use vfold::image::{FacetMeasurement, FlatField, Photograph, measure};
+use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::calibration::{GivenCalibration, apply};
+use super::regions::{GivenRegions, panels};
 
-pub fn sample(
-    args: &Args,
-    scene: &str,
-    fold: &Fold,
-    panels: &[Homography],
-    path: &Path,
-    photograph: Result<Photograph>,
-) -> Result<Sample> {
-    let photograph = photograph?;
-    let grid = fold.facets();
-    let row_edges = fold.spacing().edges(grid.rows);
-    let facets = measure(&photograph, panels, &row_edges, grid.cols, args.regions.margin)?;
-    if args.common.verbose {
+/// What all photographs of a run have in common.
+pub struct Setup<'a> {
+    pub args: &'a Args,
+    pub scene: &'a Scene,
+    pub id: String,
+    pub fold: Fold,
+    pub regions: GivenRegions,
+    pub calibration: GivenCalibration,
+    pub flat_field: Option<Arc<FlatField>>,
+}
+
+impl Setup<'_> {
+    pub fn sample(&self, path: &Path, photograph: Result<Photograph>) -> Result<Sample> {
+        let photograph = match &self.flat_field {
+            Some(flat_field) => photograph?.with_flat_field(flat_field.clone(), path)?,
+            None => photograph?,
+        };
+        let regions = self.regions.of(path, &photograph)?;
+        let (panels, margin) = (panels(&regions)?, self.args.regions.margin);
+        let grid = self.fold.facets();
+        let row_edges = self.fold.spacing().edges(grid.rows);
+        let mut facets = measure(&photograph, &panels, &row_edges, grid.cols, margin)?;
+        if facets.iter().all(|facet| facet.mean.is_none()) {
+            let remedy = "check --panel0, --panel1, --margin and the white level";
+            return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
+        }
+        let calibrated = self.calibration.calibrate(self.scene, &regions, path, &photograph)?;
+        let mut sample = Sample::new(&self.id, &name(path))?;
+        if let Some(exposure) = self.calibration.exposure {
+            sample.fields.set("exposure", exposure)?;
+        }
+        if let Some((calibration, record)) = &calibrated {
+            apply(calibration, &mut facets);
+            sample.set_calibration(record)?;
+        }
+        let image = ImageRecord::new(path, photograph.info(), &panels, margin);
+        sample.set_photograph(&image, &facets, 2 * grid.len())?;
+        self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
+        Ok(sample)
+    }
+
+    /// A photograph's sample, or that of one that cannot be measured among others that can.
+    pub fn sample_or_error(&self, path: &Path, photograph: Result<Photograph>) -> Result<Sample> {
+        self.sample(path, photograph).or_else(|error| {
+            let mut sample = Sample::new(&self.id, &name(path))?;
+            sample.set_error(&error)?;
+            Ok(sample)
+        })
+    }
+
+    fn say(
+        &self,
+        path: &Path,
+        photograph: &Photograph,
+        facets: &[FacetMeasurement],
+        calibration: Option<&CalibrationRecord>,
+    ) {
+        if !self.args.common.verbose {
+            return;
+        }
         let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
         let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();
         let transfer = photograph.info().transfer_used.name();
-        let text = format!("{transfer} curve, {clipped} clipped and {not_finite} non-finite pixels left out");
+        let mut text =
+            format!("{transfer} curve, {clipped} clipped and {not_finite} non-finite pixels left out");
+        if let Some(calibration) = calibration {
+            text += &format!("; {calibration}");
+        }
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
-    if facets.iter().all(|facet| facet.mean.is_none()) {
-        let remedy = "check --panel0, --panel1, --margin and the white level";
-        return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
-    }
-    let mut sample = Sample::new(scene, &name(path))?;
-    sample.set_photograph(
-        &ImageRecord::new(path, photograph.info(), panels, args.regions.margin),
-        &facets,
-        2 * grid.len(),
-    )?;
-    if let Some(exposure) = args.calibration.exposure {
-        sample.fields.set("exposure", exposure)?;
-    }
-    Ok(sample)
-}
-
-/// A photograph that cannot be measured, among others that can.
-pub fn failed(scene: &str, path: &Path, error: &Error) -> Result<Sample> {
-    let mut sample = Sample::new(scene, &name(path))?;
-    sample.set_error(error)?;
-    Ok(sample)
 }
 
 /// A sample is called after its photograph.

@@ -1,0 +1,105 @@
+//! What a sample records of its calibration by a chart or a white card.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::fields::finite;
+use super::{Corners, Sample};
+use crate::calibrate::{Calibration, Patch};
+use crate::error::Result;
+
+/// How a photograph's values were made those of the scene's camera.
+#[derive(Clone, Debug, Serialize)]
+pub struct CalibrationRecord {
+    by: &'static str,
+    grid: [usize; 2],
+    cos: f64,
+    corners: [[f64; 2]; 4],
+    exposure: f64,
+    exposure_sd: f64,
+    /// Constant, linear and quadratic coefficient a channel.
+    coefficients: Vec<[f64; 3]>,
+    residual_rms: Vec<f64>,
+    patches: Vec<PatchRecord>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PatchRecord {
+    name: String,
+    measured: Vec<f64>,
+    /// At exposure 1.
+    expected: Vec<f64>,
+    /// Of what was expected.
+    residual: Vec<f64>,
+}
+
+impl CalibrationRecord {
+    /// The record of a calibration by `patches` in `grid` rows and columns between `corners`, px, whose normal is at an angle of
+    /// cosine `cos` to the sun; `by` says what they are.
+    #[must_use]
+    pub fn new(
+        by: &'static str,
+        (grid, cos, corners): ([usize; 2], f64, Corners),
+        calibration: &Calibration,
+        patches: &[Patch],
+    ) -> Self {
+        let patch = |patch: &Patch| PatchRecord {
+            name: patch.name.clone(),
+            measured: patch.measured.clone(),
+            expected: patch.expected.clone(),
+            residual: calibration.residual(patch),
+        };
+        let residual_rms = calibration.residual_rms(patches);
+        Self {
+            by,
+            grid,
+            cos,
+            corners: corners.map(|corner| [corner.x, corner.y]),
+            exposure: calibration.exposure(),
+            exposure_sd: calibration.exposure_sd(),
+            coefficients: (0..residual_rms.len()).map(|channel| calibration.coefficients(channel)).collect(),
+            residual_rms,
+            patches: patches.iter().map(patch).collect(),
+        }
+    }
+}
+
+impl CalibrationRecord {
+    /// Root mean square of the patches' residuals in the channel where it is largest.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.residual_rms.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// One line for people.
+impl fmt::Display for CalibrationRecord {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let percent = |residual: &f64| format!("{:.2} %", 100.0 * residual);
+        let rms: Vec<_> = self.residual_rms.iter().map(percent).collect();
+        write!(f, "{}: exposure {:.4} ± {:.4}", self.by, self.exposure, self.exposure_sd)?;
+        if self.patches.len() == 1 {
+            return Ok(());
+        }
+        write!(f, ", residuals {}", rms.join(", "))?;
+        let worst = |patch: &PatchRecord| patch.residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+        match self.patches.iter().max_by(|a, b| worst(a).total_cmp(&worst(b))) {
+            Some(patch) => write!(f, " (most {} in {})", percent(&worst(patch)), patch.name),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Sample {
+    /// Says how the facets were calibrated, and sets the exposure that this gave them.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn set_calibration(&mut self, record: &CalibrationRecord) -> Result<()> {
+        let coefficients = record.coefficients.iter().flatten();
+        finite("calibration", coefficients.chain([&record.exposure, &record.exposure_sd]))?;
+        self.fields.set("calibration", record)?;
+        self.fields.set("exposure", record.exposure)
+    }
+}

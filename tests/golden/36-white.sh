@@ -1,0 +1,44 @@
+# tolerance 1e-3 1e-3
+# Uneven light is undone with a photograph of a white sheet, and a white card in the picture says what the numbers are worth.
+vkernel --angle-deg 45 --facets 2x2 -o scene.json
+vforward scene.json --reflectance cc24:orange --exposure 0.5 --render fold.exr -o truth.ndjson 2> corners
+eval "panels() { vextract \"\$@\" --scene scene.json --camera canon-5d-mark-ii $(grep -o -- '--panel0.*"' corners) --save facet_rgb=got.npy; }"
+compare() {
+    python3 - "$@" <<'END'
+import json, sys
+import numpy as np
+name, exposure = sys.argv[1], float(sys.argv[2])
+truth = np.array(json.loads(open("truth.ndjson").readlines()[1])["facet_rgb"]) / 0.5
+error = np.abs(np.load("got.npy")[0] / exposure / truth - 1).max()
+print(f"{name}: {'right' if error < 2e-3 else f'off by {error:.2%}'}")
+END
+}
+
+# light that falls off by half to the right and is warm
+oiiotool --pattern fill:topleft=0.9,0.8,0.7:topright=0.45,0.4,0.35:bottomleft=0.8,0.7,0.6:bottomright=0.4,0.35,0.3 640x480 3 -o sheet.exr
+mean="0.6375,0.5625,0.4875" # a flat field's own mean counts as 1
+oiiotool fold.exr sheet.exr --mul -o uneven.exr
+panels uneven.exr --white sheet.exr >/dev/null
+python3 -c "import numpy as np; np.save('got.npy', np.load('got.npy') / [$mean])"
+compare "flat field" 0.5
+oiiotool sheet.exr -d uint16 -o sheet.tif
+oiiotool uneven.exr -d uint16 -o uneven.tif
+panels uneven.tif --white sheet.tif >/dev/null
+python3 -c "import numpy as np; np.save('got.npy', np.load('got.npy') / [$mean])"
+compare "flat field of 16 bits" 0.5
+
+# a white card of reflectance 0.9 that the sun meets at 60 degrees; white in this light is 1 in green, less in red and blue
+set -- $(vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance 0.45 --save facet_rgb=white.npy >/dev/null
+    python3 -c "import numpy as np; print(*(0.5 * np.load('white.npy')[0, 0]))")
+oiiotool fold.exr --fill:color=$1,$2,$3 60x40+10+10 --mulc 0.6,0.8,0.9 -o card.exr
+panels card.exr --white-region "10,10 70,10 70,50 10,50" --white-reflectance 0.9 --white-cos 0.5 -o sample.ndjson
+exposure=$(grep -o '"exposure":[0-9.]*' sample.ndjson | tail -n 1)
+echo "$exposure"
+compare "white card" ${exposure#*:}
+
+echo what is refused
+oiiotool sheet.exr --resize 320x240 -o small.exr
+oiiotool sheet.exr --mulc 3 -d uint16 -o clipped.tif
+oiiotool sheet.exr --mulc 0 -o dark.exr
+for sheet in small.exr clipped.tif dark.exr; do panels uneven.exr --white $sheet 2>&1 || echo "exit status $?"; done
+panels uneven.exr --white-region "10,10 70,10 70,50 10,50" --white sheet.exr 2>&1 || echo "exit status $?"
