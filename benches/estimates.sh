@@ -29,11 +29,12 @@ scipy() {
         echo 'SciPy: pip cannot install it here; left out'
         return
     fi
-    echo "The paper's objective, eq. (36) with a smoothness of 1e-5, minimised by \`vestimate --prior smooth\` and by two methods of"
+    echo "The paper's objective, eq. (36) with facet noise and smoothness of 1e-3, minimised by \`vestimate --prior smooth\` and by two methods of"
     echo 'SciPy 1.14.1 (`benches/scipy_estimate.py`):'
     echo
-    "$bin/vkernel" --mesh facets | "$bin/vforward" --reflectance cc24:blue-sky cc24:orange cc24:neutral-5 |
-        "$bin/vestimate" --prior smooth | "$python" benches/scipy_estimate.py
+    "$bin/vkernel" --mesh facets |
+        "$bin/vforward" --reflectance cc24:blue-sky cc24:orange cc24:neutral-5 --noise-sd 1e-3 |
+        "$bin/vestimate" --prior smooth --smoothness 1e-3 | "$python" benches/scipy_estimate.py --smoothness 1e-3
 }
 
 {
