@@ -22,7 +22,8 @@ const SUFFICIENT: f64 = 1e-4;
 /// State of an argmin run of this solver.
 pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
-/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables.
+/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables or for all of some
+/// combinations of them.
 ///
 /// # Example
 /// ```
@@ -57,6 +58,8 @@ pub struct InteriorPoint {
     low: f64,
     high: f64,
     tolerance: f64,
+    /// What is bounded in place of x: the product of this with x.
+    combinations: Option<DMatrix<f64>>,
     /// Multipliers of the lower and upper bounds, positive.
     multipliers: [DVector<f64>; 2],
     violation: f64,
@@ -72,10 +75,18 @@ impl InteriorPoint {
             low,
             high,
             tolerance,
+            combinations: None,
             multipliers: [none.clone(), none],
             violation: f64::INFINITY,
             stalled: false,
         }
+    }
+
+    /// The same solver with bounds on the entries of `combinations · x`; it must start within them.
+    #[must_use]
+    pub fn on_combinations(mut self, combinations: DMatrix<f64>) -> Self {
+        self.combinations = Some(combinations);
+        self
     }
 
     /// Largest violation of the optimality conditions at the last iterate.
@@ -84,9 +95,32 @@ impl InteriorPoint {
         self.violation
     }
 
-    /// Distances of `x` to the lower and upper bound.
+    /// What is bounded, at `x`.
+    fn bounded(&self, x: &DVector<f64>) -> DVector<f64> {
+        self.combinations.as_ref().map_or_else(|| x.clone(), |combinations| combinations * x)
+    }
+
+    /// Derivatives by x of what has `slopes` by what is bounded.
+    fn by_variable(&self, slopes: DVector<f64>) -> DVector<f64> {
+        match &self.combinations {
+            Some(combinations) => combinations.tr_mul(&slopes),
+            None => slopes,
+        }
+    }
+
+    /// Distances of what is bounded to the lower and upper bound.
     fn gaps(&self, x: &DVector<f64>) -> [DVector<f64>; 2] {
-        [x.map(|x| x - self.low), x.map(|x| self.high - x)]
+        let bounded = self.bounded(x);
+        [bounded.map(|value| value - self.low), bounded.map(|value| self.high - value)]
+    }
+
+    /// A point well within the bounds, if x itself is bounded.
+    fn within(&self, x: DVector<f64>) -> DVector<f64> {
+        let inside = 1e-3 * (self.high - self.low);
+        match self.combinations {
+            Some(_) => x,
+            None => x.map(|x| x.clamp(self.low + inside, self.high - inside)),
+        }
     }
 
     /// The barrier function: `f(x) − μ Σ ln gaps`.
@@ -102,29 +136,40 @@ impl InteriorPoint {
 
     /// Largest of the stationarity and complementarity violations.
     fn violation_at(&self, gradient: &DVector<f64>, gaps: &[DVector<f64>; 2]) -> f64 {
-        let stationarity = (gradient - &self.multipliers[0] + &self.multipliers[1]).amax();
+        let [z_low, z_high] = &self.multipliers;
+        let stationarity = (gradient + self.by_variable(z_high - z_low)).amax();
         let complementarity = gaps.iter().zip(&self.multipliers).map(|(gap, z)| gap.component_mul(z).amax());
         complementarity.fold(stationarity, f64::max)
     }
 
-    /// Newton's step of x and of the multipliers.
+    /// Adds the curvature of the barrier.
+    fn add_curvature(&self, hessian: &mut DMatrix<f64>, curvature: &DVector<f64>) {
+        match &self.combinations {
+            Some(combinations) => {
+                let weighted = DMatrix::from_diagonal(curvature) * combinations;
+                *hessian += combinations.tr_mul(&weighted);
+            }
+            None => (0..curvature.len()).for_each(|i| hessian[(i, i)] += curvature[i]),
+        }
+    }
+
+    /// Newton's step of x, and with it of what is bounded and of the multipliers.
     fn step(
         &self,
         gradient: &DVector<f64>,
         mut hessian: DMatrix<f64>,
         gaps: &[DVector<f64>; 2],
         mu: f64,
-    ) -> [DVector<f64>; 3] {
+    ) -> [DVector<f64>; 4] {
         let [low, high] = gaps;
         let [z_low, z_high] = &self.multipliers;
-        let right = -gradient + low.map(|g| mu / g) - high.map(|g| mu / g);
-        for i in 0..right.len() {
-            hessian[(i, i)] += z_low[i] / low[i] + z_high[i] / high[i];
-        }
+        let right = self.by_variable(low.map(|g| mu / g) - high.map(|g| mu / g)) - gradient;
+        self.add_curvature(&mut hessian, &(z_low.component_div(low) + z_high.component_div(high)));
         let dx = positive_solve(hessian, &right);
-        let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&dx).component_div(low);
-        let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&dx).component_div(high);
-        [dx, dz_low, dz_high]
+        let moved = self.bounded(&dx);
+        let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&moved).component_div(low);
+        let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&moved).component_div(high);
+        [dx, moved, dz_low, dz_high]
     }
 }
 
@@ -160,8 +205,10 @@ where
 
     fn init(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
         let x = state.take_param().ok_or_else(|| Error::msg("interior point: no start given"))?;
-        let inside = 1e-3 * (self.high - self.low);
-        let x = x.map(|x| x.clamp(self.low + inside, self.high - inside));
+        let x = self.within(x);
+        if self.gaps(&x).iter().any(|gap| gap.min() <= 0.0) {
+            return Err(Error::msg("interior point: the start is not within the bounds"));
+        }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&x))?;
         let cost = problem.problem("cost_count", |p| p.cost(&x))?;
         // Multipliers of a central path that starts where the gradient and the barrier are of one size.
@@ -182,9 +229,9 @@ where
         let gaps = self.gaps(&x);
         let mu = self.barrier_weight(&gaps);
         let hessian = problem.problem("hessian_count", |p| p.hessian(&x))?;
-        let [dx, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
-        let mut length = to_boundary(&gaps[0], &dx).min(to_boundary(&gaps[1], &-&dx));
-        let slope = (&gradient - gaps[0].map(|g| mu / g) + gaps[1].map(|g| mu / g)).dot(&dx);
+        let [dx, moved, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
+        let mut length = to_boundary(&gaps[0], &moved).min(to_boundary(&gaps[1], &-&moved));
+        let slope = gradient.dot(&dx) + (gaps[1].map(|g| mu / g) - gaps[0].map(|g| mu / g)).dot(&moved);
         let before = self.barrier(&x, cost, mu);
         let (next, next_cost) = loop {
             let next = &x + length * &dx;

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::fields::{Fields, finite};
 use crate::error::{Error, Result};
@@ -14,7 +14,7 @@ use crate::score::{Metrics, Summary};
 /// Largest value of a facet that is read: sums and squares of such numbers stay finite.
 const LARGEST: f64 = 1e30;
 
-/// Facet by channel; null for a facet that was not measured.
+/// Facet by channel, those of several pictures one after the other; none for a facet that was not measured in all of them.
 pub type Colours = Vec<Option<Vec<f64>>>;
 
 /// A sample record.
@@ -53,16 +53,17 @@ impl Sample {
         self.fields.require("id", "vforward and vextract name their samples")
     }
 
-    /// Sets the facets' values and, where known, their standard deviations.
+    /// Sets the facets' values in a number of `pictures` and, where known, their standard deviations.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>) -> Result<()> {
-        finite("facet_rgb", rgb.iter().flatten().flatten())?;
-        self.fields.set("facet_rgb", rgb)?;
-        if let Some(sd) = sd {
-            finite("facet_sd", sd.iter().flatten().flatten())?;
-            self.fields.set("facet_sd", sd)?;
+    pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>, pictures: usize) -> Result<()> {
+        for (name, facets) in std::iter::once(("facet_rgb", rgb)).chain(sd.map(|sd| ("facet_sd", sd))) {
+            finite(name, facets.iter().flatten().flatten())?;
+            match pictures {
+                1 => self.fields.set(name, facets)?,
+                _ => self.fields.set(name, by_picture(facets, pictures))?,
+            }
         }
         Ok(())
     }
@@ -72,9 +73,8 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if they are missing.
     pub fn facet_rgb(&self) -> Result<Colours> {
-        let rgb: Colours = self.fields.require("facet_rgb", "make it with vforward or vextract")?;
-        within("facet_rgb", &rgb, -LARGEST..=LARGEST)?;
-        Ok(rgb)
+        let rgb = self.colours("facet_rgb", -LARGEST..=LARGEST)?;
+        rgb.ok_or_else(|| Error::field("facet_rgb", "missing; make it with vforward or vextract"))
     }
 
     /// The facets' standard deviations, if known.
@@ -82,9 +82,19 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if they are not numbers.
     pub fn facet_sd(&self) -> Result<Option<Colours>> {
-        let sd: Option<Colours> = self.fields.get("facet_sd")?;
-        sd.as_ref().map_or(Ok(()), |sd| within("facet_sd", sd, 0.0..=LARGEST))?;
-        Ok(sd)
+        self.colours("facet_sd", 0.0..=LARGEST)
+    }
+
+    /// A field that is `[facet][channel]` for one picture, `[picture][facet][channel]` for several.
+    fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<Colours>> {
+        let several = self.fields.0.get(name).is_some_and(is_by_picture);
+        let facets = if several {
+            Some(beside_each_other(self.fields.require(name, "make it with vforward or vextract")?)?)
+        } else {
+            self.fields.get(name)?
+        };
+        facets.as_ref().map_or(Ok(()), |facets| within(name, facets, range))?;
+        Ok(facets)
     }
 
     /// Says how many bounces of light the facets' values are made of.
@@ -212,6 +222,34 @@ pub fn summary(summary: &Summary) -> Result<Fields> {
         }
     }
     Ok(fields)
+}
+
+/// Whether there are three levels of lists, not two.
+fn is_by_picture(facets: &Value) -> bool {
+    let rows = facets.as_array().into_iter().flatten().filter_map(Value::as_array);
+    rows.flatten().any(Value::is_array)
+}
+
+fn beside_each_other(pictures: Vec<Colours>) -> Result<Colours> {
+    let facets = pictures[0].len();
+    if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
+        let problem = format!("{} facets in one picture, {facets} in another", other.len());
+        return Err(Error::field("facet_rgb", problem));
+    }
+    let in_all = |facet: usize| {
+        let values: Option<Vec<_>> = pictures.iter().map(|picture| picture[facet].clone()).collect();
+        values.map(|values| values.concat())
+    };
+    Ok((0..facets).map(in_all).collect())
+}
+
+fn by_picture(facets: &Colours, pictures: usize) -> Vec<Colours> {
+    let part = |values: &Vec<f64>, picture: usize| {
+        let channels = values.len() / pictures;
+        values[picture * channels..(picture + 1) * channels].to_vec()
+    };
+    let picture = |n| facets.iter().map(|facet| facet.as_ref().map(|values| part(values, n))).collect();
+    (0..pictures).map(picture).collect()
 }
 
 fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()> {

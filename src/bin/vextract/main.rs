@@ -62,6 +62,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let panels = args.regions.panels()?;
     args.calibration.check()?;
+    args.optics.one_illuminant("give one: a photograph has one light")?;
     let mut reader = Reader::open(&args.scene)?;
     let Some(Record::Scene(mut scene)) = reader.read()? else {
         return Err(Error::Record {
