@@ -3,7 +3,7 @@
 //! What [`super::park`] and [`super::khan`] share; they differ in the components.
 
 use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessian, State};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::compress::usable_facets;
 use super::data::Measured;
@@ -14,13 +14,16 @@ use crate::forward::FacetModel;
 use crate::solve::Eigen;
 use crate::solve::interior_point::InteriorPoint;
 
-const TOLERANCE: f64 = 1e-12;
+/// Just above rounding: where colour tells little of a spectrum, what is left of the barrier moves it by a million times that.
+const TOLERANCE: f64 = 2e-15;
 /// An eigenvalue below that share of the largest is rounding: the set has no such component.
 const ROUNDING: f64 = 1e-13;
 /// Peak of a spectrum whose scale the colour does not tell: the middle of what a reflectance can be.
 const OPEN_PEAK: f64 = 0.5;
 /// Mean reflectance at which such a spectrum is sought: far enough from the upper bound.
 const OPEN_MEAN: f64 = 0.02;
+/// A direction of the components known less than this share of the best is open.
+const KNOWN: f64 = 1e-7;
 
 /// The colour of a flat sheet.
 #[derive(Clone, Debug)]
@@ -120,19 +123,20 @@ impl Components {
 /// second differences.
 ///
 /// # Errors
-/// [`Error::Numeric`] if the solver fails.
+/// [`Error::Numeric`] if values and smoothness leave a component open, or the solver fails.
 pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> Result<Estimate> {
     let exposure = sheet.trial_exposure();
-    let objective = Objective::new(components, sheet, exposure, smoothness);
-    let solver = InteriorPoint::new(0.0, 1.0, TOLERANCE).on_combinations(components.0.clone());
-    let run = Executor::new(objective, solver)
-        .configure(|state| state.param(components.grey()).max_iters(ITERATION_LIMIT))
+    let space = Space::of(components, sheet, exposure, smoothness)?;
+    let solver = InteriorPoint::new(0.0, 1.0, TOLERANCE).on_combinations(space.spectra.clone());
+    let run = Executor::new(Distance(space.free), solver)
+        .configure(|state| state.param(space.start).max_iters(ITERATION_LIMIT))
         .timer(false)
         .run()
         .map_err(|e| Error::Numeric(format!("interior point: {e}")))?;
     let state = run.state();
-    let weights = state.get_best_param().cloned().unwrap_or_else(|| components.grey());
-    let reflectance = &components.0 * weights;
+    let point =
+        state.get_best_param().ok_or_else(|| Error::Numeric("interior point: no iterate".to_owned()))?;
+    let reflectance = &space.spectra * point;
     let residuals = DVector::from_column_slice(&sheet.values) - exposure * &sheet.view * &reflectance;
     let scale = sheet.exposure.map_or(OPEN_PEAK / reflectance.max(), |_| 1.0);
     Ok(Estimate {
@@ -147,49 +151,67 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
     })
 }
 
-/// `|ρ/e − PBσ|² + α|DBσ|²` of the weights σ of components B, as `σᵀHσ − 2bᵀσ + c`.
-struct Objective {
-    curvature: DMatrix<f64>,
-    linear: DVector<f64>,
-    constant: f64,
+/// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: all directions are known
+/// equally well, which no solver minds.
+struct Space {
+    /// Spectrum of every coordinate: waveband by coordinate.
+    spectra: DMatrix<f64>,
+    /// The least of the objective where nothing is bounded.
+    free: DVector<f64>,
+    /// A point within the bounds.
+    start: DVector<f64>,
 }
 
-impl Objective {
-    fn new(Components(basis): &Components, sheet: &FlatSheet, exposure: f64, smoothness: f64) -> Self {
+impl Space {
+    fn of(components: &Components, sheet: &FlatSheet, exposure: f64, smoothness: f64) -> Result<Self> {
+        let Components(basis) = components;
         let seen = &sheet.view * basis;
-        let values = DVector::from_column_slice(&sheet.values) / exposure;
         let rough = basis.tr_mul(&(second_difference_gram(basis.nrows()) * basis));
-        Self {
-            curvature: seen.tr_mul(&seen) + smoothness * rough,
-            linear: seen.tr_mul(&values),
-            constant: values.norm_squared(),
+        let factor = Cholesky::new(seen.tr_mul(&seen) + smoothness * rough).map(|factor| factor.l());
+        let known = |factor: &DMatrix<f64>| factor.diagonal().min() > KNOWN * factor.diagonal().max();
+        let factor = factor.filter(known).ok_or_else(|| {
+            let count = basis.ncols();
+            Error::Numeric(format!(
+                "{count} components are more than the values tell; give fewer or --smoothness"
+            ))
+        })?;
+        let values = DVector::from_column_slice(&sheet.values) / exposure;
+        let (mut spectra, mut free) = (basis.transpose(), seen.tr_mul(&values));
+        let start = factor.tr_mul(&components.grey());
+        if factor.solve_lower_triangular_mut(&mut spectra) && factor.solve_lower_triangular_mut(&mut free) {
+            Ok(Self { spectra: spectra.transpose(), free, start })
+        } else {
+            Err(Error::Numeric("the components of the basis are not independent".to_owned()))
         }
     }
 }
 
-impl CostFunction for Objective {
+/// Squared distance to a point.
+struct Distance(DVector<f64>);
+
+impl CostFunction for Distance {
     type Param = DVector<f64>;
     type Output = f64;
 
-    fn cost(&self, weights: &DVector<f64>) -> std::result::Result<f64, SolverError> {
-        Ok(weights.dot(&(&self.curvature * weights)) - 2.0 * self.linear.dot(weights) + self.constant)
+    fn cost(&self, x: &DVector<f64>) -> std::result::Result<f64, SolverError> {
+        Ok((x - &self.0).norm_squared())
     }
 }
 
-impl Gradient for Objective {
+impl Gradient for Distance {
     type Param = DVector<f64>;
     type Gradient = DVector<f64>;
 
-    fn gradient(&self, weights: &DVector<f64>) -> std::result::Result<DVector<f64>, SolverError> {
-        Ok(2.0 * (&self.curvature * weights - &self.linear))
+    fn gradient(&self, x: &DVector<f64>) -> std::result::Result<DVector<f64>, SolverError> {
+        Ok(2.0 * (x - &self.0))
     }
 }
 
-impl Hessian for Objective {
+impl Hessian for Distance {
     type Param = DVector<f64>;
     type Hessian = DMatrix<f64>;
 
-    fn hessian(&self, _: &DVector<f64>) -> std::result::Result<DMatrix<f64>, SolverError> {
-        Ok(2.0 * &self.curvature)
+    fn hessian(&self, x: &DVector<f64>) -> std::result::Result<DMatrix<f64>, SolverError> {
+        Ok(2.0 * DMatrix::identity(x.len(), x.len()))
     }
 }

@@ -311,6 +311,31 @@ mod tests {
         run.state().get_best_param().unwrap().as_slice().to_vec()
     }
 
+    /// With bounds on x + y and x − y, that is on the edge x + y = 1 of a turned square: `x = 1 − y`, least where
+    /// `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)` finds it.
+    #[test]
+    fn bounds_on_combinations() {
+        let turned = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1.0, -1.0]);
+        let run = Executor::new(Rosenbrock, InteriorPoint::new(-1.0, 1.0, 1e-10).on_combinations(turned))
+            .configure(|state| state.param(DVector::zeros(2)).max_iters(200))
+            .run()
+            .unwrap();
+        let found = run.state().get_best_param().unwrap();
+        assert!(
+            (found[0] - 0.6187956188992921).abs() < 1e-7 && (found[0] + found[1] - 1.0).abs() < 1e-7,
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_start_outside_is_refused() {
+        let solver = InteriorPoint::new(0.0, 1.0, 1e-10).on_combinations(DMatrix::identity(2, 2));
+        let run = Executor::new(Rosenbrock, solver)
+            .configure(|state| state.param(DVector::from_element(2, 1.5)).max_iters(9))
+            .run();
+        assert!(run.is_err());
+    }
+
     #[test]
     fn a_minimum_on_a_bound_and_one_inside() {
         // On x ≤ 0.8 the valley ends at (0.8, 0.64), cost (1 − 0.8)².

@@ -258,3 +258,24 @@ fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn facets_of_several_pictures_stand_beside_each_other() {
+        let mut sample = Sample::new("fold", "sheet").unwrap();
+        let rgb: Colours = vec![Some(vec![0.1, 0.2, 0.3, 0.4]), None];
+        sample.set_facets(&rgb, None, 2).unwrap();
+        assert_eq!(sample.fields.0["facet_rgb"], json!([[[0.1, 0.2], null], [[0.3, 0.4], null]]));
+        assert_eq!(sample.facet_rgb().unwrap(), rgb);
+    }
+
+    #[test]
+    fn a_facet_counts_if_all_pictures_have_it() {
+        let mut sample = Sample::new("fold", "sheet").unwrap();
+        sample.fields.set("facet_rgb", json!([[[0.1], [0.2]], [[0.3], null]])).unwrap();
+        assert_eq!(sample.facet_rgb().unwrap(), [Some(vec![0.1, 0.3]), None]);
+    }
+}

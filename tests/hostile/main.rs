@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;
+mod methods;
 mod photographs;
 mod spectra;
 mod streams;

@@ -38,7 +38,7 @@ struct Args {
     #[arg(long, value_name = "SPEC|smooth|none")]
     prior: Option<String>,
     /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the
-    /// noise allows [default: 1e-5; 1e-6 for park, 0 for khan]
+    /// noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
     smoothness: Option<Smoothness>,
     /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
