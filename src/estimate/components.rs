@@ -97,7 +97,9 @@ impl Components {
         order.retain(|k| eigen.values[*k] > least);
         if order.len() < count || count == 0 {
             let has = order.len();
-            return Err(Error::Numeric(format!("{count} components asked for, but there are {has}")));
+            return Err(Error::Numeric(format!(
+                "{count} components asked for, but set, camera and lights have {has}; give --components {has} or fewer"
+            )));
         }
         let columns: Vec<_> = order[..count].iter().map(|k| spectrum(&eigen, *k)).collect();
         let mut components = DMatrix::from_columns(&columns);

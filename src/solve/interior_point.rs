@@ -12,6 +12,8 @@ use argmin::core::{
 };
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::bounds::Bounds;
+
 /// Share of the way to the bounds that a step may go.
 const TO_BOUNDARY: f64 = 0.995;
 /// How far below the mean gap the barrier aims.
@@ -55,11 +57,8 @@ pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64
 /// ```
 #[derive(Clone, Debug)]
 pub struct InteriorPoint {
-    low: f64,
-    high: f64,
+    bounds: Bounds,
     tolerance: f64,
-    /// What is bounded in place of x: the product of this with x.
-    combinations: Option<DMatrix<f64>>,
     /// Multipliers of the lower and upper bounds, positive.
     multipliers: [DVector<f64>; 2],
     violation: f64,
@@ -72,10 +71,8 @@ impl InteriorPoint {
     pub fn new(low: f64, high: f64, tolerance: f64) -> Self {
         let none = DVector::zeros(0);
         Self {
-            low,
-            high,
+            bounds: Bounds::on_variables(low, high),
             tolerance,
-            combinations: None,
             multipliers: [none.clone(), none],
             violation: f64::INFINITY,
             stalled: false,
@@ -85,7 +82,7 @@ impl InteriorPoint {
     /// The same solver with bounds on the entries of `combinations · x`; it must start within them.
     #[must_use]
     pub fn on_combinations(mut self, combinations: DMatrix<f64>) -> Self {
-        self.combinations = Some(combinations);
+        self.bounds = self.bounds.on_combinations(combinations);
         self
     }
 
@@ -95,37 +92,9 @@ impl InteriorPoint {
         self.violation
     }
 
-    /// What is bounded, at `x`.
-    fn bounded(&self, x: &DVector<f64>) -> DVector<f64> {
-        self.combinations.as_ref().map_or_else(|| x.clone(), |combinations| combinations * x)
-    }
-
-    /// Derivatives by x of what has `slopes` by what is bounded.
-    fn by_variable(&self, slopes: DVector<f64>) -> DVector<f64> {
-        match &self.combinations {
-            Some(combinations) => combinations.tr_mul(&slopes),
-            None => slopes,
-        }
-    }
-
-    /// Distances of what is bounded to the lower and upper bound.
-    fn gaps(&self, x: &DVector<f64>) -> [DVector<f64>; 2] {
-        let bounded = self.bounded(x);
-        [bounded.map(|value| value - self.low), bounded.map(|value| self.high - value)]
-    }
-
-    /// A point well within the bounds, if x itself is bounded.
-    fn within(&self, x: DVector<f64>) -> DVector<f64> {
-        let inside = 1e-3 * (self.high - self.low);
-        match self.combinations {
-            Some(_) => x,
-            None => x.map(|x| x.clamp(self.low + inside, self.high - inside)),
-        }
-    }
-
     /// The barrier function: `f(x) − μ Σ ln gaps`.
     fn barrier(&self, x: &DVector<f64>, cost: f64, mu: f64) -> f64 {
-        cost - mu * self.gaps(x).iter().map(|gap| gap.iter().map(|g| g.ln()).sum::<f64>()).sum::<f64>()
+        cost - mu * self.bounds.gaps(x).iter().map(|gap| gap.iter().map(|g| g.ln()).sum::<f64>()).sum::<f64>()
     }
 
     /// Weight of the barrier: a tenth of the mean complementarity gap.
@@ -137,20 +106,9 @@ impl InteriorPoint {
     /// Largest of the stationarity and complementarity violations.
     fn violation_at(&self, gradient: &DVector<f64>, gaps: &[DVector<f64>; 2]) -> f64 {
         let [z_low, z_high] = &self.multipliers;
-        let stationarity = (gradient + self.by_variable(z_high - z_low)).amax();
+        let stationarity = (gradient + self.bounds.by_variable(z_high - z_low)).amax();
         let complementarity = gaps.iter().zip(&self.multipliers).map(|(gap, z)| gap.component_mul(z).amax());
         complementarity.fold(stationarity, f64::max)
-    }
-
-    /// Adds the curvature of the barrier.
-    fn add_curvature(&self, hessian: &mut DMatrix<f64>, curvature: &DVector<f64>) {
-        match &self.combinations {
-            Some(combinations) => {
-                let weighted = DMatrix::from_diagonal(curvature) * combinations;
-                *hessian += combinations.tr_mul(&weighted);
-            }
-            None => (0..curvature.len()).for_each(|i| hessian[(i, i)] += curvature[i]),
-        }
     }
 
     /// Newton's step of x, and with it of what is bounded and of the multipliers.
@@ -163,10 +121,10 @@ impl InteriorPoint {
     ) -> [DVector<f64>; 4] {
         let [low, high] = gaps;
         let [z_low, z_high] = &self.multipliers;
-        let right = self.by_variable(low.map(|g| mu / g) - high.map(|g| mu / g)) - gradient;
-        self.add_curvature(&mut hessian, &(z_low.component_div(low) + z_high.component_div(high)));
+        let right = self.bounds.by_variable(low.map(|g| mu / g) - high.map(|g| mu / g)) - gradient;
+        self.bounds.add_curvature(&mut hessian, &(z_low.component_div(low) + z_high.component_div(high)));
         let dx = positive_solve(hessian, &right);
-        let moved = self.bounded(&dx);
+        let moved = self.bounds.of(&dx);
         let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&moved).component_div(low);
         let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&moved).component_div(high);
         [dx, moved, dz_low, dz_high]
@@ -205,15 +163,15 @@ where
 
     fn init(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
         let x = state.take_param().ok_or_else(|| Error::msg("interior point: no start given"))?;
-        let x = self.within(x);
-        if self.gaps(&x).iter().any(|gap| gap.min() <= 0.0) {
+        let x = self.bounds.within(x);
+        if self.bounds.gaps(&x).iter().any(|gap| gap.min() <= 0.0) {
             return Err(Error::msg("interior point: the start is not within the bounds"));
         }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&x))?;
         let cost = problem.problem("cost_count", |p| p.cost(&x))?;
         // Multipliers of a central path that starts where the gradient and the barrier are of one size.
-        let mu = gradient.amax().max(self.tolerance) * 0.1 * (self.high - self.low);
-        self.multipliers = self.gaps(&x).map(|gap| gap.map(|g| mu / g));
+        let mu = gradient.amax().max(self.tolerance) * 0.1 * self.bounds.width();
+        self.multipliers = self.bounds.gaps(&x).map(|gap| gap.map(|g| mu / g));
         Ok((state.param(x).gradient(gradient).cost(cost), None))
     }
 
@@ -226,7 +184,7 @@ where
             return Err(Error::msg("interior point: the state lost its iterate"));
         };
         let cost = state.get_cost();
-        let gaps = self.gaps(&x);
+        let gaps = self.bounds.gaps(&x);
         let mu = self.barrier_weight(&gaps);
         let hessian = problem.problem("hessian_count", |p| p.hessian(&x))?;
         let [dx, moved, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
@@ -250,7 +208,7 @@ where
             *z += length * dz;
         }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&next))?;
-        self.violation = self.violation_at(&gradient, &self.gaps(&next));
+        self.violation = self.violation_at(&gradient, &self.bounds.gaps(&next));
         Ok((state.param(next).gradient(gradient).cost(next_cost), None))
     }
 

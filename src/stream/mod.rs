@@ -3,6 +3,7 @@
 //! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
 //! through typed views and add their own.
 
+mod colours;
 mod estimate;
 mod fields;
 mod model;
@@ -17,13 +18,14 @@ mod scene;
 mod unknowns;
 mod writer;
 
+pub use colours::Colours;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
 pub use reader::{Reader, Record, Transform, pipe};
-pub use sample::{Colours, ReflectanceRecord, Sample, summary};
+pub use sample::{ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
 pub use scene::{CameraRecord, Optics, Scene, SpectrumRecord};
 pub use writer::Output;

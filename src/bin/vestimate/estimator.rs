@@ -12,7 +12,7 @@ use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
 use super::Args;
-use super::flat::{FlatContext, FlatMethod};
+use super::flat::{FlatContext, FlatEstimator};
 use super::settings::{Fit, NoiseSd, Smoothness};
 
 /// The prior whose classes are known.
@@ -32,7 +32,7 @@ enum Method {
     /// Spectra of the prior, and their classes where they are known.
     Map(Vec<Spectrum>, Option<Vec<usize>>),
     Smooth(Smoothness),
-    Flat(FlatMethod),
+    Flat(FlatEstimator),
 }
 
 /// What the samples of one scene need.
@@ -72,7 +72,7 @@ fn check_fit(args: &Args) -> Result<()> {
 }
 
 fn method(args: &Args) -> Result<Method> {
-    if let Some(flat) = FlatMethod::of(args)? {
+    if let Some(flat) = FlatEstimator::of(args)? {
         return Ok(Method::Flat(flat));
     }
     check_fit(args)?;
@@ -111,7 +111,7 @@ impl Transform for Estimator<'_> {
                 SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
             }
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
-            Method::Flat(flat) => SceneMethod::Flat(flat.on(&grid, &scene.model()?)?),
+            Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &scene.model()?)?),
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
@@ -145,7 +145,7 @@ impl Transform for Estimator<'_> {
             }
         };
         let (name, prior) = match &context.method {
-            SceneMethod::Flat(flat) => (flat.name(), flat.prior.as_str()),
+            SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             _ => ("interreflection", self.args.prior()),
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));

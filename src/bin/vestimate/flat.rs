@@ -10,8 +10,21 @@ use vfold::{Error, Result};
 
 use super::settings::{NoiseSd, Smoothness};
 
-/// Smoothness of Park's method: with three lights and no noise it has its least error on the 24 patches about there.
-const PARK_SMOOTHNESS: f64 = 1e-4;
+/// A method of flat sheets.
+struct FlatMethod {
+    name: &'static str,
+    /// Components where none are asked for and as many values are known.
+    components: usize,
+    /// Weight of smoothness where none is given.
+    smoothness: f64,
+    estimate: fn(&FlatSheet, &DMatrix<f64>, usize, f64) -> Result<Estimate>,
+}
+
+/// With three lights and no noise the smoothness has its least error on the 24 patches about there.
+static PARK: FlatMethod =
+    FlatMethod { name: "park", components: park::COMPONENTS, smoothness: 1e-4, estimate: park::estimate };
+static KHAN: FlatMethod =
+    FlatMethod { name: "khan", components: khan::COMPONENTS, smoothness: 0.0, estimate: khan::estimate };
 
 /// How a spectrum is found.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -40,29 +53,88 @@ pub struct MethodArgs {
     pub basis: Option<String>,
 }
 
-/// A method of flat sheets as the flags ask for.
-pub struct FlatMethod {
-    name: &'static str,
+/// Estimates of flat sheets as the flags ask for.
+pub struct FlatEstimator {
+    method: &'static FlatMethod,
     components: Option<usize>,
     basis: Vec<Spectrum>,
     basis_name: String,
     smoothness: f64,
 }
 
-/// The same in a scene.
+/// The same for the samples of one scene.
 pub struct FlatContext {
-    name: &'static str,
+    method: &'static FlatMethod,
     components: usize,
     autocorrelation: DMatrix<f64>,
     smoothness: f64,
-    /// What is known of spectra beforehand.
-    pub prior: String,
+    basis_name: String,
 }
 
-/// Refuses flags that the method does not know.
-fn check(args: &super::Args, name: &str) -> Result<()> {
+impl FlatEstimator {
+    /// The method that the flags ask for, if it is one of flat sheets.
+    pub fn of(args: &super::Args) -> Result<Option<Self>> {
+        let MethodArgs { method, components, basis } = &args.method;
+        let method = match method {
+            MethodName::Park => &PARK,
+            MethodName::Khan => &KHAN,
+            MethodName::Interreflection => return check_fold(&args.method).map(|()| None),
+        };
+        check_flat(args, method.name)?;
+        let smoothness = match args.smoothness {
+            Some(Smoothness::Weight(weight)) => weight,
+            _ => method.smoothness,
+        };
+        let basis_name = basis.clone().unwrap_or_else(|| super::estimator::MUNSELL.to_owned());
+        let basis = spectrum::reflectances(&basis_name)?;
+        Ok(Some(Self { method, components: components.map(usize::from), basis, basis_name, smoothness }))
+    }
+
+    /// The method on the wavelengths of a scene, with its channels.
+    pub fn context(&self, grid: &WavelengthGrid, model: &FacetModel) -> Result<FlatContext> {
+        let spectra: Vec<_> =
+            self.basis.iter().map(|spectrum| spectrum.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
+        let known = model.sources()[0].camera.channels().min(spectra.len());
+        Ok(FlatContext {
+            method: self.method,
+            components: self.components.unwrap_or(self.method.components.min(known)),
+            autocorrelation: autocorrelation(&spectra),
+            smoothness: self.smoothness,
+            basis_name: self.basis_name.clone(),
+        })
+    }
+}
+
+impl FlatContext {
+    /// Name of the method.
+    pub fn name(&self) -> &'static str {
+        self.method.name
+    }
+
+    /// Name of the spectra that have the components.
+    pub fn basis(&self) -> &str {
+        &self.basis_name
+    }
+
+    /// The spectrum of a sheet.
+    pub fn estimate(&self, sheet: &FlatSheet) -> Result<Estimate> {
+        (self.method.estimate)(sheet, &self.autocorrelation, self.components, self.smoothness)
+    }
+}
+
+/// Refuses flags that only flat sheets know.
+fn check_fold(args: &MethodArgs) -> Result<()> {
+    let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
+    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
+        Err(Error::usage(flag, "not known to --method interreflection", "give --method park or khan"))
+    })
+}
+
+/// Refuses flags that flat sheets do not know.
+fn check_flat(args: &super::Args, name: &str) -> Result<()> {
     let surplus = [
         ("--prior", args.prior.is_some()),
+        ("--smoothness auto", matches!(args.smoothness, Some(Smoothness::Auto))),
         ("--noise-sd", !matches!(args.noise_sd, NoiseSd::Auto)),
         ("--model-error", args.model_error.is_some()),
         ("--fit", !args.fit.is_empty()),
@@ -71,79 +143,7 @@ fn check(args: &super::Args, name: &str) -> Result<()> {
         ("--trace", args.trace.is_some()),
         ("--plan", args.planning.plan),
     ];
-    match surplus.into_iter().find(|(_, given)| *given) {
-        Some((flag, _)) => {
-            Err(Error::usage(flag, format!("not known to --method {name}"), "leave one of them out"))
-        }
-        None => Ok(()),
-    }
-}
-
-impl FlatMethod {
-    /// The method that the flags ask for, if it is one of flat sheets.
-    pub fn of(args: &super::Args) -> Result<Option<Self>> {
-        let MethodArgs { method, components, basis } = &args.method;
-        let (name, smoothness) = match method {
-            MethodName::Park => ("park", PARK_SMOOTHNESS),
-            MethodName::Khan => ("khan", 0.0),
-            MethodName::Interreflection => {
-                let given = [("--components", components.is_some()), ("--basis", basis.is_some())];
-                let surplus = given.into_iter().find(|(_, given)| *given);
-                return surplus.map_or(Ok(None), |(flag, _)| {
-                    Err(Error::usage(flag, "not known to --method interreflection", "give park or khan"))
-                });
-            }
-        };
-        check(args, name)?;
-        let smoothness = match args.smoothness {
-            None => smoothness,
-            Some(Smoothness::Weight(weight)) => weight,
-            Some(Smoothness::Auto) => {
-                return Err(Error::usage(
-                    "--smoothness",
-                    format!("auto with --method {name}"),
-                    "give a number",
-                ));
-            }
-        };
-        let basis_name = basis.clone().unwrap_or_else(|| super::estimator::MUNSELL.to_owned());
-        let basis = spectrum::reflectances(&basis_name)?;
-        Ok(Some(Self { name, components: components.map(usize::from), basis, basis_name, smoothness }))
-    }
-
-    /// The method in a scene of these wavelengths.
-    pub fn on(&self, grid: &WavelengthGrid, model: &FacetModel) -> Result<FlatContext> {
-        let Self { name, smoothness, basis_name, .. } = self;
-        let values = model.sources()[0].camera.channels();
-        let usual = if *name == "park" { park::COMPONENTS } else { khan::COMPONENTS };
-        let components = self.components.unwrap_or(usual.min(values));
-        if components > self.basis.len() || (*name == "khan" && components > values) {
-            let (spectra, problem) = (self.basis.len(), format!("{components} are more than there are"));
-            let remedy =
-                format!("{basis_name} has {spectra} spectra, channels and lights give {values} values");
-            return Err(Error::usage("--components", problem, remedy));
-        }
-        let spectra: Vec<_> =
-            self.basis.iter().map(|spectrum| spectrum.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
-        Ok(FlatContext {
-            name,
-            components,
-            autocorrelation: autocorrelation(&spectra),
-            smoothness: *smoothness,
-            prior: format!("{components} components of {basis_name}"),
-        })
-    }
-}
-
-impl FlatContext {
-    /// Name of the method.
-    pub fn name(&self) -> &'static str {
-        self.name
-    }
-
-    /// The spectrum of a sheet.
-    pub fn estimate(&self, sheet: &FlatSheet) -> Result<Estimate> {
-        let method = if self.name == "park" { park::estimate } else { khan::estimate };
-        method(sheet, &self.autocorrelation, self.components, self.smoothness)
-    }
+    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
+        Err(Error::usage(flag, format!("not known to --method {name}"), "leave one of them out"))
+    })
 }
