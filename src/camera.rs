@@ -56,9 +56,9 @@ impl CameraResponse {
     /// # Example
     /// ```
     /// use vfold::camera::CameraResponse;
-    /// let red = CameraResponse::from_weights(vec![vec![0.9, 0.1], vec![0.2, 0.1]]);
-    /// let blue = CameraResponse::from_weights(vec![vec![0.0, 0.3], vec![0.1, 0.9]]);
-    /// assert_eq!(CameraResponse::of_pictures([red, blue]).white(), [1.0, 0.3, 0.3, 1.0]);
+    /// let red = CameraResponse::from_weights(vec![vec![0.75, 0.25], vec![0.25, 0.25]]);
+    /// let blue = CameraResponse::from_weights(vec![vec![0.0, 0.25], vec![0.25, 0.75]]);
+    /// assert_eq!(CameraResponse::of_pictures([red, blue]).white(), [1.0, 0.5, 0.25, 1.0]);
     /// ```
     #[must_use]
     pub fn of_pictures(pictures: impl IntoIterator<Item = Self>) -> Self {
