@@ -45,6 +45,10 @@ def colour_checker(name, key):
 
 def illuminants():
     tables = {name: colour.SDS_ILLUMINANTS[name].__getitem__ for name in ILLUMINANTS}
+    display = colour.MSDS_DISPLAY_PRIMARIES["Apple Studio Display"]
+    # Its own numbers: what it interpolates is off by 1e-18 and below zero.
+    rows = dict(zip(display.wavelengths, display.values, strict=True))
+    tables |= {f"LCD-{primary}": (lambda nm, k=k: rows[nm][k]) for k, primary in enumerate("RGB")}
     write("illuminants.csv", range(380, 781, 5), tables)
     basis = colour.colorimetry.SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES
     write("daylight.csv", basis["S0"].wavelengths, {name: basis[name].__getitem__ for name in ("S0", "S1", "S2")})

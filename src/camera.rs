@@ -3,14 +3,15 @@
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
-/// What each channel of a camera makes of each waveband under one illuminant.
+/// What each channel of a camera makes of each waveband under one illuminant, or under several, a picture each.
 ///
 /// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, the trapezoid rule over the grid included, scaled so that a perfect white
-/// diffuser facing the light gives 1 in the reference channel.
+/// diffuser facing the light gives 1 in the reference channel. The channels of several pictures follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraResponse {
     weights: Vec<Vec<f64>>,
-    reference_channel: usize,
+    /// One a picture, counted from that picture's first channel.
+    reference_channels: Vec<usize>,
 }
 
 impl CameraResponse {
@@ -47,10 +48,29 @@ impl CameraResponse {
     /// A response whose weights are known as they are; channel 0 is the reference.
     #[must_use]
     pub fn from_weights(weights: Vec<Vec<f64>>) -> Self {
-        Self { weights, reference_channel: 0 }
+        Self { weights, reference_channels: vec![0] }
     }
 
-    /// The response to another light, scaled to give 1 in this response's reference channel.
+    /// The responses to several illuminants as one with the channels of all.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::camera::CameraResponse;
+    /// let red = CameraResponse::from_weights(vec![vec![0.75, 0.25], vec![0.25, 0.25]]);
+    /// let blue = CameraResponse::from_weights(vec![vec![0.0, 0.25], vec![0.25, 0.75]]);
+    /// assert_eq!(CameraResponse::of_pictures([red, blue]).white(), [1.0, 0.5, 0.25, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn of_pictures(pictures: impl IntoIterator<Item = Self>) -> Self {
+        let (mut weights, mut reference_channels) = (Vec::new(), Vec::new());
+        for picture in pictures {
+            weights.extend(picture.weights);
+            reference_channels.extend(picture.reference_channels);
+        }
+        Self { weights, reference_channels }
+    }
+
+    /// The response to another light, in each picture scaled to give 1 in its reference channel.
     ///
     /// # Errors
     /// [`Error::Numeric`] if that channel sees nothing of it.
@@ -60,7 +80,8 @@ impl CameraResponse {
         sensitivities: &[Vec<f64>],
         light: &[f64],
     ) -> Result<Self> {
-        let other = Self::unscaled(grid, sensitivities, light).with_reference(self.reference_channel);
+        let picture = |channel: &usize| Self::unscaled(grid, sensitivities, light).with_reference(*channel);
+        let other = Self::of_pictures(self.reference_channels.iter().map(picture));
         if other.white().iter().all(|white| white.is_finite()) {
             Ok(other)
         } else {
@@ -75,13 +96,13 @@ impl CameraResponse {
         let channel = |sensitivity: &Vec<f64>| {
             sensitivity.iter().zip(light).zip(&width).map(|((c, i), w)| c * i * w).collect()
         };
-        Self { weights: sensitivities.iter().map(channel).collect(), reference_channel: 0 }
+        Self { weights: sensitivities.iter().map(channel).collect(), reference_channels: vec![0] }
     }
 
     fn with_reference(mut self, channel: usize) -> Self {
         let scale = self.white()[channel].recip();
         self.weights.iter_mut().flatten().for_each(|weight| *weight *= scale);
-        self.reference_channel = channel;
+        self.reference_channels = vec![channel];
         self
     }
 
@@ -91,13 +112,13 @@ impl CameraResponse {
         self.weights.iter().map(|channel| channel.iter().sum()).collect()
     }
 
-    /// The channel in which white is 1.
+    /// The channel in which white is 1; of several pictures, the first one's.
     #[must_use]
     pub fn reference_channel(&self) -> usize {
-        self.reference_channel
+        self.reference_channels[0]
     }
 
-    /// Number of channels.
+    /// Number of channels, those of all pictures together.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.weights.len()

@@ -188,9 +188,9 @@ pub fn pair<T: std::str::FromStr>(text: &str) -> std::result::Result<(T, T), Str
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, or a CSV file
+    /// Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each
     #[arg(long, value_name = "SPEC", default_value = "D65")]
-    pub illuminant: String,
+    pub illuminant: Vec<String>,
     /// Illuminant of the sky [default: that of the sun]
     #[arg(long, value_name = "SPEC")]
     pub sky_illuminant: Option<String>,
@@ -208,6 +208,17 @@ fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {
 }
 
 impl OpticsArgs {
+    /// The one illuminant, where a tool looks at one picture.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there are several; `why` one is all that the tool takes.
+    pub fn one_illuminant(&self, why: &str) -> Result<&str> {
+        match self.illuminant.as_slice() {
+            [one] => Ok(one),
+            several => Err(Error::usage("--illuminant", format!("{} are given", several.len()), why)),
+        }
+    }
+
     /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera sees nothing where it
     /// was not measured.
     ///
@@ -228,7 +239,7 @@ impl OpticsArgs {
                 channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
                 sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
             },
-            illuminant: light(&self.illuminant)?,
+            illuminants: self.illuminant.iter().map(light).collect::<Result<_>>()?,
             sky: self.sky_illuminant.as_ref().map(light).transpose()?,
             grid,
         })

@@ -21,6 +21,7 @@
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
 //! | eq. (36) | the estimate as a bounded minimum | [`estimate::smooth`]; [`estimate::map`] with a better prior |
+//! | - | the rivals of section 5C, on flat sheets | [`estimate::park`], [`estimate::khan`] |
 //! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
 //!
 //! Use runs one way:

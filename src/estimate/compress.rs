@@ -17,7 +17,10 @@ pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usiz
         if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
             return Err(Error::field(
                 name,
-                format!("{} channels, but the scene's camera has {channels}", odd.len()),
+                format!(
+                    "{} channels, but the scene has {channels}: its camera's in every picture",
+                    odd.len()
+                ),
             ));
         }
     }

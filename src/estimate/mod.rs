@@ -1,12 +1,16 @@
-//! From facet RGB to the spectrum. One method a file: [`map`] (the default) and [`smooth`] (the paper's).
+//! From facet RGB to the spectrum. One method a file: [`map`] (the default), [`smooth`] (the paper's), and those of flat sheets
+//! that the paper compares with, [`park`] and [`khan`].
 
 pub mod classes;
+pub mod components;
 mod compress;
 pub mod data;
 mod facets;
 pub mod gaussian;
+pub mod khan;
 pub mod map;
 pub mod noise;
+pub mod park;
 pub mod prior;
 pub mod smooth;
 pub mod unknowns;

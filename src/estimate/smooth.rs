@@ -12,10 +12,10 @@ use super::Estimate;
 use super::data::FacetData;
 use crate::error::{Error, Result};
 use crate::solve::Termination;
-use crate::solve::interior_point::InteriorPoint;
+use crate::solve::interior_point::{self, InteriorPoint};
 
 const TOLERANCE: f64 = 1e-9;
-const ITERATION_LIMIT: u64 = 300;
+pub(super) const ITERATION_LIMIT: u64 = 300;
 /// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of logarithms.
 const SMOOTHNESS_RANGE: [f64; 2] = [1e-9, 1.0];
 const BISECTIONS: usize = 10;
@@ -35,15 +35,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         .timer(false)
         .run()
         .map_err(|e| Error::Numeric(format!("interior point: {e}")))?;
-    let gradient_norm = run.solver().violation();
     let state = run.state();
-    let termination = match state.get_termination_status() {
-        TerminationStatus::Terminated(TerminationReason::SolverConverged) => {
-            Termination::Converged { gradient_norm }
-        }
-        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Termination::IterationLimit,
-        _ => Termination::NoProgress { gradient_norm },
-    };
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
     let at = data.residuals(&reflectance, &[]);
     Ok(Estimate {
@@ -53,7 +45,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
-        termination,
+        termination: termination(state, run.solver()),
         reflectance,
     })
 }
@@ -81,8 +73,20 @@ pub fn estimate_by_discrepancy(data: &FacetData, noise_sd: f64, start: &[f64]) -
     Ok(best)
 }
 
+/// Why a run stopped.
+pub(super) fn termination(state: &interior_point::State, solver: &InteriorPoint) -> Termination {
+    let gradient_norm = solver.violation();
+    match state.get_termination_status() {
+        TerminationStatus::Terminated(TerminationReason::SolverConverged) => {
+            Termination::Converged { gradient_norm }
+        }
+        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Termination::IterationLimit,
+        _ => Termination::NoProgress { gradient_norm },
+    }
+}
+
 /// `DᵀD` of the second differences D.
-fn second_difference_gram(bands: usize) -> DMatrix<f64> {
+pub(super) fn second_difference_gram(bands: usize) -> DMatrix<f64> {
     let differences = DMatrix::from_fn(bands.saturating_sub(2), bands, |i, j| match j.wrapping_sub(i) {
         0 | 2 => 1.0,
         1 => -2.0,

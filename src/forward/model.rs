@@ -272,6 +272,23 @@ impl FacetModel {
         self.rgb_of(reflectance, |family, r, g| family.value_after(bounces, r, g))
     }
 
+    /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce: channel by waveband.
+    /// None for a folded sheet, whose RGB is no linear function of reflectance, or beside a card.
+    #[must_use]
+    pub fn without_bounces(&self, facets: &[usize]) -> Option<DMatrix<f64>> {
+        if matches!(self.panels, Panels::Card(_)) || self.poles.iter().any(|pole| pole.abs() > 0.0) {
+            return None;
+        }
+        let of_source = |source: &Source| {
+            let light = facets.iter().map(|facet| source.facets.row(*facet).sum()).sum::<f64>();
+            let share = light / facets.len().max(1) as f64;
+            DMatrix::from_fn(source.camera.channels(), self.bands(), |c, band| {
+                share * source.camera.channel(c)[band]
+            })
+        };
+        Some(self.sources.iter().map(of_source).sum())
+    }
+
     /// RGB of every facet, `of` being what a family makes of reflectance and pole.
     fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
         let bands = &self.seen_bands;

@@ -12,6 +12,8 @@ use argmin::core::{
 };
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::bounds::Bounds;
+
 /// Share of the way to the bounds that a step may go.
 const TO_BOUNDARY: f64 = 0.995;
 /// How far below the mean gap the barrier aims.
@@ -22,7 +24,8 @@ const SUFFICIENT: f64 = 1e-4;
 /// State of an argmin run of this solver.
 pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
-/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables.
+/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables or for all of some
+/// combinations of them.
 ///
 /// # Example
 /// ```
@@ -54,8 +57,7 @@ pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64
 /// ```
 #[derive(Clone, Debug)]
 pub struct InteriorPoint {
-    low: f64,
-    high: f64,
+    bounds: Bounds,
     tolerance: f64,
     /// Multipliers of the lower and upper bounds, positive.
     multipliers: [DVector<f64>; 2],
@@ -69,13 +71,19 @@ impl InteriorPoint {
     pub fn new(low: f64, high: f64, tolerance: f64) -> Self {
         let none = DVector::zeros(0);
         Self {
-            low,
-            high,
+            bounds: Bounds::on_variables(low, high),
             tolerance,
             multipliers: [none.clone(), none],
             violation: f64::INFINITY,
             stalled: false,
         }
+    }
+
+    /// The same solver with bounds on the entries of `combinations · x`; it must start within them.
+    #[must_use]
+    pub fn on_combinations(mut self, combinations: DMatrix<f64>) -> Self {
+        self.bounds = self.bounds.on_combinations(combinations);
+        self
     }
 
     /// Largest violation of the optimality conditions at the last iterate.
@@ -84,14 +92,9 @@ impl InteriorPoint {
         self.violation
     }
 
-    /// Distances of `x` to the lower and upper bound.
-    fn gaps(&self, x: &DVector<f64>) -> [DVector<f64>; 2] {
-        [x.map(|x| x - self.low), x.map(|x| self.high - x)]
-    }
-
     /// The barrier function: `f(x) − μ Σ ln gaps`.
     fn barrier(&self, x: &DVector<f64>, cost: f64, mu: f64) -> f64 {
-        cost - mu * self.gaps(x).iter().map(|gap| gap.iter().map(|g| g.ln()).sum::<f64>()).sum::<f64>()
+        cost - mu * self.bounds.gaps(x).iter().map(|gap| gap.iter().map(|g| g.ln()).sum::<f64>()).sum::<f64>()
     }
 
     /// Weight of the barrier: a tenth of the mean complementarity gap.
@@ -102,29 +105,29 @@ impl InteriorPoint {
 
     /// Largest of the stationarity and complementarity violations.
     fn violation_at(&self, gradient: &DVector<f64>, gaps: &[DVector<f64>; 2]) -> f64 {
-        let stationarity = (gradient - &self.multipliers[0] + &self.multipliers[1]).amax();
+        let [z_low, z_high] = &self.multipliers;
+        let stationarity = (gradient + self.bounds.by_variable(z_high - z_low)).amax();
         let complementarity = gaps.iter().zip(&self.multipliers).map(|(gap, z)| gap.component_mul(z).amax());
         complementarity.fold(stationarity, f64::max)
     }
 
-    /// Newton's step of x and of the multipliers.
+    /// Newton's step of x, and with it of what is bounded and of the multipliers.
     fn step(
         &self,
         gradient: &DVector<f64>,
         mut hessian: DMatrix<f64>,
         gaps: &[DVector<f64>; 2],
         mu: f64,
-    ) -> [DVector<f64>; 3] {
+    ) -> [DVector<f64>; 4] {
         let [low, high] = gaps;
         let [z_low, z_high] = &self.multipliers;
-        let right = -gradient + low.map(|g| mu / g) - high.map(|g| mu / g);
-        for i in 0..right.len() {
-            hessian[(i, i)] += z_low[i] / low[i] + z_high[i] / high[i];
-        }
+        let right = self.bounds.by_variable(low.map(|g| mu / g) - high.map(|g| mu / g)) - gradient;
+        self.bounds.add_curvature(&mut hessian, &(z_low.component_div(low) + z_high.component_div(high)));
         let dx = positive_solve(hessian, &right);
-        let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&dx).component_div(low);
-        let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&dx).component_div(high);
-        [dx, dz_low, dz_high]
+        let moved = self.bounds.of(&dx);
+        let dz_low = low.map(|g| mu / g) - z_low - z_low.component_mul(&moved).component_div(low);
+        let dz_high = high.map(|g| mu / g) - z_high + z_high.component_mul(&moved).component_div(high);
+        [dx, moved, dz_low, dz_high]
     }
 }
 
@@ -160,13 +163,15 @@ where
 
     fn init(&mut self, problem: &mut Problem<O>, mut state: State) -> Result<(State, Option<KV>), Error> {
         let x = state.take_param().ok_or_else(|| Error::msg("interior point: no start given"))?;
-        let inside = 1e-3 * (self.high - self.low);
-        let x = x.map(|x| x.clamp(self.low + inside, self.high - inside));
+        let x = self.bounds.within(x);
+        if self.bounds.gaps(&x).iter().any(|gap| gap.min() <= 0.0) {
+            return Err(Error::msg("interior point: the start is not within the bounds"));
+        }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&x))?;
         let cost = problem.problem("cost_count", |p| p.cost(&x))?;
         // Multipliers of a central path that starts where the gradient and the barrier are of one size.
-        let mu = gradient.amax().max(self.tolerance) * 0.1 * (self.high - self.low);
-        self.multipliers = self.gaps(&x).map(|gap| gap.map(|g| mu / g));
+        let mu = gradient.amax().max(self.tolerance) * 0.1 * self.bounds.width();
+        self.multipliers = self.bounds.gaps(&x).map(|gap| gap.map(|g| mu / g));
         Ok((state.param(x).gradient(gradient).cost(cost), None))
     }
 
@@ -179,12 +184,12 @@ where
             return Err(Error::msg("interior point: the state lost its iterate"));
         };
         let cost = state.get_cost();
-        let gaps = self.gaps(&x);
+        let gaps = self.bounds.gaps(&x);
         let mu = self.barrier_weight(&gaps);
         let hessian = problem.problem("hessian_count", |p| p.hessian(&x))?;
-        let [dx, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
-        let mut length = to_boundary(&gaps[0], &dx).min(to_boundary(&gaps[1], &-&dx));
-        let slope = (&gradient - gaps[0].map(|g| mu / g) + gaps[1].map(|g| mu / g)).dot(&dx);
+        let [dx, moved, dz_low, dz_high] = self.step(&gradient, hessian, &gaps, mu);
+        let mut length = to_boundary(&gaps[0], &moved).min(to_boundary(&gaps[1], &-&moved));
+        let slope = gradient.dot(&dx) + (gaps[1].map(|g| mu / g) - gaps[0].map(|g| mu / g)).dot(&moved);
         let before = self.barrier(&x, cost, mu);
         let (next, next_cost) = loop {
             let next = &x + length * &dx;
@@ -203,7 +208,7 @@ where
             *z += length * dz;
         }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&next))?;
-        self.violation = self.violation_at(&gradient, &self.gaps(&next));
+        self.violation = self.violation_at(&gradient, &self.bounds.gaps(&next));
         Ok((state.param(next).gradient(gradient).cost(next_cost), None))
     }
 
@@ -262,6 +267,31 @@ mod tests {
             .run()
             .unwrap();
         run.state().get_best_param().unwrap().as_slice().to_vec()
+    }
+
+    /// With bounds on x + y and x − y, that is on the edge x + y = 1 of a turned square: `x = 1 − y`, least where
+    /// `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)` finds it.
+    #[test]
+    fn bounds_on_combinations() {
+        let turned = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1.0, -1.0]);
+        let run = Executor::new(Rosenbrock, InteriorPoint::new(-1.0, 1.0, 1e-10).on_combinations(turned))
+            .configure(|state| state.param(DVector::zeros(2)).max_iters(200))
+            .run()
+            .unwrap();
+        let found = run.state().get_best_param().unwrap();
+        assert!(
+            (found[0] - 0.6187956188992921).abs() < 1e-7 && (found[0] + found[1] - 1.0).abs() < 1e-7,
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_start_outside_is_refused() {
+        let solver = InteriorPoint::new(0.0, 1.0, 1e-10).on_combinations(DMatrix::identity(2, 2));
+        let run = Executor::new(Rosenbrock, solver)
+            .configure(|state| state.param(DVector::from_element(2, 1.5)).max_iters(9))
+            .run();
+        assert!(run.is_err());
     }
 
     #[test]

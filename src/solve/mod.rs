@@ -1,5 +1,6 @@
 //! Solvers: linear systems, eigenvalues, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
 
+mod bounds;
 mod conjugate_gradients;
 mod dot;
 mod eigen;

@@ -111,6 +111,9 @@ fn about(illuminant: &str) -> &'static str {
     match illuminant {
         "A" => "CIE standard illuminant A, light bulb, 2856 K",
         "E" => "equal energy at every wavelength",
+        name if name.starts_with("LCD") => {
+            "red, green or blue of a display, Apple Studio Display, Fairchild and Wyble 1998"
+        }
         name if name.starts_with("LED") => "CIE typical white LED lamp",
         name if name.starts_with("FL") => "CIE typical fluorescent lamp",
         _ => "CIE daylight, temperature in hundreds of K",
@@ -194,7 +197,7 @@ mod tests {
 
     #[test]
     fn every_listed_name_is_found() {
-        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 3), (What::Illuminants, 44)] {
+        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 3), (What::Illuminants, 47)] {
             let names = list(what).unwrap();
             assert_eq!(names.len(), count);
             for (name, _) in names {

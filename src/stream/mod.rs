@@ -4,6 +4,7 @@
 //! through typed views and add their own.
 
 mod calibration;
+mod colours;
 mod estimate;
 mod fields;
 mod model;
@@ -20,6 +21,7 @@ mod unknowns;
 mod writer;
 
 pub use calibration::CalibrationRecord;
+pub use colours::Colours;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
@@ -27,7 +29,7 @@ pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
 pub use reader::{Reader, Record, Transform, pipe};
 pub use regions::{Corners, Regions, RegionsFile};
-pub use sample::{Colours, ReflectanceRecord, Sample, summary};
+pub use sample::{ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
 pub use scene::{CameraRecord, Optics, Scene, SpectrumRecord};
 pub use writer::Output;

@@ -81,6 +81,7 @@ impl Sample {
         self.set_facets(
             &column(|facet| facet.mean.clone()),
             Some(&column(|facet| facet.standard_error.clone())),
+            1,
         )?;
         self.fields.set("facet_pixels", facets.iter().map(|facet| facet.pixels).collect::<Vec<_>>())?;
         self.fields.set("facet_clipped", facets.iter().map(|facet| facet.clipped).collect::<Vec<_>>())?;

@@ -1,7 +1,5 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
-use std::ops::RangeInclusive;
-
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
@@ -11,11 +9,8 @@ use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
 use crate::score::{Metrics, Summary};
 
-/// Largest value of a facet that is read: sums and squares of such numbers stay finite.
+/// Largest value of a exposure that is read: products and squares of such numbers stay finite.
 const LARGEST: f64 = 1e30;
-
-/// Facet by channel; null for a facet that was not measured.
-pub type Colours = Vec<Option<Vec<f64>>>;
 
 /// A sample record.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,40 +46,6 @@ impl Sample {
     /// [`Error::Field`] if it has none.
     pub fn id(&self) -> Result<String> {
         self.fields.require("id", "vforward and vextract name their samples")
-    }
-
-    /// Sets the facets' values and, where known, their standard deviations.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>) -> Result<()> {
-        finite("facet_rgb", rgb.iter().flatten().flatten())?;
-        self.fields.set("facet_rgb", rgb)?;
-        if let Some(sd) = sd {
-            finite("facet_sd", sd.iter().flatten().flatten())?;
-            self.fields.set("facet_sd", sd)?;
-        }
-        Ok(())
-    }
-
-    /// The facets' values.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if they are missing.
-    pub fn facet_rgb(&self) -> Result<Colours> {
-        let rgb: Colours = self.fields.require("facet_rgb", "make it with vforward or vextract")?;
-        within("facet_rgb", &rgb, -LARGEST..=LARGEST)?;
-        Ok(rgb)
-    }
-
-    /// The facets' standard deviations, if known.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if they are not numbers.
-    pub fn facet_sd(&self) -> Result<Option<Colours>> {
-        let sd: Option<Colours> = self.fields.get("facet_sd")?;
-        sd.as_ref().map_or(Ok(()), |sd| within("facet_sd", sd, 0.0..=LARGEST))?;
-        Ok(sd)
     }
 
     /// Says how many bounces of light the facets' values are made of.
@@ -212,11 +173,4 @@ pub fn summary(summary: &Summary) -> Result<Fields> {
         }
     }
     Ok(fields)
-}
-
-fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()> {
-    match facets.iter().flatten().flatten().find(|value| !range.contains(*value)) {
-        Some(value) => Err(Error::field(name, format!("{value:e} cannot be the value of a facet"))),
-        None => Ok(()),
-    }
 }

@@ -52,8 +52,8 @@ pub struct Optics {
     pub grid: WavelengthGrid,
     /// The camera.
     pub camera: CameraRecord,
-    /// The sun.
-    pub illuminant: SpectrumRecord,
+    /// The sun, or whatever stands in its place: a picture under each.
+    pub illuminants: Vec<SpectrumRecord>,
     /// The sky, if it has another spectrum.
     pub sky: Option<SpectrumRecord>,
 }
@@ -270,7 +270,7 @@ impl Scene {
     pub fn set_optics(&mut self, optics: &Optics) -> Result<()> {
         self.fields.set("wavelengths_nm", optics.grid.wavelengths_nm())?;
         self.fields.set("camera", &optics.camera)?;
-        self.fields.set("illuminants", [&optics.illuminant])?;
+        self.fields.set("illuminants", &optics.illuminants)?;
         optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
     }
 
@@ -317,14 +317,14 @@ impl Scene {
         };
         let illuminants: Vec<SpectrumRecord> =
             self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
-        let [illuminant] = illuminants.as_slice() else {
-            return Err(Error::field(
-                "illuminants",
-                format!("{} where this version knows one", illuminants.len()),
-            ));
+        if illuminants.is_empty() {
+            return Err(Error::field("illuminants", "none; give --illuminant to vforward or vextract"));
+        }
+        let picture = |illuminant: &SpectrumRecord| {
+            on_grid("illuminants", illuminant)?;
+            CameraResponse::new(&grid, &camera.sensitivities, &illuminant.power)
         };
-        on_grid("illuminants", illuminant)?;
-        let sun = CameraResponse::new(&grid, &camera.sensitivities, &illuminant.power)?;
+        let sun = CameraResponse::of_pictures(illuminants.iter().map(picture).collect::<Result<Vec<_>>>()?);
         let sky = match self.fields.get::<SpectrumRecord>("sky_illuminant")? {
             Some(spectrum) => {
                 on_grid("sky_illuminant", &spectrum)?;

@@ -7,6 +7,7 @@ mod calibration;
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;
+mod methods;
 mod photographs;
 mod spectra;
 mod streams;

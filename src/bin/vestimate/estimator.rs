@@ -1,6 +1,7 @@
 //! Estimates of the samples of a stream.
 
 use vfold::cli;
+use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
@@ -11,6 +12,7 @@ use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::flat::{FlatContext, FlatEstimator};
 use super::settings::{Fit, NoiseSd, Smoothness};
 
 /// The prior whose classes are known.
@@ -22,11 +24,15 @@ const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 
-/// How spectra are estimated, from `--prior`.
+/// Weight of smoothness if none is given.
+const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
+
+/// How spectra are estimated, from `--method` and `--prior`.
 enum Method {
     /// Spectra of the prior, and their classes where they are known.
     Map(Vec<Spectrum>, Option<Vec<usize>>),
     Smooth(Smoothness),
+    Flat(FlatEstimator),
 }
 
 /// What the samples of one scene need.
@@ -41,6 +47,7 @@ pub struct Context {
 enum SceneMethod {
     Map(Prior),
     Smooth(Smoothness),
+    Flat(FlatContext),
 }
 
 /// Estimates as the flags ask for.
@@ -58,19 +65,22 @@ fn check_fit(args: &Args) -> Result<()> {
         return Err(Error::usage("--fit", problem, "leave one of them out"));
     }
     if args.fit.iter().any(|fit| *fit != Fit::Exposure) && !args.has_prior() {
-        let problem = format!("nothing but exposure is fitted with --prior {}", args.prior);
+        let problem = format!("nothing but exposure is fitted with --prior {}", args.prior());
         return Err(Error::usage("--fit", problem, "leave --prior out or give spectra"));
     }
     Ok(())
 }
 
 fn method(args: &Args) -> Result<Method> {
+    if let Some(flat) = FlatEstimator::of(args)? {
+        return Ok(Method::Flat(flat));
+    }
     check_fit(args)?;
     if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
-    Ok(match args.prior.as_str() {
-        "smooth" => Method::Smooth(args.smoothness),
+    Ok(match args.prior() {
+        "smooth" => Method::Smooth(args.smoothness.unwrap_or(SMOOTHNESS)),
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
         spec => {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
@@ -101,6 +111,7 @@ impl Transform for Estimator<'_> {
                 SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
             }
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
+            Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &scene.model()?)?),
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
@@ -128,13 +139,21 @@ impl Transform for Estimator<'_> {
                 map::estimate(&data, prior, context.start.as_deref())
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
+            SceneMethod::Flat(flat) => {
+                let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
+                flat.estimate(&FlatSheet::new(context.scene.facets(), &measured, exposure)?)?
+            }
+        };
+        let (name, prior) = match &context.method {
+            SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
+            _ => ("interreflection", self.args.prior()),
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let wavelengths_nm = context.grid.wavelengths_nm();
         if self.args.trace.is_some() {
             sample.set_trace(&estimate.trace)?;
         }
-        sample.set_estimate("interreflection", &self.args.prior, wavelengths_nm, &estimate, with_covariance)
+        sample.set_estimate(name, prior, wavelengths_nm, &estimate, with_covariance)
     }
 }
 
@@ -167,7 +186,8 @@ impl<'a> Estimator<'a> {
     ) -> Result<Estimate> {
         let sd = deviations(rgb, |_, _| noise_sd, self.args.model_error.unwrap_or(0.0));
         let SceneMethod::Map(prior) = &context.method else {
-            let problem = format!("--prior {} does not know how far off its estimates are", self.args.prior);
+            let problem =
+                format!("--prior {} does not know how far off its estimates are", self.args.prior());
             return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
         };
         let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
@@ -183,9 +203,7 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<Estimate> {
         let rgb = sample.facet_rgb()?;
-        let sd: Colours =
-            rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect();
-        let measured = Measured { rgb: &rgb, sd: &sd };
+        let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
         let data = FacetData::new(&context.scene, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
@@ -221,6 +239,11 @@ impl<'a> Estimator<'a> {
         let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
         Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
     }
+}
+
+/// The same standard deviation for every facet, white being 1.
+fn alike(rgb: &Colours) -> Colours {
+    rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect()
 }
 
 fn root_mean_square(facets: &Colours) -> f64 {

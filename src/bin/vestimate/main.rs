@@ -1,6 +1,7 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
 mod estimator;
+mod flat;
 mod plan;
 mod settings;
 
@@ -8,7 +9,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use estimator::{Estimator, MUNSELL};
+use estimator::Estimator;
+use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
@@ -32,12 +34,13 @@ struct Args {
     /// Scenes and samples from vforward or vextract [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none
-    #[arg(long, value_name = "SPEC|smooth|none", default_value = MUNSELL)]
-    prior: String,
-    /// Weight of the squared second differences of the spectrum, for --prior smooth; auto: what the noise allows
-    #[arg(long, value_name = "X|auto", default_value = "1e-5", allow_negative_numbers = true, value_parser = settings::smoothness)]
-    smoothness: Smoothness,
+    /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none [default: munsell]
+    #[arg(long, value_name = "SPEC|smooth|none")]
+    prior: Option<String>,
+    /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the
+    /// noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
+    #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
+    smoothness: Option<Smoothness>,
     /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
@@ -64,15 +67,22 @@ struct Args {
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     #[command(flatten)]
+    method: MethodArgs,
+    #[command(flatten)]
     planning: PlanArgs,
     #[command(flatten)]
     common: Common,
 }
 
 impl Args {
-    /// Whether estimates know spectra, and how far off they may be.
+    /// What is known of reflectances beforehand.
+    fn prior(&self) -> &str {
+        self.prior.as_deref().unwrap_or(estimator::MUNSELL)
+    }
+
+    /// Whether estimates know how far off they may be.
     fn has_prior(&self) -> bool {
-        !matches!(self.prior.as_str(), "smooth" | "none")
+        self.method.method == MethodName::Interreflection && !matches!(self.prior(), "smooth" | "none")
     }
 }
 

@@ -26,9 +26,9 @@ pub struct PlanArgs {
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
     #[arg(long, value_name = "SPEC", requires = "plan")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none [default: D65]
+    /// Illuminant of a scene that has none; repeated: a picture under each [default: D65]
     #[arg(long, value_name = "SPEC", requires = "plan")]
-    pub illuminant: Option<String>,
+    pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
     #[arg(long, value_name = "SPEC", requires = "plan")]
     pub sky_illuminant: Option<String>,
@@ -50,8 +50,8 @@ impl PlanArgs {
     /// Gives camera and light to a scene that has none.
     fn complete(&self, scene: &mut Scene) -> Result<()> {
         if scene.has_camera() {
-            let flags = [&self.camera, &self.illuminant, &self.sky_illuminant];
-            if flags.iter().any(|flag| flag.is_some()) {
+            let flags = [&self.camera, &self.sky_illuminant];
+            if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {
                 let problem = "the scene has a camera and an illuminant already";
                 return Err(Error::usage(
                     "--camera",
@@ -61,8 +61,9 @@ impl PlanArgs {
             }
             return Ok(());
         }
+        let daylight = vec!["D65".to_owned()];
         let optics = OpticsArgs {
-            illuminant: self.illuminant.clone().unwrap_or_else(|| "D65".to_owned()),
+            illuminant: if self.illuminant.is_empty() { daylight } else { self.illuminant.clone() },
             sky_illuminant: self.sky_illuminant.clone(),
             wavelengths_nm: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
         };

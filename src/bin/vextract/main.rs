@@ -89,6 +89,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
+    args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field()?.map(Arc::new);
     let mut scene = read_scene(&args.scene)?;
     let first = args.reading.open(&args.images[0]);

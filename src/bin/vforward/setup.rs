@@ -107,7 +107,8 @@ impl<'a> Setup<'a> {
         let rows = |values: &[f64]| values.chunks(clean.nrows()).map(|rgb| Some(rgb.to_vec())).collect();
         let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
         let mut sample = Sample::new(&self.scene.id()?, id)?;
-        sample.set_facets(&rows(&values), (!noise.is_none()).then(|| rows(&sd)).as_ref())?;
+        let pictures = self.args.optics.illuminant.len();
+        sample.set_facets(&rows(&values), (!noise.is_none()).then(|| rows(&sd)).as_ref(), pictures)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
     }
@@ -117,6 +118,7 @@ impl<'a> Setup<'a> {
         let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render, subject) else {
             return Ok(());
         };
+        self.one_illuminant()?;
         let view = View::of(&self.scene.fold()?, self.args.render_size.0, self.args.render_size.1)?;
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
@@ -135,9 +137,13 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
+    fn one_illuminant(&self) -> Result<&str> {
+        self.args.optics.one_illuminant("give one with --render: a photograph has one light")
+    }
+
     /// The scene as an eye sees it that is adapted to the light.
     fn screen(&self) -> Result<Lighting> {
-        let illuminant = spectrum::illuminant(&self.args.optics.illuminant)?;
+        let illuminant = spectrum::illuminant(self.one_illuminant()?)?;
         let eye = Colorimeter::new(&self.args.optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
         let response = CameraResponse::from_weights(eye.screen_weights());
         Ok(Lighting { light: self.scene.light()?, sun: response.clone(), sky: response })

@@ -1,0 +1,149 @@
+//! `--method park|khan`: flat sheets, whose spectrum is a combination of few components.
+
+use clap::{Args, ValueEnum};
+use nalgebra::DMatrix;
+use vfold::estimate::components::{FlatSheet, autocorrelation};
+use vfold::estimate::{Estimate, khan, park};
+use vfold::forward::FacetModel;
+use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use vfold::{Error, Result};
+
+use super::settings::{NoiseSd, Smoothness};
+
+/// A method of flat sheets.
+struct FlatMethod {
+    name: &'static str,
+    /// Components where none are asked for and as many values are known.
+    components: usize,
+    /// Weight of smoothness where none is given.
+    smoothness: f64,
+    estimate: fn(&FlatSheet, &DMatrix<f64>, usize, f64) -> Result<Estimate>,
+}
+
+/// With three lights and no noise the smoothness has its least error on the 24 patches about there.
+static PARK: FlatMethod =
+    FlatMethod { name: "park", components: park::COMPONENTS, smoothness: 1e-4, estimate: park::estimate };
+static KHAN: FlatMethod =
+    FlatMethod { name: "khan", components: khan::COMPONENTS, smoothness: 0.0, estimate: khan::estimate };
+
+/// How a spectrum is found.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// From the bounces of light between the panels of a fold.
+    Interreflection,
+    /// Flat sheet: combination of principal components, smooth.
+    Park,
+    /// Flat sheet: combination of the components that sensors and lights see.
+    Khan,
+}
+
+/// The method, and what those of flat sheets need.
+#[derive(Args)]
+#[command(next_help_heading = "Flat sheets")]
+pub struct MethodArgs {
+    /// From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal
+    /// components and smoothness; Khan 2013, the components that sensors and lights see
+    #[arg(long, value_name = "METHOD", default_value = "interreflection", hide_possible_values = true)]
+    pub method: MethodName,
+    /// Components that a spectrum is combined of [default: 8 for park, 9 for khan, no more than channels times lights]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub components: Option<u16>,
+    /// Spectra that have the components [default: munsell]
+    #[arg(long, value_name = "SPEC")]
+    pub basis: Option<String>,
+}
+
+/// Estimates of flat sheets as the flags ask for.
+pub struct FlatEstimator {
+    method: &'static FlatMethod,
+    components: Option<usize>,
+    basis: Vec<Spectrum>,
+    basis_name: String,
+    smoothness: f64,
+}
+
+/// The same for the samples of one scene.
+pub struct FlatContext {
+    method: &'static FlatMethod,
+    components: usize,
+    autocorrelation: DMatrix<f64>,
+    smoothness: f64,
+    basis_name: String,
+}
+
+impl FlatEstimator {
+    /// The method that the flags ask for, if it is one of flat sheets.
+    pub fn of(args: &super::Args) -> Result<Option<Self>> {
+        let MethodArgs { method, components, basis } = &args.method;
+        let method = match method {
+            MethodName::Park => &PARK,
+            MethodName::Khan => &KHAN,
+            MethodName::Interreflection => return check_fold(&args.method).map(|()| None),
+        };
+        check_flat(args, method.name)?;
+        let smoothness = match args.smoothness {
+            Some(Smoothness::Weight(weight)) => weight,
+            _ => method.smoothness,
+        };
+        let basis_name = basis.clone().unwrap_or_else(|| super::estimator::MUNSELL.to_owned());
+        let basis = spectrum::reflectances(&basis_name)?;
+        Ok(Some(Self { method, components: components.map(usize::from), basis, basis_name, smoothness }))
+    }
+
+    /// The method on the wavelengths of a scene, with its channels.
+    pub fn context(&self, grid: &WavelengthGrid, model: &FacetModel) -> Result<FlatContext> {
+        let spectra: Vec<_> =
+            self.basis.iter().map(|spectrum| spectrum.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
+        let known = model.sources()[0].camera.channels().min(spectra.len());
+        Ok(FlatContext {
+            method: self.method,
+            components: self.components.unwrap_or(self.method.components.min(known)),
+            autocorrelation: autocorrelation(&spectra),
+            smoothness: self.smoothness,
+            basis_name: self.basis_name.clone(),
+        })
+    }
+}
+
+impl FlatContext {
+    /// Name of the method.
+    pub fn name(&self) -> &'static str {
+        self.method.name
+    }
+
+    /// Name of the spectra that have the components.
+    pub fn basis(&self) -> &str {
+        &self.basis_name
+    }
+
+    /// The spectrum of a sheet.
+    pub fn estimate(&self, sheet: &FlatSheet) -> Result<Estimate> {
+        (self.method.estimate)(sheet, &self.autocorrelation, self.components, self.smoothness)
+    }
+}
+
+/// Refuses flags that only flat sheets know.
+fn check_fold(args: &MethodArgs) -> Result<()> {
+    let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
+    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
+        Err(Error::usage(flag, "not known to --method interreflection", "give --method park or khan"))
+    })
+}
+
+/// Refuses flags that flat sheets do not know.
+fn check_flat(args: &super::Args, name: &str) -> Result<()> {
+    let surplus = [
+        ("--prior", args.prior.is_some()),
+        ("--smoothness auto", matches!(args.smoothness, Some(Smoothness::Auto))),
+        ("--noise-sd", !matches!(args.noise_sd, NoiseSd::Auto)),
+        ("--model-error", args.model_error.is_some()),
+        ("--fit", !args.fit.is_empty()),
+        ("--start", args.start.is_some()),
+        ("--reference-panel", args.reference_panel.is_some()),
+        ("--trace", args.trace.is_some()),
+        ("--plan", args.planning.plan),
+    ];
+    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
+        Err(Error::usage(flag, format!("not known to --method {name}"), "leave one of them out"))
+    })
+}

@@ -1,0 +1,119 @@
+//! Values of facets in a sample: `[facet][channel]` for one picture, `[picture][facet][channel]` for several, under a light each.
+
+use std::ops::RangeInclusive;
+
+use serde_json::Value;
+
+use super::Sample;
+use super::fields::finite;
+use crate::error::{Error, Result};
+
+/// Largest value of a facet that is read: sums and squares of such numbers stay finite.
+const LARGEST: f64 = 1e30;
+
+/// Facet by channel, those of several pictures one after the other; none for a facet that was not measured in all of them.
+pub type Colours = Vec<Option<Vec<f64>>>;
+
+impl Sample {
+    /// Sets the facets' values in a number of `pictures` and, where known, their standard deviations.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>, pictures: usize) -> Result<()> {
+        for (name, facets) in std::iter::once(("facet_rgb", rgb)).chain(sd.map(|sd| ("facet_sd", sd))) {
+            finite(name, facets.iter().flatten().flatten())?;
+            match pictures {
+                1 => self.fields.set(name, facets)?,
+                _ => self.fields.set(name, by_picture(facets, pictures))?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The facets' values.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing.
+    pub fn facet_rgb(&self) -> Result<Colours> {
+        let rgb = self.colours("facet_rgb", -LARGEST..=LARGEST)?;
+        rgb.ok_or_else(|| Error::field("facet_rgb", "missing; make it with vforward or vextract"))
+    }
+
+    /// The facets' standard deviations, if known.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are not numbers.
+    pub fn facet_sd(&self) -> Result<Option<Colours>> {
+        self.colours("facet_sd", 0.0..=LARGEST)
+    }
+
+    /// A field, pictures beside each other.
+    fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<Colours>> {
+        let several = self.fields.0.get(name).is_some_and(is_by_picture);
+        let facets = if several {
+            Some(beside_each_other(self.fields.require(name, "make it with vforward or vextract")?)?)
+        } else {
+            self.fields.get(name)?
+        };
+        facets.as_ref().map_or(Ok(()), |facets| within(name, facets, range))?;
+        Ok(facets)
+    }
+}
+
+/// Whether there are three levels of lists, not two.
+fn is_by_picture(facets: &Value) -> bool {
+    let rows = facets.as_array().into_iter().flatten().filter_map(Value::as_array);
+    rows.flatten().any(Value::is_array)
+}
+
+fn beside_each_other(pictures: Vec<Colours>) -> Result<Colours> {
+    let facets = pictures[0].len();
+    if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
+        let problem = format!("{} facets in one picture, {facets} in another", other.len());
+        return Err(Error::field("facet_rgb", problem));
+    }
+    let in_all = |facet: usize| {
+        let values: Option<Vec<_>> = pictures.iter().map(|picture| picture[facet].clone()).collect();
+        values.map(|values| values.concat())
+    };
+    Ok((0..facets).map(in_all).collect())
+}
+
+fn by_picture(facets: &Colours, pictures: usize) -> Vec<Colours> {
+    let part = |values: &Vec<f64>, picture: usize| {
+        let channels = values.len() / pictures;
+        values[picture * channels..(picture + 1) * channels].to_vec()
+    };
+    let picture = |n| facets.iter().map(|facet| facet.as_ref().map(|values| part(values, n))).collect();
+    (0..pictures).map(picture).collect()
+}
+
+fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()> {
+    match facets.iter().flatten().flatten().find(|value| !range.contains(*value)) {
+        Some(value) => Err(Error::field(name, format!("{value:e} cannot be the value of a facet"))),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn facets_of_several_pictures_stand_beside_each_other() {
+        let mut sample = Sample::new("fold", "sheet").unwrap();
+        let rgb: Colours = vec![Some(vec![0.1, 0.2, 0.3, 0.4]), None];
+        sample.set_facets(&rgb, None, 2).unwrap();
+        assert_eq!(sample.fields.0["facet_rgb"], json!([[[0.1, 0.2], null], [[0.3, 0.4], null]]));
+        assert_eq!(sample.facet_rgb().unwrap(), rgb);
+    }
+
+    #[test]
+    fn a_facet_counts_if_all_pictures_have_it() {
+        let mut sample = Sample::new("fold", "sheet").unwrap();
+        sample.fields.set("facet_rgb", json!([[[0.1], [0.2]], [[0.3], null]])).unwrap();
+        assert_eq!(sample.facet_rgb().unwrap(), [Some(vec![0.1, 0.3]), None]);
+    }
+}
