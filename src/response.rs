@@ -13,8 +13,9 @@ use crate::solve::{Eigen, dot};
 
 /// Most Lanczos steps: an undivided fold of 1° takes about 600.
 const STEPS_MAX: usize = 1000;
-/// Poles nearer to zero than this have no twin of the other sign.
-const NO_POLE: f64 = 1e-13;
+/// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near poles, and only
+/// the sum of the two is right to all digits.
+const NEAR_TWIN: f64 = 1e-3;
 
 /// What the bounces make of even light on either panel, as poles and residues for every facet.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,10 +246,10 @@ fn both_panels(operator: &impl PanelOperator, source: usize, tolerance: f64) -> 
     Ok((fold_pairs(&set), residual))
 }
 
-/// Poles of panels that see only each other come in pairs ±g, of which one is enough.
+/// Poles of panels that see only each other come in pairs ±g, of which one is enough where they lie apart.
 fn fold_pairs(set: &ModeSet) -> ModeSet {
     let weight = |pole: f64| match pole {
-        pole if pole.abs() < NO_POLE => 1.0,
+        pole if pole.abs() < NEAR_TWIN => 1.0,
         pole if pole > 0.0 => 2.0,
         _ => 0.0,
     };
