@@ -9,22 +9,28 @@
 
 mod corners;
 mod decode;
+mod distortion;
+mod edge;
 mod exif;
 mod facets;
 mod homography;
 mod orientation;
+mod outliers;
 mod photograph;
 mod pixel_area;
 mod plane_fit;
+mod refine;
 mod scale;
 mod transfer;
 mod write;
 
 pub use corners::{PANEL_CORNERS, check_inside, parse_corners};
-pub use facets::{FacetMeasurement, measure};
+pub use distortion::Lens;
+pub use facets::{FacetMeasurement, PixelRun, measure};
 pub use homography::{Homography, Point};
 pub use orientation::Orientation;
 pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use refine::{Refinement, refine};
 pub use scale::ReadOptions;
 pub use transfer::{Transfer, srgb_to_linear};
 pub use write::{write_linear, write_srgb_png};
