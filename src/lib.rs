@@ -30,7 +30,7 @@
 //!               stream -> plot, score, progress, files
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
-//!                                     forward -> image -> files
+//!                                     forward -> image -> colorimetry, files
 //!               score, colorimetry -> spectrum                          all -> error
 //! ```
 //! JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].

@@ -26,8 +26,6 @@ const LONGEST_PX: f64 = 16.0;
 const PLACES: usize = 25;
 /// An edge explains its pixels better than smooth light by at least this, in log likelihood.
 const LEAST_GAIN: f64 = 20.0;
-/// How exact the model itself is, px.
-const MODEL_SD_PX: f64 = 0.015;
 /// Residuals below this part of the light count as nothing.
 const EXACT: f64 = 1e-3;
 /// Numbers that explain a piece: two planes of light, or a polynomial across it.
@@ -69,8 +67,14 @@ impl Side {
         Vector2::new(-self.along.y, self.along.x)
     }
 
-    /// The edge within `reach_px` of the side, if there is one.
-    pub fn edge(&self, photograph: &Photograph, lens: &Lens, reach_px: f64) -> Option<Edge> {
+    /// The edge within `reach_px` of the side, if there is one; the model itself is as exact as `model_sd_px`.
+    pub fn edge(
+        &self,
+        photograph: &Photograph,
+        lens: &Lens,
+        reach_px: f64,
+        model_sd_px: f64,
+    ) -> Option<Edge> {
         let pieces = self.pieces(photograph, lens, reach_px);
         let gains: Vec<_> =
             pieces.iter().map(|piece| (piece.place, piece.gains(&self.across(), reach_px))).collect();
@@ -85,7 +89,7 @@ impl Side {
             let ends = line.map(|place| offset(place, reach_px));
             (Vector2::from(ends), (likelihood - greatest).exp())
         });
-        Edge::of(weighted, reach_px)
+        Edge::of(weighted, reach_px, model_sd_px)
     }
 
     fn pieces(&self, photograph: &Photograph, lens: &Lens, reach_px: f64) -> Vec<Piece> {
@@ -194,14 +198,18 @@ fn share_beyond(z: f64, normal: &Vector2<f64>) -> f64 {
 
 impl Edge {
     /// Mean and covariance of weighted lines; of lines all equally likely nothing is known.
-    fn of(lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone, reach_px: f64) -> Option<Self> {
+    fn of(
+        lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone,
+        reach_px: f64,
+        model_sd_px: f64,
+    ) -> Option<Self> {
         let total: f64 = lines.clone().map(|(_, weight)| weight).sum();
         let mean = lines.clone().map(|(ends, weight)| ends * weight).sum::<Vector2<f64>>() / total;
         let square = |(ends, weight): (Vector2<f64>, f64)| (ends - mean) * (ends - mean).transpose() * weight;
         let covariance = lines.map(square).sum::<Matrix2<f64>>() / total
-            + Matrix2::from_diagonal_element(MODEL_SD_PX.powi(2));
+            + Matrix2::from_diagonal_element(model_sd_px.powi(2));
         let inverse = covariance.try_inverse()?;
-        let nothing = 1.0 / (reach_px * reach_px / 3.0 + MODEL_SD_PX.powi(2));
+        let nothing = 1.0 / (reach_px * reach_px / 3.0 + model_sd_px.powi(2));
         let information = inverse - Matrix2::from_diagonal_element(nothing);
         let sd_px = covariance.diagonal().amax().sqrt();
         information.cholesky().map(|_| Self { information, pull: inverse * mean, sd_px })

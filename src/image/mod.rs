@@ -1,7 +1,8 @@
 //! From a picture file to the mean colour of every facet of a folded sheet.
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
-//! [`measure`] averages the light over each facet. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! [`measure`] averages the light over each facet; [`refine`] finds where exactly the panels are, and [`write_overlay`] shows it.
+//! [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -16,9 +17,11 @@ mod facets;
 mod homography;
 mod orientation;
 mod outliers;
+mod overlay;
 mod photograph;
 mod pixel_area;
 mod plane_fit;
+mod preview;
 mod refine;
 mod scale;
 mod transfer;
@@ -29,7 +32,9 @@ pub use distortion::Lens;
 pub use facets::{FacetMeasurement, PixelRun, measure};
 pub use homography::{Homography, Point};
 pub use orientation::Orientation;
+pub use overlay::{Grid, write_overlay};
 pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use preview::write_preview;
 pub use refine::{Refinement, refine};
 pub use scale::ReadOptions;
 pub use transfer::{Transfer, srgb_to_linear};

@@ -28,6 +28,8 @@ pub struct Refinement {
 /// A side: its name and the corners that it joins.
 type Ends = (&'static str, usize, usize);
 
+/// The crease, by the corners it joins.
+const CREASE: (usize, usize) = (0, 1);
 /// The sides of one panel and of two.
 const SIDES: [Ends; 7] = [
     ("crease", 0, 1),
@@ -47,6 +49,9 @@ const ROUNDS: usize = 6;
 const NEARER: f64 = 0.4;
 /// but not nearer than this many standard deviations.
 const LEAST_SDS: f64 = 3.0;
+/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
+const STEP_SD_PX: f64 = 0.015;
+const KINK_SD_PX: f64 = 0.15;
 
 /// Moves the corners of one panel or two to the edges around them.
 ///
@@ -84,7 +89,8 @@ pub fn refine(
     let mut edges = Vec::new();
     for _ in 0..ROUNDS {
         let find = |((_, from, to), reach): (&Ends, &f64)| {
-            Side::new(corners[*from], corners[*to]).edge(photograph, lens, *reach)
+            let model_sd_px = if (*from, *to) == CREASE { KINK_SD_PX } else { STEP_SD_PX };
+            Side::new(corners[*from], corners[*to]).edge(photograph, lens, *reach, model_sd_px)
         };
         edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
         corners = meeting_point(&given, &corners, sides, &edges, reach_px);

@@ -2,6 +2,8 @@
 
 mod calibration;
 mod camera;
+mod pictures;
+mod placing;
 mod reading;
 mod regions;
 mod sample;
@@ -11,6 +13,8 @@ use std::process::ExitCode;
 
 use calibration::CalibrationArgs;
 use clap::Parser;
+use pictures::PictureArgs;
+use placing::PlacingArgs;
 use reading::ReadingArgs;
 use regions::RegionArgs;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
@@ -42,6 +46,10 @@ struct Args {
     #[command(flatten)]
     regions: RegionArgs,
     #[command(flatten)]
+    placing: PlacingArgs,
+    #[command(flatten)]
+    pictures: PictureArgs,
+    #[command(flatten)]
     reading: ReadingArgs,
     #[command(flatten)]
     calibration: CalibrationArgs,
@@ -60,7 +68,12 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    args.pictures.check(&args.images)?;
+    if args.pictures.preview(&args.images, |path| args.reading.open(path))? {
+        return Ok(());
+    }
     let panels = args.regions.panels()?;
+    args.placing.check()?;
     args.calibration.check()?;
     let mut reader = Reader::open(&args.scene)?;
     let Some(Record::Scene(mut scene)) = reader.read()? else {

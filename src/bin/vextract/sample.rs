@@ -4,11 +4,13 @@ use std::path::Path;
 
 use vfold::cli;
 use vfold::geometry::Fold;
-use vfold::image::{Homography, Photograph, measure};
+use vfold::image::{FacetMeasurement, Homography, Photograph, measure};
 use vfold::stream::{ImageRecord, Sample};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::pictures::{facet_grids, name};
+use super::placing;
 
 pub fn sample(
     args: &Args,
@@ -21,12 +23,21 @@ pub fn sample(
     let photograph = photograph?;
     let grid = fold.facets();
     let row_edges = fold.spacing().edges(grid.rows);
-    let facets = measure(&photograph, panels, &row_edges, grid.cols, args.regions.margin)?;
+    let placed = args.placing.place(&photograph, panels)?;
+    if let Some(refinement) = &placed.refinement {
+        placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
+    }
+    let facets = measure(&photograph, &placed.panels, &row_edges, grid.cols, args.regions.margin)?;
+    args.pictures.overlay(path, &photograph, &facet_grids(&placed.panels, &row_edges, grid.cols), &facets)?;
     if args.common.verbose {
-        let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
-        let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();
+        let total = |pick: fn(&FacetMeasurement) -> usize| facets.iter().map(pick).sum::<usize>();
+        let (clipped, not_finite) = (total(|facet| facet.clipped), total(|facet| facet.not_finite));
+        let (outliers, unseen) =
+            (total(|facet| facet.outliers), total(|facet| usize::from(facet.mean.is_none())));
         let transfer = photograph.info().transfer_used.name();
-        let text = format!("{transfer} curve, {clipped} clipped and {not_finite} non-finite pixels left out");
+        let pixels =
+            format!("{clipped} clipped, {not_finite} non-finite and {outliers} outlying pixels left out");
+        let text = format!("{transfer} curve, {pixels}, {unseen} of {} facets not measured", facets.len());
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
     if facets.iter().all(|facet| facet.mean.is_none()) {
@@ -35,7 +46,8 @@ pub fn sample(
     }
     let mut sample = Sample::new(scene, &name(path))?;
     sample.set_photograph(
-        &ImageRecord::new(path, photograph.info(), panels, args.regions.margin),
+        &ImageRecord::new(path, photograph.info(), &placed.panels, args.regions.margin)
+            .with_placing(placed.distortion, placed.refinement.as_ref()),
         &facets,
         2 * grid.len(),
     )?;
@@ -50,9 +62,4 @@ pub fn failed(scene: &str, path: &Path, error: &Error) -> Result<Sample> {
     let mut sample = Sample::new(scene, &name(path))?;
     sample.set_error(error)?;
     Ok(sample)
-}
-
-/// A sample is called after its photograph.
-fn name(path: &Path) -> String {
-    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
