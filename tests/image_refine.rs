@@ -117,7 +117,7 @@ fn a_side_without_edge_stays_while_others_move() {
     assert_eq!(found.sides_without_edge, ["crease", "outer side of panel 0", "end 0 of panel 0"]);
     let across = 3.0 * 105.4 / f64::hypot(10.6, 105.4);
     for (moved, want) in found.moved_px[0].iter().zip([0.0, across, across, 0.0]) {
-        assert!((moved - want).abs() < 0.05, "{found:?}");
+        assert!((moved - want).abs() < 0.15, "{found:?}");
     }
 }
 

@@ -1,10 +1,10 @@
 //! Pixels that do not show the sheet: dust, specks, a hair.
 //!
 //! What lies far from the plane through a facet's other pixels is left out, and the plane fitted anew until nothing changes.
-//! Where a plain mean has a standard error of 1, this one has 1.0000 on clean Gaussian noise: one pixel in two million is left
-//! out. A weighted fit such as Huber's (1.026 at its usual tuning) would still give every speck a say.
+//! On clean Gaussian noise that leaves out one pixel in two million and costs less than 0.1 % of the standard error, on 5 x 5
+//! pixels too. A weighted fit such as Huber's (1.026 at its usual tuning) would still give every speck a say.
 
-use super::plane_fit::{PixelSums, Run};
+use super::plane_fit::{Estimate, PixelSums, Run};
 
 /// A run of pixels in a facet.
 #[derive(Debug, Clone)]
@@ -30,6 +30,8 @@ const THREE_QUARTERS: f64 = 1.150_349_380_376_008;
 /// Least spread as a share of the root mean square: where most pixels of a flat 8-bit facet hold one number, those that hold the
 /// next are no outliers. Dust on less than about a sixth of a facet is still found.
 const LEAST_SPREAD: f64 = 0.5;
+/// Deviations below this part of the light come from rounding.
+const ROUNDING: f64 = 1e-9;
 /// Each round finds what a larger outlier hid; dust takes two or three.
 const ROUNDS: usize = 10;
 
@@ -58,20 +60,29 @@ fn sum(placed: &[Placed], kept: &[bool]) -> PixelSums {
 
 /// Which runs lie within reach of the plane of `sums`, in every channel.
 fn near_plane(placed: &[Placed], kept: &[bool], sums: &PixelSums, channels: usize) -> Vec<bool> {
-    let mut near = vec![true; placed.len()];
-    for channel in (0..channels).filter(|_| placed.len() >= FEW) {
-        let Some(estimate) = sums.estimate(channel) else { continue };
-        // in standard deviations of a pixel, if one knew them: the mean of a run has less noise
-        let deviation = |placed: &Placed| {
-            (placed.run.mean(channel) - estimate.plane(placed.u, placed.v)) * placed.run.pixels().sqrt()
-        };
-        let usual = placed.iter().zip(kept).filter(|(_, kept)| **kept).map(|(placed, _)| deviation(placed));
-        let reach = REACH * spread(usual.step_by(placed.len().div_ceil(SPREAD_RUNS) | 1).collect());
-        for (near, placed) in near.iter_mut().zip(placed) {
-            *near &= deviation(placed).abs() <= reach;
-        }
+    if placed.len() < FEW {
+        return kept.to_vec();
     }
-    near
+    let reach = |channel| {
+        let estimate = sums.estimate(channel)?;
+        let usual = placed.iter().zip(kept).filter(|(_, kept)| **kept);
+        let usual = usual.map(|(placed, _)| placed.deviation(channel, &estimate));
+        let spread = spread(usual.step_by(placed.len().div_ceil(SPREAD_RUNS) | 1).collect());
+        Some((channel, estimate, REACH * spread + ROUNDING * estimate.mean.abs()))
+    };
+    let reaches: Vec<(usize, Estimate, f64)> = (0..channels).filter_map(reach).collect();
+    let is_near = |placed: &Placed| {
+        reaches.iter().all(|(channel, estimate, reach)| placed.deviation(*channel, estimate).abs() <= *reach)
+    };
+    placed.iter().map(is_near).collect()
+}
+
+impl Placed {
+    /// How far the run lies from a plane, as its pixels would one by one: their mean has less noise.
+    #[inline]
+    fn deviation(&self, channel: usize, plane: &Estimate) -> f64 {
+        (self.run.mean(channel) - plane.plane(self.u, self.v)) * self.run.pixels().sqrt()
+    }
 }
 
 /// The standard deviation of normally distributed numbers among which are some others.
@@ -130,7 +141,6 @@ mod tests {
             };
             let plain = ((0..facets).map(plain).sum::<f64>() / facets as f64).sqrt();
             let robust = error(side, facets, |_, _| None);
-            println!("{side} x {side} px: {robust:.4} for {plain:.4}");
             assert!(robust < 1.005 * plain, "{side}: {robust} for {plain}");
         }
     }
@@ -143,7 +153,6 @@ mod tests {
         let none = |_: usize, _: usize| None;
         let errors =
             [error(20, 200, none), error(20, 200, corner), error(20, 200, hair), error(20, 200, hot)];
-        println!("{errors:?}");
         assert!(errors.iter().all(|error| *error < 1.15 * errors[0]), "{errors:?}");
     }
 

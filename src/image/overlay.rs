@@ -111,7 +111,10 @@ impl Canvas {
         };
         let columns = lines(self, &grid.col_edges, &grid.row_edges, |u, v| (u, v));
         let rows = lines(self, &grid.row_edges, &grid.col_edges, |v, u| (u, v));
-        columns.iter().chain(&rows).for_each(|line| self.draw_line(line, THIN_PX, colour, 0.8));
+        for line in columns.iter().chain(&rows) {
+            self.draw_line(line, THIN_PX + 1.0, BLACK, 0.3);
+            self.draw_line(line, THIN_PX, colour, 0.9);
+        }
         for line in [columns.first(), columns.last(), rows.first(), rows.last()].into_iter().flatten() {
             self.draw_line(line, THICK_PX + 2.0, BLACK, 0.5);
             self.draw_line(line, THICK_PX, colour, 1.0);

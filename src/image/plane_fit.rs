@@ -55,11 +55,13 @@ impl Run {
     }
 
     /// How many pixels there are.
+    #[inline]
     pub fn pixels(&self) -> f64 {
         self.pixels as f64
     }
 
     /// The mean of their light in one channel; not a number if there are none.
+    #[inline]
     pub fn mean(&self, channel: usize) -> f64 {
         self.light[channel].0 / self.pixels()
     }
@@ -81,6 +83,7 @@ pub(super) struct Estimate {
 
 impl PixelSums {
     /// Adds pixels of weight `w` each, about (u, v).
+    #[inline]
     pub fn add(&mut self, w: f64, u: f64, v: f64, run: &Run) {
         let sum = w * run.pixels();
         self.w += sum;
@@ -138,6 +141,7 @@ impl Estimate {
     }
 
     /// The plane's value at (u, v) from the facet's centre.
+    #[inline]
     pub fn plane(&self, u: f64, v: f64) -> f64 {
         self.mean + self.slopes[0] * u + self.slopes[1] * v
     }

@@ -51,7 +51,7 @@ const NEARER: f64 = 0.4;
 const LEAST_SDS: f64 = 3.0;
 /// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
 const STEP_SD_PX: f64 = 0.015;
-const KINK_SD_PX: f64 = 0.15;
+const KINK_SD_PX: f64 = 0.5;
 
 /// Moves the corners of one panel or two to the edges around them.
 ///
