@@ -12,7 +12,7 @@ use common::Workdir;
 use serde_json::{Value, json};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-/// The corners of tests/data/photos/a_ideal_magenta_50.json, and four more.
+/// The corners of `tests/data/photos/a_ideal_magenta_50.json`, and four more.
 const CREASE: [[f64; 2]; 2] = [[332.146066, 462.514984], [345.327272, 77.0551203]];
 const OUTER: [[[f64; 2]; 2]; 2] = [
     [[121.901018, 11.9388027], [103.862631, 442.247314]],

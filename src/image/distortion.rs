@@ -3,7 +3,7 @@
 //! An ideal picture's point at distance r from the centre is seen at r (1 + k1 r² + k2 r⁴), in the same direction; r is in
 //! units of half the picture's shorter side. This is D. C. Brown's radial model (*Close-Range Camera Calibration*,
 //! Photogrammetric Engineering 37, 1971, p. 855) in the direction and unit that lensfun (`poly5`), Hugin and
-//! ImageMagick (`-distort barrel "0 K1 0 1"`) use. OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by
+//! ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens) use. OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by
 //! s⁴, s being half the shorter side over the focal length, both in px.
 
 use super::homography::Point;
@@ -70,7 +70,7 @@ impl Lens {
     /// Where a point of the ideal picture is seen.
     #[must_use]
     pub fn distort(&self, ideal: Point) -> Point {
-        let (x, y) = self.from_centre(ideal);
+        let (x, y) = self.centred(ideal);
         let scale = self.magnification(x.hypot(y)).0;
         self.at(x * scale, y * scale)
     }
@@ -86,13 +86,13 @@ impl Lens {
         if self.is_straight() {
             return (seen, 1.0);
         }
-        let (x, y) = self.from_centre(seen);
+        let (x, y) = self.centred(seen);
         let radius = self.ideal_radius(x.hypot(y));
         let (along, across) = self.magnification(radius);
         (self.at(x / along, y / along), 1.0 / (along * across))
     }
 
-    fn from_centre(&self, p: Point) -> (f64, f64) {
+    fn centred(&self, p: Point) -> (f64, f64) {
         ((p.x - self.centre.x) / self.unit_px, (p.y - self.centre.y) / self.unit_px)
     }
 

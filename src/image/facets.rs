@@ -179,13 +179,9 @@ impl Facet<'_> {
     /// Adds a run of pixels of row `y`, of each of which the part `overlap` is in the facet.
     fn add(&self, tally: &mut Tally, photograph: &Photograph, columns: Range<usize>, y: usize, overlap: f64) {
         let mut run = Run::default();
-        photograph.visit(columns.clone(), y, |x, pixel| {
-            match pixel {
-                Pixel::Light(light) => return run.add(x, light),
-                Pixel::Clipped => tally.clipped += 1,
-                Pixel::NotFinite => tally.not_finite += 1,
-            }
-            tally.left_out.push(PixelRun { columns: x..x + 1, row: y });
+        photograph.visit(columns.clone(), y, |x, pixel| match pixel {
+            Pixel::Light(light) => run.add(x, light),
+            other => tally.leave_out(other, x, y),
         });
         if run.pixels() > 0.0 {
             let centre = Point::new(run.x(), y as f64 + 0.5);
@@ -228,6 +224,16 @@ struct Tally {
 }
 
 impl Tally {
+    /// Counts a pixel without light; most pictures have few.
+    #[cold]
+    fn leave_out(&mut self, pixel: Pixel, x: usize, y: usize) {
+        match pixel {
+            Pixel::Clipped => self.clipped += 1,
+            _ => self.not_finite += 1,
+        }
+        self.left_out.push(PixelRun { columns: x..x + 1, row: y });
+    }
+
     fn finish(mut self, channels: usize) -> FacetMeasurement {
         let (sums, kept) = without_outliers(&self.placed, channels);
         let (mut pixels, mut outliers) = (0.0, 0);

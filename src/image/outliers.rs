@@ -30,8 +30,8 @@ const THREE_QUARTERS: f64 = 1.150_349_380_376_008;
 /// Least spread as a share of the root mean square: where most pixels of a flat 8-bit facet hold one number, those that hold the
 /// next are no outliers. Dust on less than about a sixth of a facet is still found.
 const LEAST_SPREAD: f64 = 0.5;
-/// Deviations below this part of the light come from rounding.
-const ROUNDING: f64 = 1e-9;
+/// Deviations below this part of the light may be the sheet's own, where there is no noise: light is not quite a plane.
+const OWN: f64 = 0.005;
 /// Each round finds what a larger outlier hid; dust takes two or three.
 const ROUNDS: usize = 10;
 
@@ -68,7 +68,7 @@ fn near_plane(placed: &[Placed], kept: &[bool], sums: &PixelSums, channels: usiz
         let usual = placed.iter().zip(kept).filter(|(_, kept)| **kept);
         let usual = usual.map(|(placed, _)| placed.deviation(channel, &estimate));
         let spread = spread(usual.step_by(placed.len().div_ceil(SPREAD_RUNS) | 1).collect());
-        Some((channel, estimate, REACH * spread + ROUNDING * estimate.mean.abs()))
+        Some((channel, estimate, (REACH * spread).max(OWN * estimate.mean.abs())))
     };
     let reaches: Vec<(usize, Estimate, f64)> = (0..channels).filter_map(reach).collect();
     let is_near = |placed: &Placed| {

@@ -84,21 +84,7 @@ pub fn refine(
 ) -> Result<Refinement> {
     let given = joined(panels, reach_px)?.map(|corner| lens.undistort(corner));
     let sides = if panels.len() == 1 { &SIDES[..4] } else { &SIDES };
-    let mut corners = given;
-    let mut reaches = vec![reach_px; sides.len()];
-    let mut edges = Vec::new();
-    for _ in 0..ROUNDS {
-        let find = |((_, from, to), reach): (&Ends, &f64)| {
-            let model_sd_px = if (*from, *to) == CREASE { KINK_SD_PX } else { STEP_SD_PX };
-            Side::new(corners[*from], corners[*to]).edge(photograph, lens, *reach, model_sd_px)
-        };
-        edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
-        corners = meeting_point(&given, &corners, sides, &edges, reach_px);
-        for (reach, edge) in reaches.iter_mut().zip(&edges) {
-            let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
-            *reach = nearer.max(NEARER * *reach).min(reach_px);
-        }
-    }
+    let (corners, edges) = settle(photograph, &given, sides, lens, reach_px);
     let seen = corners.map(|corner| lens.distort(corner));
     let refined: Vec<[Point; 4]> =
         PANELS[..panels.len()].iter().map(|panel| panel.map(|corner| seen[corner])).collect();
@@ -109,6 +95,32 @@ pub fn refine(
         sides_without_edge: without.collect(),
         panels: refined,
     })
+}
+
+/// Corners and edges after all rounds.
+fn settle(
+    photograph: &Photograph,
+    given: &[Point; 6],
+    sides: &[Ends],
+    lens: &Lens,
+    reach_px: f64,
+) -> ([Point; 6], Vec<Option<Edge>>) {
+    let mut corners = *given;
+    let mut reaches = vec![reach_px; sides.len()];
+    let mut edges = Vec::new();
+    for _ in 0..ROUNDS {
+        let find = |((_, from, to), reach): (&Ends, &f64)| {
+            let model_sd_px = if (*from, *to) == CREASE { KINK_SD_PX } else { STEP_SD_PX };
+            Side::new(corners[*from], corners[*to]).edge(photograph, lens, *reach, model_sd_px)
+        };
+        edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
+        corners = meeting_point(given, &corners, sides, &edges, reach_px);
+        for (reach, edge) in reaches.iter_mut().zip(&edges) {
+            let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
+            *reach = nearer.max(NEARER * *reach).min(reach_px);
+        }
+    }
+    (corners, edges)
 }
 
 /// The corners of both panels, each once; of one panel, with two corners that no side joins.
