@@ -187,7 +187,9 @@ fn a_ramp_on_the_sheet_has_its_middle_value() {
             let (row, col) = (k / cols % rows, k % cols);
             let want = light((col as f64 + 0.5) / cols as f64, (row as f64 + 0.5) / rows as f64);
             let got = facet.mean.as_ref().unwrap()[0];
-            assert!((got - want).abs() < 5e-6, "facet {k} of {rows} x {cols}: {got} {want}");
+            // runs of pixels share one place: 1/(12 x 16²) of what light and perspective change across the whole panel
+            let limit = if rows * cols == 1 { 3e-5 } else { 5e-6 };
+            assert!((got - want).abs() < limit, "facet {k} of {rows} x {cols}: {got} {want}");
             // the plain spread over a whole panel would make it 5e-4
             assert!(facet.standard_error.as_ref().unwrap()[0] < 5e-5, "a gradient is no noise");
         }
