@@ -19,7 +19,9 @@ const END: f64 = 0.03;
 /// Most of a side that is left out at each end.
 const LONGEST_END: f64 = 0.25;
 /// Pixels are looked at this much further away than an edge is looked for, px: they tell the light on both sides.
-const FLANK_PX: f64 = 6.0;
+const FLANK_PX: f64 = 10.0;
+/// How far a lens may spread an edge to either side, px, beyond what a pixel does; the likeliest is taken.
+const BLURS_PX: [f64; 3] = [0.0, 2.0, 4.0];
 /// A piece is at most this long, px: more pixels would tell more than the model is true.
 const LONGEST_PX: f64 = 16.0;
 /// Distances at which an edge is tried at each end of a side.
@@ -76,12 +78,17 @@ impl Side {
         model_sd_px: f64,
     ) -> Option<Edge> {
         let pieces = self.pieces(photograph, lens, reach_px);
-        let gains: Vec<_> =
-            pieces.iter().map(|piece| (piece.place, piece.gains(&self.across(), reach_px))).collect();
         let lines: Vec<[usize; 2]> =
             (0..PLACES * PLACES).map(|line| [line / PLACES, line % PLACES]).collect();
-        let likelihoods: Vec<f64> = lines.iter().map(|line| log_likelihood(&gains, *line)).collect();
-        let greatest = likelihoods.iter().copied().fold(0.0, f64::max);
+        let likelihoods = |blur_px| -> Vec<f64> {
+            let gains = |piece: &Piece| (piece.place, piece.gains(&self.across(), blur_px, reach_px));
+            let gains: Vec<_> = pieces.iter().map(gains).collect();
+            lines.iter().map(|line| log_likelihood(&gains, *line)).collect()
+        };
+        let greatest = |likelihoods: &[f64]| likelihoods.iter().copied().fold(0.0, f64::max);
+        let likelihoods =
+            BLURS_PX.map(likelihoods).into_iter().max_by(|a, b| greatest(a).total_cmp(&greatest(b)))?;
+        let greatest = greatest(&likelihoods);
         if greatest < LEAST_GAIN {
             return None;
         }
@@ -89,7 +96,7 @@ impl Side {
             let ends = line.map(|place| offset(place, reach_px));
             (Vector2::from(ends), (likelihood - greatest).exp())
         });
-        Edge::of(weighted, reach_px, model_sd_px)
+        Some(Edge::of(weighted, reach_px, model_sd_px))
     }
 
     fn pieces(&self, photograph: &Photograph, lens: &Lens, reach_px: f64) -> Vec<Piece> {
@@ -148,7 +155,7 @@ fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64
 
 impl Piece {
     /// Gain in log likelihood of an edge at each of the places over none.
-    fn gains(&self, across: &Vector2<f64>, reach_px: f64) -> [f64; PLACES] {
+    fn gains(&self, across: &Vector2<f64>, blur_px: f64, reach_px: f64) -> [f64; PLACES] {
         let count = self.pixels.len() as f64;
         let brightest = self.pixels.iter().map(|(_, light)| light.abs()).fold(0.0, f64::max);
         let exact = count * (EXACT * brightest).powi(2);
@@ -160,7 +167,7 @@ impl Piece {
         let gain = |place| {
             let edge = self.residual(|distance| {
                 let z = distance - offset(place, reach_px);
-                let beyond = share_beyond(z, across);
+                let beyond = share_beyond(z, across, blur_px);
                 [1.0 - beyond, (1.0 - beyond) * z, beyond, beyond * z]
             })?;
             let spare = count - COEFFICIENTS as f64 - 1.0;
@@ -184,9 +191,9 @@ impl Piece {
     }
 }
 
-/// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it.
-fn share_beyond(z: f64, normal: &Vector2<f64>) -> f64 {
-    let (wide, narrow) = (normal.amax(), normal.amin().max(1e-3));
+/// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it, if it saw by `blur_px` more to all sides.
+fn share_beyond(z: f64, normal: &Vector2<f64>, blur_px: f64) -> f64 {
+    let (wide, narrow) = (normal.amax() + blur_px, normal.amin().max(1e-3) + blur_px);
     let ramp = |x: f64| x.max(0.0).powi(2) / 2.0;
     let (outer, inner) = ((wide + narrow) / 2.0, (wide - narrow) / 2.0);
     match z {
@@ -197,22 +204,20 @@ fn share_beyond(z: f64, normal: &Vector2<f64>) -> f64 {
 }
 
 impl Edge {
-    /// Mean and covariance of weighted lines; of lines all equally likely nothing is known.
-    fn of(
-        lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone,
-        reach_px: f64,
-        model_sd_px: f64,
-    ) -> Option<Self> {
+    /// Mean and covariance of weighted lines; of lines all equally likely, or likely at both ends of the reach, nothing is known.
+    fn of(lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone, reach_px: f64, model_sd_px: f64) -> Self {
         let total: f64 = lines.clone().map(|(_, weight)| weight).sum();
         let mean = lines.clone().map(|(ends, weight)| ends * weight).sum::<Vector2<f64>>() / total;
         let square = |(ends, weight): (Vector2<f64>, f64)| (ends - mean) * (ends - mean).transpose() * weight;
         let covariance = lines.map(square).sum::<Matrix2<f64>>() / total
             + Matrix2::from_diagonal_element(model_sd_px.powi(2));
-        let inverse = covariance.try_inverse()?;
-        let nothing = 1.0 / (reach_px * reach_px / 3.0 + model_sd_px.powi(2));
-        let information = inverse - Matrix2::from_diagonal_element(nothing);
         let sd_px = covariance.diagonal().amax().sqrt();
-        information.cholesky().map(|_| Self { information, pull: inverse * mean, sd_px })
+        let nothing = 1.0 / (reach_px * reach_px / 3.0 + model_sd_px.powi(2));
+        let known = covariance.try_inverse().and_then(|inverse| {
+            let information = inverse - Matrix2::from_diagonal_element(nothing);
+            information.cholesky().map(|_| Self { information, pull: inverse * mean, sd_px })
+        });
+        known.unwrap_or(Self { information: Matrix2::zeros(), pull: Vector2::zeros(), sd_px })
     }
 }
 
@@ -229,7 +234,7 @@ mod tests {
             let place = |k: usize| (k as f64 + 0.5) / 400.0 - 0.5;
             let beyond = |k: &usize| z + normal.x * place(k % 400) + normal.y * place(k / 400) > 0.0;
             let share = (0..160_000).filter(beyond).count() as f64 / 160_000.0;
-            prop_assert!((share_beyond(z, &normal) - share).abs() < 3e-3, "{share}");
+            prop_assert!((share_beyond(z, &normal, 0.0) - share).abs() < 3e-3, "{share}");
         }
     }
 }
