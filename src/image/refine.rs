@@ -74,7 +74,7 @@ const KINK_SD_PX: f64 = 0.5;
 /// let clicked = [(22.0, 28.0), (78.0, 31.0), (81.0, 72.0), (19.0, 69.0)].map(|(x, y)| Point::new(x, y));
 /// let found = refine(&Photograph::open(&path, &ReadOptions::default())?, &[clicked], &Lens::STRAIGHT, 5.0)?;
 /// let corner = found.panels[0][0];
-/// assert!((corner.x - 20.0).hypot(corner.y - 30.0) < 0.1, "{corner:?}");
+/// assert!((corner.x - 20.0).hypot(corner.y - 30.0) < 0.2, "{corner:?}");
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(
