@@ -31,7 +31,7 @@
 //!               stream -> plot, score, progress, files, calibrate
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
-//!                                     forward -> image -> files
+//!                                     forward -> image -> colorimetry, files
 //!               score, colorimetry -> spectrum                          all -> error
 //! ```
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].

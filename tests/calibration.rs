@@ -13,7 +13,7 @@ use vfold::camera::CameraResponse;
 use vfold::forward::Lighting;
 use vfold::forward::noise::Noise;
 use vfold::geometry::{FacetGrid, Fold, Light};
-use vfold::image::{Photograph, Point, ReadOptions, measure_patches};
+use vfold::image::{Lens, Photograph, Point, ReadOptions, measure_patches};
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 
 const SIDECAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/reference/e_chart_purple_45.json");
@@ -70,7 +70,8 @@ fn a_photographed_chart_tells_its_exposure() {
     }
     let sidecar = sidecar();
     let photograph = Photograph::open(Path::new(PHOTO), &ReadOptions::default()).unwrap();
-    let measured = measure_patches(&photograph, "chart", chart_corners(&sidecar), 4, 6).unwrap();
+    let measured =
+        measure_patches(&photograph, "chart", chart_corners(&sidecar), Lens::STRAIGHT, [4, 6]).unwrap();
     let patches: Vec<_> = measured
         .into_iter()
         .zip(expected(&sidecar))

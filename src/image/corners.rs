@@ -58,6 +58,12 @@ fn parse_point(pair: &str) -> Option<Point> {
 /// How far outside the picture a corner may lie, px: clicks on the very edge are often rounded outwards.
 const TOLERANCE_PX: f64 = 1.0;
 
+/// Whether a point lies in a picture of `width` x `height` px, give or take one pixel.
+pub(super) fn is_inside(p: Point, width: usize, height: usize) -> bool {
+    (-TOLERANCE_PX..=width as f64 + TOLERANCE_PX).contains(&p.x)
+        && (-TOLERANCE_PX..=height as f64 + TOLERANCE_PX).contains(&p.y)
+}
+
 /// Checks that the corners lie in a picture of `width` x `height` px, give or take one pixel.
 ///
 /// # Errors
@@ -77,11 +83,7 @@ pub fn check_inside(
     width: usize,
     height: usize,
 ) -> Result<()> {
-    let inside = |p: &Point| {
-        (-TOLERANCE_PX..=width as f64 + TOLERANCE_PX).contains(&p.x)
-            && (-TOLERANCE_PX..=height as f64 + TOLERANCE_PX).contains(&p.y)
-    };
-    let Some(k) = corners.iter().position(|p| !inside(p)) else { return Ok(()) };
+    let Some(k) = corners.iter().position(|p| !is_inside(*p, width, height)) else { return Ok(()) };
     let (name, Point { x, y }) = (names[k], corners[k]);
     Err(Error::Corners {
         problem: format!("{region}: {name} at ({x}, {y}) is outside the picture of {width} x {height} px"),

@@ -1,8 +1,10 @@
 //! Where a point of a panel lies in the picture: a plane seen in perspective.
 //!
-//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners.
+//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners; its lens may bend
+//! that picture ([`super::distortion`]).
 //! Closed form: P. Heckbert, *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
 
+use super::distortion::Lens;
 use crate::{Error, Result};
 
 /// A point of the picture, px; the origin is the top left corner, x to the right, y down.
@@ -21,7 +23,7 @@ impl Point {
         Self { x, y }
     }
 
-    fn distance(self, other: Self) -> f64 {
+    pub(super) fn distance(self, other: Self) -> f64 {
         (self.x - other.x).hypot(self.y - other.y)
     }
 }
@@ -33,10 +35,11 @@ pub(super) fn cross(a: Point, b: Point, c: Point) -> f64 {
 
 type Matrix = [[f64; 3]; 3];
 
-/// The projective map between a panel, (u, v) in the unit square, and the picture.
+/// The map between a panel, (u, v) in the unit square, and the picture: projective, then bent by the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homography {
     corners: [Point; 4],
+    lens: Lens,
     to_image: Matrix,
     to_panel: Matrix,
     /// Size of the determinant of `to_panel`.
@@ -63,17 +66,35 @@ impl Homography {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn from_unit_square(corners: [Point; 4]) -> Result<Self> {
-        check_quadrilateral(&corners)?;
-        let to_image = square_to_quadrilateral(&corners);
+        Self::through(Lens::STRAIGHT, corners)
+    }
+
+    /// The map to a picture taken through `lens`; the corners are where they are seen, and the sides between them may be bent.
+    ///
+    /// # Errors
+    /// As [`Homography::from_unit_square`].
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Homography, Lens, Point};
+    /// let corners = [(100.0, 20.0), (540.0, 20.0), (540.0, 460.0), (100.0, 460.0)].map(|(x, y)| Point::new(x, y));
+    /// let panel = Homography::through(Lens::new([-0.02, 0.0], 640, 480)?, corners)?;
+    /// assert!(panel.to_image(0.5, 0.0).y < 19.0); // a barrel bends sides outwards
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn through(lens: Lens, corners: [Point; 4]) -> Result<Self> {
+        let ideal = corners.map(|corner| lens.undistort(corner));
+        check_quadrilateral(&ideal)?;
+        let to_image = square_to_quadrilateral(&ideal);
         let to_panel = inverse(&to_image);
-        Ok(Self { corners, to_image, to_panel, to_panel_scale: determinant(&to_panel).abs() })
+        Ok(Self { corners, lens, to_image, to_panel, to_panel_scale: determinant(&to_panel).abs() })
     }
 
     /// The picture's point, px, of the panel's point (u, v).
     #[must_use]
     pub fn to_image(&self, u: f64, v: f64) -> Point {
         let [x, y, scale] = multiply(&self.to_image, [u, v, 1.0]);
-        Point::new(x / scale, y / scale)
+        self.lens.distort(Point::new(x / scale, y / scale))
     }
 
     /// The panel's point (u, v) of a point of the picture.
@@ -83,7 +104,7 @@ impl Homography {
         (u, v)
     }
 
-    /// The corners given to [`Homography::from_unit_square`].
+    /// The corners of the panel in the picture.
     #[must_use]
     pub fn corners(&self) -> &[Point; 4] {
         &self.corners
@@ -96,7 +117,19 @@ impl Homography {
         [(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])].map(|(u, v)| self.to_image(u, v))
     }
 
-    /// Area in the picture, px², of a unit of panel area at (u, v); negative where the map mirrors.
+    /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its corners.
+    pub(super) fn bow(&self, u: [f64; 2], v: [f64; 2]) -> f64 {
+        let corners = self.rectangle(u, v);
+        let (u_middle, v_middle) = ((u[0] + u[1]) / 2.0, (v[0] + v[1]) / 2.0);
+        let middles = [(u_middle, v[0]), (u[1], v_middle), (u_middle, v[1]), (u[0], v_middle)];
+        let bow = |k: usize| {
+            let (p, q) = (corners[k], corners[(k + 1) % 4]);
+            cross(p, q, self.to_image(middles[k].0, middles[k].1)).abs() / p.distance(q)
+        };
+        (0..4).map(bow).fold(0.0, f64::max)
+    }
+
+    /// Area in the ideal picture, px², of a unit of panel area at (u, v); negative where the map mirrors.
     #[must_use]
     pub fn jacobian_determinant(&self, u: f64, v: f64) -> f64 {
         let [_, _, scale] = multiply(&self.to_image, [u, v, 1.0]);
@@ -105,9 +138,10 @@ impl Homography {
 
     /// The panel's point (u, v) and the panel's area in a pixel there, the inverse of the Jacobian's size.
     pub(super) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
-        let [u, v, scale] = multiply(&self.to_panel, [p.x, p.y, 1.0]);
+        let (ideal, ideal_area) = self.lens.undistort_with_area(p);
+        let [u, v, scale] = multiply(&self.to_panel, [ideal.x, ideal.y, 1.0]);
         let inverse_scale = 1.0 / scale;
-        let area = self.to_panel_scale * inverse_scale * inverse_scale * inverse_scale;
+        let area = ideal_area * self.to_panel_scale * inverse_scale * inverse_scale * inverse_scale;
         (u * inverse_scale, v * inverse_scale, area)
     }
 }

@@ -1,7 +1,8 @@
 //! From a picture file to the mean colour of every facet of a folded sheet.
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
-//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`refine`] finds where exactly the panels
+//! are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -9,26 +10,36 @@
 
 mod corners;
 mod decode;
+mod distortion;
+mod edge;
 mod exif;
 mod facets;
 mod flat_field;
 mod homography;
 mod orientation;
+mod outliers;
+mod overlay;
 mod patches;
 mod photograph;
 mod pixel_area;
 mod plane_fit;
+mod preview;
+mod refine;
 mod scale;
 mod transfer;
 mod write;
 
 pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
-pub use facets::{FacetMeasurement, measure};
+pub use distortion::Lens;
+pub use facets::{FacetMeasurement, PixelRun, measure};
 pub use flat_field::FlatField;
 pub use homography::{Homography, Point};
 pub use orientation::Orientation;
+pub use overlay::{Grid, write_overlay};
 pub use patches::{corner_orders, measure_patches};
 pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use preview::write_preview;
+pub use refine::{Refinement, refine};
 pub use scale::ReadOptions;
 pub use transfer::{Transfer, srgb_to_linear};
 pub use write::{write_linear, write_srgb_png};

@@ -1,6 +1,7 @@
 //! The middles of a chart's patches.
 
 use super::corners::{CHART_CORNERS, check_inside};
+use super::distortion::Lens;
 use super::facets::{FacetMeasurement, measure};
 use super::homography::{Homography, Point};
 use super::photograph::Photograph;
@@ -14,6 +15,7 @@ const MIDDLE: f64 = 0.5;
 /// # Arguments
 /// - `region`: what the corners bound, named in errors.
 /// - `corners`: outer corners of the block of patches, by the order of [`CHART_CORNERS`]; px.
+/// - `lens`: through which they are seen.
 /// - `rows`, `cols`: patches, evenly spaced.
 ///
 /// # Returns
@@ -24,13 +26,13 @@ const MIDDLE: f64 = 0.5;
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Photograph, Point, ReadOptions, measure_patches, write_linear};
+/// use vfold::image::{Lens, Photograph, Point, ReadOptions, measure_patches, write_linear};
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("chart.exr");
 /// let two: Vec<f64> = (0..300).map(|k| if k / 3 % 10 < 5 { 0.25 } else { 0.5 }).collect(); // 10 x 10 px
 /// write_linear(&path, 10, 10, &two)?;
 /// let corners = [(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y));
-/// let patches = measure_patches(&Photograph::open(&path, &ReadOptions::default())?, "chart", corners, 1, 2)?;
+/// let patches = measure_patches(&Photograph::open(&path, &ReadOptions::default())?, "chart", corners, Lens::STRAIGHT, [1, 2])?;
 /// assert_eq!(patches[1].mean, Some(vec![0.5; 3]));
 /// # Ok::<(), vfold::Error>(())
 /// ```
@@ -38,15 +40,15 @@ pub fn measure_patches(
     photograph: &Photograph,
     region: &str,
     corners: [Point; 4],
-    rows: usize,
-    cols: usize,
+    lens: Lens,
+    [rows, cols]: [usize; 2],
 ) -> Result<Vec<FacetMeasurement>> {
     check_inside(region, &corners, &CHART_CORNERS, photograph.width(), photograph.height())?;
-    let chart = Homography::from_unit_square(corners)?;
+    let chart = Homography::through(lens, corners)?;
     let middle =
         |k: usize, count: usize| [-MIDDLE, MIDDLE].map(|side| (k as f64 + 0.5 + side / 2.0) / count as f64);
     let patch = |k: usize| chart.rectangle(middle(k % cols, cols), middle(k / cols, rows));
-    let middles = (0..rows * cols).map(|k| Homography::from_unit_square(patch(k)));
+    let middles = (0..rows * cols).map(|k| Homography::through(lens, patch(k)));
     measure(photograph, &middles.collect::<Result<Vec<_>>>()?, &[0.0, 1.0], 1, 0.0)
 }
 

@@ -56,24 +56,39 @@ impl HalfPlane {
     }
 }
 
+/// What lies inside four straight lines.
+#[derive(Debug, Clone)]
+pub(super) struct Sides([HalfPlane; 4]);
+
+impl Sides {
+    /// Inside four directed lines, each from one point to the next, in order round it: clockwise in the picture if `sense` is 1,
+    /// the other way if -1. All are moved in by `margin_px`.
+    pub fn new(lines: [[Point; 2]; 4], sense: f64, margin_px: f64) -> Self {
+        Self(lines.map(|[p, q]| {
+            let length = p.distance(q) * sense;
+            let (a, b) = ((p.y - q.y) / length, (q.x - p.x) / length);
+            HalfPlane { a, b, c: a * p.x + b * p.y + margin_px }
+        }))
+    }
+
+    /// Columns of the pixels of `row` wholly inside, in a picture of `width` columns.
+    pub fn whole_columns(&self, row: usize, width: usize) -> Range<usize> {
+        clamp(intersect(self.0.map(|side| side.whole(row as f64))), width)
+    }
+}
+
 /// A convex quadrilateral of the picture.
 #[derive(Debug, Clone)]
 pub(super) struct Quadrilateral {
-    sides: [HalfPlane; 4],
+    sides: Sides,
     corners: [Point; 4],
 }
 
 impl Quadrilateral {
-    /// The quadrilateral with these corners, in order round it in either sense, all sides moved in by `margin_px`.
-    pub fn new(corners: &[Point; 4], margin_px: f64) -> Self {
-        let sense = cross(corners[0], corners[1], corners[2]).signum();
-        let sides = [0, 1, 2, 3].map(|k| {
-            let (p, q) = (corners[k], corners[(k + 1) % 4]);
-            let length = (q.x - p.x).hypot(q.y - p.y) * sense;
-            let (a, b) = ((p.y - q.y) / length, (q.x - p.x) / length);
-            HalfPlane { a, b, c: a * p.x + b * p.y + margin_px }
-        });
-        Self { sides, corners: *corners }
+    /// The quadrilateral with these corners, in order round it in either sense.
+    pub fn new(corners: &[Point; 4]) -> Self {
+        let lines = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
+        Self { sides: Sides::new(lines, sense(corners), 0.0), corners: *corners }
     }
 
     /// Rows of a picture of `height` rows that the quadrilateral may touch.
@@ -88,12 +103,12 @@ impl Quadrilateral {
 
     /// Columns of the pixels of `row` wholly inside, in a picture of `width` columns.
     pub fn whole_columns(&self, row: usize, width: usize) -> Range<usize> {
-        clamp(intersect(self.sides.map(|side| side.whole(row as f64))), width)
+        self.sides.whole_columns(row, width)
     }
 
     /// Columns of the pixels of `row` that may be touched, in a picture of `width` columns.
     pub fn touched_columns(&self, row: usize, width: usize) -> Range<usize> {
-        clamp(intersect(self.sides.map(|side| side.touched(row as f64))), width)
+        clamp(intersect(self.sides.0.map(|side| side.touched(row as f64))), width)
     }
 
     /// The area, px², that the quadrilateral shares with the pixel in column `x` and row `y`.
@@ -102,12 +117,17 @@ impl Quadrilateral {
         let centre = Point::new(x + 0.5, y + 0.5);
         // most pixels are met by one side only
         let met_by = |side: &&HalfPlane| side.depth(centre).abs() < side.pixel_reach();
-        if self.sides.iter().any(|side| side.depth(centre) <= -side.pixel_reach()) {
+        if self.sides.0.iter().any(|side| side.depth(centre) <= -side.pixel_reach()) {
             return 0.0;
         }
         let pixel = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)].map(|(x, y)| Point::new(x, y));
-        area(&self.sides.iter().filter(met_by).fold(pixel.to_vec(), |polygon, side| clip(&polygon, side)))
+        area(&self.sides.0.iter().filter(met_by).fold(pixel.to_vec(), |polygon, side| clip(&polygon, side)))
     }
+}
+
+/// 1 if corners follow each other clockwise in the picture, else -1.
+pub(super) fn sense(corners: &[Point; 4]) -> f64 {
+    cross(corners[0], corners[1], corners[2]).signum()
 }
 
 /// The whole pixels from the least to the greatest of some coordinates.
@@ -164,15 +184,18 @@ mod tests {
     #[test]
     fn a_margin_leaves_out_the_pixels_along_the_sides() {
         let corners = points([(1.0, 1.0), (9.0, 1.0), (9.0, 9.0), (1.0, 9.0)]);
-        assert_eq!(Quadrilateral::new(&corners, 0.0).whole_columns(1, 100), 1..9);
-        assert_eq!(Quadrilateral::new(&corners, 1.0).whole_columns(2, 100), 2..8);
-        assert!(Quadrilateral::new(&corners, 1.0).whole_columns(1, 100).is_empty());
-        assert_eq!(Quadrilateral::new(&corners, 0.0).whole_columns(1, 5), 1..5);
+        let inside = |margin_px| {
+            Sides::new([0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]), sense(&corners), margin_px)
+        };
+        assert_eq!(inside(0.0).whole_columns(1, 100), 1..9);
+        assert_eq!(inside(1.0).whole_columns(2, 100), 2..8);
+        assert!(inside(1.0).whole_columns(1, 100).is_empty());
+        assert_eq!(inside(0.0).whole_columns(1, 5), 1..5);
     }
 
     #[test]
     fn a_diamond_covers_half_of_the_pixel_at_each_side() {
-        let diamond = Quadrilateral::new(&points([(3.0, 0.0), (6.0, 3.0), (3.0, 6.0), (0.0, 3.0)]), 0.0);
+        let diamond = Quadrilateral::new(&points([(3.0, 0.0), (6.0, 3.0), (3.0, 6.0), (0.0, 3.0)]));
         assert!((diamond.overlap(0, 2) - 0.5).abs() < 1e-14);
         assert_eq!(diamond.whole_columns(2, 6), 1..5);
         assert!(diamond.overlap(0, 0) < 1e-14);
@@ -199,7 +222,7 @@ mod tests {
     proptest! {
         #[test]
         fn overlaps_add_up_to_the_area(corners in quadrilateral()) {
-            let quadrilateral = Quadrilateral::new(&corners, 0.0);
+            let quadrilateral = Quadrilateral::new(&corners);
             let mut sum = 0.0;
             for y in quadrilateral.rows(30) {
                 let whole = quadrilateral.whole_columns(y, 30);
@@ -220,8 +243,8 @@ mod tests {
             let panel = Homography::from_unit_square(corners).unwrap();
             let ends = |k: usize, count: usize| [k as f64 / count as f64, (k + 1) as f64 / count as f64];
             let facet = |k: usize| panel.rectangle(ends(k % cols, cols), ends(k / cols, rows));
-            let facets: Vec<_> = (0..rows * cols).map(|k| Quadrilateral::new(&facet(k), 0.0)).collect();
-            let whole_panel = Quadrilateral::new(&corners, 0.0);
+            let facets: Vec<_> = (0..rows * cols).map(|k| Quadrilateral::new(&facet(k))).collect();
+            let whole_panel = Quadrilateral::new(&corners);
             for y in whole_panel.rows(30) {
                 for x in whole_panel.whole_columns(y, 30) {
                     let sum: f64 = facets.iter().map(|facet| facet.overlap(x, y)).sum();

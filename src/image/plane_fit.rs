@@ -55,8 +55,15 @@ impl Run {
     }
 
     /// How many pixels there are.
+    #[inline]
     pub fn pixels(&self) -> f64 {
         self.pixels as f64
+    }
+
+    /// The mean of their light in one channel; not a number if there are none.
+    #[inline]
+    pub fn mean(&self, channel: usize) -> f64 {
+        self.light[channel].0 / self.pixels()
     }
 
     /// Where their middle is, px; not a number if there are none.
@@ -70,10 +77,13 @@ impl Run {
 pub(super) struct Estimate {
     pub mean: f64,
     pub standard_error: Option<f64>,
+    /// Of the plane, along u and v; zero if there are too few pixels for one.
+    slopes: [f64; 2],
 }
 
 impl PixelSums {
     /// Adds pixels of weight `w` each, about (u, v).
+    #[inline]
     pub fn add(&mut self, w: f64, u: f64, v: f64, run: &Run) {
         let sum = w * run.pixels();
         self.w += sum;
@@ -110,22 +120,30 @@ impl PixelSums {
             (covariance(light.wyy, y, y), covariance(light.wyu, y, u), covariance(light.wyv, y, v));
         let det = uu * vv - uv * uv;
         if n < PLANE_PIXELS || det < FLAT {
-            return Some(Estimate::new(y, yy, n, 1.0, 1.0));
+            return Some(Estimate::new([y, 0.0, 0.0], yy, n, 1.0, 1.0));
         }
         let (slope_u, slope_v) = ((yu * vv - yv * uv) / det, (yv * uu - yu * uv) / det);
         let leverage = (u * u * vv - 2.0 * u * v * uv + v * v * uu) / det;
         let mean = y - slope_u * u - slope_v * v;
-        Some(Estimate::new(mean, yy - slope_u * yu - slope_v * yv, n, 3.0, 1.0 + leverage))
+        let square_residual = yy - slope_u * yu - slope_v * yv;
+        Some(Estimate::new([mean, slope_u, slope_v], square_residual, n, 3.0, 1.0 + leverage))
     }
 }
 
 impl Estimate {
     /// From the mean square residual about `fitted` numbers, with `variance_factor` for reaching beyond the pixels.
-    fn new(mean: f64, square_residual: f64, n: f64, fitted: f64, variance_factor: f64) -> Self {
+    fn new(plane: [f64; 3], square_residual: f64, n: f64, fitted: f64, variance_factor: f64) -> Self {
         let spare = n - fitted;
         let standard_error =
             (spare >= 1.0).then(|| (square_residual.max(0.0) * variance_factor / spare).sqrt());
-        Self { mean, standard_error }
+        let [mean, slope_u, slope_v] = plane;
+        Self { mean, standard_error, slopes: [slope_u, slope_v] }
+    }
+
+    /// The plane's value at (u, v) from the facet's centre.
+    #[inline]
+    pub fn plane(&self, u: f64, v: f64) -> f64 {
+        self.mean + self.slopes[0] * u + self.slopes[1] * v
     }
 }
 
@@ -178,9 +196,9 @@ mod tests {
     fn few_pixels_give_what_they_can() {
         assert_eq!(sums(&[]).estimate(0), None);
         let one = sums(&[(0.3, 0.1, 0.1, 5.0)]).estimate(0).unwrap();
-        assert_eq!(one, Estimate { mean: 5.0, standard_error: None });
+        assert_eq!((one.mean, one.standard_error), (5.0, None));
         let two = sums(&[(1.0, 0.1, 0.1, 5.0), (1.0, 0.2, 0.1, 7.0)]).estimate(0).unwrap();
-        assert_eq!(two, Estimate { mean: 6.0, standard_error: Some(1.0) }); // sd √2, over √2
+        assert_eq!((two.mean, two.standard_error), (6.0, Some(1.0))); // sd √2, over √2
         let line: Vec<_> =
             (0..20).map(|k| (1.0, f64::from(k) / 20.0 - 0.475, 0.3, f64::from(k % 2))).collect();
         let line = sums(&line).estimate(0).unwrap();

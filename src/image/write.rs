@@ -3,7 +3,7 @@
 //! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
 //! old file or none.
 
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Cursor, Write};
 use std::path::Path;
 
 use crate::files::Saved;
@@ -58,9 +58,43 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
+    save(path, &eight_bits(path, width, height, rgb)?, ImageFormat::Png)
+}
+
+/// As [`write_srgb_png`], with a keyword and a text that belongs to it, both ASCII, for programs that read the file.
+pub(super) fn write_srgb_png_with_text(
+    path: &Path,
+    [width, height]: [usize; 2],
+    rgb: &[f64],
+    [keyword, text]: [&str; 2],
+) -> Result<()> {
+    let mut png = Vec::new();
+    eight_bits(path, width, height, rgb)?
+        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
+        .map_err(|error| Error::picture(path, error, "write another format"))?;
+    png.splice(PNG_HEADER_BYTES..PNG_HEADER_BYTES, text_chunk(keyword, text));
+    Saved::write(path, &png)
+}
+
+/// Signature and image header, after which other chunks may come.
+const PNG_HEADER_BYTES: usize = 8 + 25;
+
+/// A tEXt chunk (W3C, *Portable Network Graphics*, section 11.3.3.2).
+fn text_chunk(keyword: &str, text: &str) -> Vec<u8> {
+    let body = [b"tEXt", keyword.as_bytes(), b"\0", text.as_bytes()].concat();
+    let length = (body.len() - 4) as u32;
+    [&length.to_be_bytes()[..], &body, &crc32(&body).to_be_bytes()].concat()
+}
+
+/// The checksum of a PNG chunk (the same, annex D).
+fn crc32(bytes: &[u8]) -> u32 {
+    let shift = |crc: u32| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift(crc)))
+}
+
+fn eight_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
     // `as` cuts to the integer's range
-    let buffer = buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8)?;
-    save(path, &DynamicImage::ImageRgb8(buffer), ImageFormat::Png)
+    buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8).map(DynamicImage::ImageRgb8)
 }
 
 fn sixteen_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
@@ -104,4 +138,15 @@ fn save(path: &Path, picture: &DynamicImage, format: ImageFormat) -> Result<()> 
     out.flush().map_err(failed)?; // a full disk would go unnoticed when dropped
     drop(out);
     saved.keep()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The check value of CRC-32/ISO-HDLC in G. Cook's catalogue.
+    #[test]
+    fn the_checksum_is_that_of_the_catalogue() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+    }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Colours, Sample};
 use crate::error::Result;
-use crate::image::{FacetMeasurement, Homography, PhotographInfo};
+use crate::image::{FacetMeasurement, Homography, PhotographInfo, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
 #[derive(Clone, Debug, Serialize)]
@@ -31,8 +31,19 @@ pub struct ImageRecord {
     orientation: u32,
     panels: Vec<[[f64; 2]; 4]>,
     margin_px: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distortion: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<RefinedRecord>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
+}
+
+/// How far corners were moved to the edges around them, px, by panel, and where there was no edge.
+#[derive(Clone, Debug, Serialize)]
+struct RefinedRecord {
+    moved_px: Vec<[f64; 4]>,
+    sides_without_edge: Vec<&'static str>,
 }
 
 impl ImageRecord {
@@ -56,8 +67,21 @@ impl ImageRecord {
             orientation: info.orientation.exif(),
             panels: panels.iter().map(corners).collect(),
             margin_px,
+            distortion: None,
+            refined: None,
             notes: info.notes.clone(),
         }
+    }
+
+    /// The record with the lens's coefficients and what refinement did, if they were asked for.
+    #[must_use]
+    pub fn with_placing(mut self, distortion: Option<[f64; 2]>, refinement: Option<&Refinement>) -> Self {
+        self.distortion = distortion;
+        self.refined = refinement.map(|refinement| RefinedRecord {
+            moved_px: refinement.moved_px.clone(),
+            sides_without_edge: refinement.sides_without_edge.clone(),
+        });
+        self
     }
 }
 
@@ -85,6 +109,8 @@ impl Sample {
         )?;
         self.fields.set("facet_pixels", facets.iter().map(|facet| facet.pixels).collect::<Vec<_>>())?;
         self.fields.set("facet_clipped", facets.iter().map(|facet| facet.clipped).collect::<Vec<_>>())?;
-        self.fields.set("facet_not_finite", facets.iter().map(|facet| facet.not_finite).collect::<Vec<_>>())
+        self.fields
+            .set("facet_not_finite", facets.iter().map(|facet| facet.not_finite).collect::<Vec<_>>())?;
+        self.fields.set("facet_outliers", facets.iter().map(|facet| facet.outliers).collect::<Vec<_>>())
     }
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use clap::Args;
 use vfold::calibrate::Calibration;
-use vfold::image::{FacetMeasurement, Photograph};
+use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
 use vfold::spectrum::{WavelengthGrid, reflectances};
-use vfold::stream::{CalibrationRecord, Regions, Scene};
+use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
 use vfold::{Error, Result, cli};
 
 use super::target::Target;
@@ -89,6 +89,27 @@ pub struct GivenCalibration {
 }
 
 impl GivenCalibration {
+    /// What is marked in a photograph to calibrate with, if anything is.
+    fn marked(&self, regions: &Regions) -> Result<Option<(&Target, Corners)>> {
+        match (regions.chart, regions.white, self.exposure) {
+            (None, None, _) => Ok(None),
+            (Some(corners), None, None) => Ok(Some((&self.chart, corners))),
+            (None, Some(corners), None) => Ok(Some((&self.white, corners))),
+            _ => {
+                let problem = "two of chart, white card and --exposure say what the numbers are worth";
+                Err(Error::usage("--regions", problem, "keep one of them"))
+            }
+        }
+    }
+
+    /// The patches of what is marked.
+    ///
+    /// # Errors
+    /// As [`GivenCalibration::calibrate`].
+    pub fn grid(&self, regions: &Regions, lens: Lens) -> Result<Option<Grid>> {
+        self.marked(regions)?.map(|(target, corners)| target.grid(lens, corners)).transpose()
+    }
+
     /// The calibration by what is marked in a photograph, if anything is.
     ///
     /// # Errors
@@ -98,19 +119,12 @@ impl GivenCalibration {
         &self,
         scene: &Scene,
         regions: &Regions,
+        lens: Lens,
         path: &Path,
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
-        let (target, corners) = match (regions.chart, regions.white, self.exposure) {
-            (None, None, _) => return Ok(None),
-            (Some(corners), None, None) => (&self.chart, corners),
-            (None, Some(corners), None) => (&self.white, corners),
-            _ => {
-                let problem = "two of chart, white card and --exposure say what the numbers are worth";
-                return Err(Error::usage("--regions", problem, "keep one of them"));
-            }
-        };
-        target.calibrate(&scene.lighting()?, path, photograph, corners).map(Some)
+        let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
+        target.calibrate(&scene.lighting()?, path, photograph, lens, corners).map(Some)
     }
 }
 

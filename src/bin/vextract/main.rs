@@ -3,6 +3,8 @@
 mod batch;
 mod calibration;
 mod camera;
+mod pictures;
+mod placing;
 mod reading;
 mod regions;
 mod sample;
@@ -14,6 +16,8 @@ use std::sync::Arc;
 
 use calibration::CalibrationArgs;
 use clap::Parser;
+use pictures::PictureArgs;
+use placing::PlacingArgs;
 use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
@@ -69,6 +73,10 @@ struct Args {
     #[command(flatten)]
     regions: RegionArgs,
     #[command(flatten)]
+    placing: PlacingArgs,
+    #[command(flatten)]
+    pictures: PictureArgs,
+    #[command(flatten)]
     reading: ReadingArgs,
     #[command(flatten)]
     calibration: CalibrationArgs,
@@ -87,6 +95,11 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    args.pictures.check(&args.images)?;
+    if args.pictures.preview(&args.images, |path| args.reading.open(path))? {
+        return Ok(());
+    }
+    args.placing.check()?;
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;

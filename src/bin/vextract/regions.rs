@@ -15,7 +15,7 @@ use vfold::{Error, Result};
 )]
 pub struct RegionArgs {
     /// Corners of panel 0
-    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "regions"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "regions", "preview"], allow_hyphen_values = true)]
     panel0: Option<String>,
     /// Corners of panel 1 [default: only panel 0 is measured]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]

@@ -11,6 +11,8 @@ use vfold::{Error, Result};
 
 use super::Args;
 use super::calibration::{GivenCalibration, apply};
+use super::pictures::{facet_grids, name};
+use super::placing;
 use super::regions::{GivenRegions, panels};
 
 /// What all photographs of a run have in common.
@@ -30,16 +32,20 @@ impl Setup<'_> {
             Some(flat_field) => photograph?.with_flat_field(flat_field.clone(), path)?,
             None => photograph?,
         };
+        let args = self.args;
         let regions = self.regions.of(path, &photograph)?;
-        let (panels, margin) = (panels(&regions)?, self.args.regions.margin);
-        let grid = self.fold.facets();
+        let placed = args.placing.place(&photograph, &panels(&regions)?)?;
+        let (grid, margin) = (self.fold.facets(), args.regions.margin);
         let row_edges = self.fold.spacing().edges(grid.rows);
-        let mut facets = measure(&photograph, &panels, &row_edges, grid.cols, margin)?;
+        let mut facets = measure(&photograph, &placed.panels, &row_edges, grid.cols, margin)?;
+        let mut grids = facet_grids(&placed.panels, &row_edges, grid.cols);
+        grids.extend(self.calibration.grid(&regions, placed.lens)?);
+        args.pictures.overlay(path, &photograph, &grids, &facets)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
             let remedy = "check --panel0, --panel1, --margin and the white level";
             return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
         }
-        let calibrated = self.calibration.calibrate(self.scene, &regions, path, &photograph)?;
+        let calibrated = self.calibration.calibrate(self.scene, &regions, placed.lens, path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
             sample.fields.set("exposure", exposure)?;
@@ -48,8 +54,12 @@ impl Setup<'_> {
             apply(calibration, &mut facets);
             sample.set_calibration(record)?;
         }
-        let image = ImageRecord::new(path, photograph.info(), &panels, margin);
+        let image = ImageRecord::new(path, photograph.info(), &placed.panels, margin)
+            .with_placing(placed.distortion, placed.refinement.as_ref());
         sample.set_photograph(&image, &facets, 2 * grid.len())?;
+        if let Some(refinement) = &placed.refinement {
+            placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
+        }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
     }
@@ -73,19 +83,18 @@ impl Setup<'_> {
         if !self.args.common.verbose {
             return;
         }
-        let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
-        let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();
+        let total = |pick: fn(&FacetMeasurement) -> usize| facets.iter().map(pick).sum::<usize>();
+        let (clipped, not_finite) = (total(|facet| facet.clipped), total(|facet| facet.not_finite));
+        let (outliers, unseen) =
+            (total(|facet| facet.outliers), total(|facet| usize::from(facet.mean.is_none())));
         let transfer = photograph.info().transfer_used.name();
+        let pixels =
+            format!("{clipped} clipped, {not_finite} non-finite and {outliers} outlying pixels left out");
         let mut text =
-            format!("{transfer} curve, {clipped} clipped and {not_finite} non-finite pixels left out");
+            format!("{transfer} curve, {pixels}, {unseen} of {} facets not measured", facets.len());
         if let Some(calibration) = calibration {
             text += &format!("; {calibration}");
         }
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
-}
-
-/// A sample is called after its photograph.
-fn name(path: &Path) -> String {
-    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

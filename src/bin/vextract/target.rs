@@ -4,7 +4,7 @@ use std::path::Path;
 
 use vfold::calibrate::{Calibration, Patch};
 use vfold::forward::Lighting;
-use vfold::image::{FacetMeasurement, Photograph, corner_orders, measure_patches};
+use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Photograph, corner_orders, measure_patches};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{CalibrationRecord, Corners};
 use vfold::{Error, Result};
@@ -41,15 +41,22 @@ impl Target {
         Ok(Self { name, flag, rows, cols, cos, patches })
     }
 
+    /// Its patches between `corners`.
+    pub fn grid(&self, lens: Lens, corners: Corners) -> Result<Grid> {
+        let row_edges: Vec<f64> = (0..=self.rows).map(|edge| edge as f64 / self.rows as f64).collect();
+        Ok(Grid::new(Homography::through(lens, corners)?, &row_edges, self.cols))
+    }
+
     /// The calibration by this target between `corners`.
     pub fn calibrate(
         &self,
         lighting: &Lighting,
         path: &Path,
         photograph: &Photograph,
+        lens: Lens,
         corners: Corners,
     ) -> Result<(Calibration, CalibrationRecord)> {
-        let found = |corners| self.fit(lighting, path, photograph, corners);
+        let found = |corners| self.fit(lighting, path, photograph, lens, corners);
         let given = found(corners);
         let residual = given.as_ref().map_or(f64::INFINITY, |(_, record)| record.residual());
         if residual < GOOD_RESIDUAL {
@@ -76,9 +83,10 @@ impl Target {
         lighting: &Lighting,
         path: &Path,
         photograph: &Photograph,
+        lens: Lens,
         corners: Corners,
     ) -> Result<(Calibration, CalibrationRecord)> {
-        let patches = self.measure(lighting, path, photograph, corners)?;
+        let patches = self.measure(lighting, path, photograph, lens, corners)?;
         let calibration = Calibration::fit(&patches, lighting.sun.reference_channel()).map_err(|e| {
             let remedy = format!("check {}, its reference, --camera, --illuminant and --transfer", self.flag);
             Error::picture(path, format!("{}: {e}", self.name), remedy)
@@ -93,6 +101,7 @@ impl Target {
         lighting: &Lighting,
         path: &Path,
         photograph: &Photograph,
+        lens: Lens,
         corners: Corners,
     ) -> Result<Vec<Patch>> {
         let (seen, known) = (photograph.channels(), lighting.sun.channels());
@@ -100,7 +109,7 @@ impl Target {
             let problem = format!("the photograph has {seen} channels, the camera {known}");
             return Err(Error::picture(path, problem, "give the photograph's --camera"));
         }
-        let measured = measure_patches(photograph, self.name, corners, self.rows, self.cols)?;
+        let measured = measure_patches(photograph, self.name, corners, lens, [self.rows, self.cols])?;
         let patch = |(measured, (name, reflectance)): (FacetMeasurement, &(String, Vec<f64>))| {
             let clipped = measured.clipped as f64;
             let wrong = |problem: &str, remedy: String| {

@@ -1,0 +1,74 @@
+//! Pictures of what was measured.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use vfold::image::{FacetMeasurement, Grid, Homography, Photograph, PixelRun, write_overlay, write_preview};
+use vfold::{Error, Result};
+
+#[derive(Args)]
+pub struct PictureArgs {
+    /// Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE's
+    #[arg(long, value_name = "FILE.png")]
+    overlay: Option<PathBuf>,
+    /// Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above
+    #[arg(long, value_name = "FILE.png")]
+    preview: Option<PathBuf>,
+}
+
+impl PictureArgs {
+    /// # Errors
+    /// [`Error::Usage`] if several photographs would be drawn into one file.
+    pub fn check(&self, images: &[PathBuf]) -> Result<()> {
+        for (flag, file) in [("--overlay", &self.overlay), ("--preview", &self.preview)] {
+            let shared = file.as_deref().is_some_and(|file| for_image(file, "") == file);
+            if shared && images.len() > 1 {
+                let problem = format!("{} photographs do not go into one picture", images.len());
+                return Err(Error::usage(flag, problem, "write {} for their names, as in overlay-{}.png"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes previews if they are asked for; whether they are.
+    ///
+    /// # Errors
+    /// As `open` and [`write_preview`].
+    pub fn preview(&self, images: &[PathBuf], open: impl Fn(&Path) -> Result<Photograph>) -> Result<bool> {
+        let Some(file) = &self.preview else { return Ok(false) };
+        for image in images {
+            write_preview(&for_image(file, &name(image)), &open(image)?)?;
+        }
+        Ok(true)
+    }
+
+    /// Draws the overlay if it is asked for.
+    ///
+    /// # Errors
+    /// As [`write_overlay`].
+    pub fn overlay(
+        &self,
+        image: &Path,
+        photograph: &Photograph,
+        grids: &[Grid],
+        facets: &[FacetMeasurement],
+    ) -> Result<()> {
+        let Some(file) = &self.overlay else { return Ok(()) };
+        let left_out: Vec<PixelRun> = facets.iter().flat_map(|facet| facet.left_out.clone()).collect();
+        write_overlay(&for_image(file, &name(image)), photograph, grids, &left_out)
+    }
+}
+
+/// Panels as grids of facets.
+pub fn facet_grids(panels: &[Homography], row_edges: &[f64], cols: usize) -> Vec<Grid> {
+    panels.iter().map(|panel| Grid::new(panel.clone(), row_edges, cols)).collect()
+}
+
+fn for_image(file: &Path, name: &str) -> PathBuf {
+    PathBuf::from(file.to_string_lossy().replace("{}", name))
+}
+
+/// A sample, and what is drawn of it, is called after its photograph.
+pub fn name(image: &Path) -> String {
+    image.file_stem().unwrap_or(image.as_os_str()).to_string_lossy().into_owned()
+}

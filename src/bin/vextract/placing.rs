@@ -1,0 +1,80 @@
+//! Where the panels are seen exactly.
+
+use clap::Args;
+use vfold::cli;
+use vfold::image::{Homography, Lens, Photograph, Refinement, refine};
+use vfold::{Error, Result};
+
+#[derive(Args)]
+pub struct PlacingArgs {
+    /// Move the panels' corners to the edges and the crease within PX pixels [PX: 6]
+    #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
+    refine: Option<f64>,
+    /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side
+    #[arg(long, value_name = "K1,K2", value_parser = coefficients, allow_hyphen_values = true)]
+    distortion: Option<[f64; 2]>,
+}
+
+/// Panels in a photograph.
+pub struct Placed {
+    pub panels: Vec<Homography>,
+    pub refinement: Option<Refinement>,
+    pub distortion: Option<[f64; 2]>,
+    pub lens: Lens,
+}
+
+impl PlacingArgs {
+    /// # Errors
+    /// [`Error::Usage`] if the reach is no distance.
+    pub fn check(&self) -> Result<()> {
+        match self.refine {
+            Some(px) if !(px > 0.0 && px <= MOST_PX) => Err(Error::usage(
+                "--refine",
+                format!("{px} px is no reach"),
+                "give 1 to 100, such as --refine=6",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Panels with the given corners, refined if asked for, behind the lens.
+    ///
+    /// # Errors
+    /// As [`Lens::new`], [`refine`] and [`Homography::through`].
+    pub fn place(&self, photograph: &Photograph, panels: &[Homography]) -> Result<Placed> {
+        let lens = self.distortion.map(|k| Lens::new(k, photograph.width(), photograph.height()));
+        let lens = lens.transpose()?.unwrap_or(Lens::STRAIGHT);
+        let given: Vec<_> = panels.iter().map(|panel| *panel.corners()).collect();
+        let refinement = self.refine.map(|px| refine(photograph, &given, &lens, px)).transpose()?;
+        let corners = refinement.as_ref().map_or(&given, |refinement| &refinement.panels);
+        let panels =
+            corners.iter().map(|corners| Homography::through(lens, *corners)).collect::<Result<_>>()?;
+        Ok(Placed { panels, refinement, distortion: self.distortion, lens })
+    }
+}
+
+/// Corners further off are better given anew.
+const MOST_PX: f64 = 100.0;
+
+/// Says how far corners were moved if `verbose`, and that there was nothing to move them to unless `quiet`.
+pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
+    let missing = refinement.sides_without_edge.join(", ");
+    if verbose {
+        let panel = |moved: &[f64; 4]| moved.map(|px| format!("{px:.2}")).join(" ");
+        let moved: Vec<_> = refinement.moved_px.iter().map(panel).collect();
+        let missing = if missing.is_empty() { String::new() } else { format!("; no edge at {missing}") };
+        cli::say("vextract", &format!("{name}: corners moved by {} px{missing}", moved.join(" / ")));
+    } else if !quiet && refinement.sides_without_edge.iter().any(|side| *side != "crease") {
+        let remedy = "look at --overlay";
+        cli::say("vextract", &format!("{name}: no edge at {missing}, which stay where they are; {remedy}"));
+    }
+}
+
+fn coefficients(text: &str) -> std::result::Result<[f64; 2], String> {
+    let parse = |part: &str| part.trim().parse::<f64>().ok();
+    let pair = text.split_once(',').unwrap_or((text, "0"));
+    match (parse(pair.0), parse(pair.1)) {
+        (Some(k1), Some(k2)) => Ok([k1, k2]),
+        _ => Err("write K1,K2 or K1, such as -0.021,0.003".to_owned()),
+    }
+}
