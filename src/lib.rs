@@ -33,7 +33,7 @@
 //!                                     forward -> image -> files
 //!               score, colorimetry -> spectrum                          all -> error
 //! ```
-//! JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
+//! JSON is known to [`stream`] alone, that of cameras included; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 
 pub mod camera;
 pub mod cli;

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use super::corners::{PANEL_CORNERS, check_inside};
 use super::homography::{Homography, Point};
-use super::photograph::{Photograph, Pixel};
+use super::photograph::{Layer, Photograph};
+use super::pixel::Pixel;
 use super::pixel_area::Quadrilateral;
 use super::plane_fit::{Estimate, PixelSums, Run};
 use crate::Result;
@@ -21,14 +22,48 @@ pub struct FacetMeasurement {
     /// Mean linear light per channel, 1 at the white level; none if no pixel is usable.
     pub mean: Option<Vec<f64>>,
     /// Standard error of the mean per channel, from the spread about a plane; none if there are too few pixels to
-    /// tell. Noise that neighbouring pixels share, as in a JPEG, makes it too small.
+    /// tell. It takes the noise of every pixel for its own: see [`FacetMeasurement::with_shared_noise`].
     pub standard_error: Option<Vec<f64>>,
-    /// Usable pixels; a pixel shared among facets counts by the part of its area that lies in this one.
+    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its area that
+    /// lies in this one.
     pub pixels: f64,
     /// Pixels left out because a channel is clipped.
     pub clipped: usize,
     /// Pixels left out because a channel is not finite or the pixel is transparent.
     pub not_finite: usize,
+}
+
+impl FacetMeasurement {
+    /// Of no channels and no pixels.
+    const NOTHING: Self = Self {
+        mean: Some(Vec::new()),
+        standard_error: Some(Vec::new()),
+        pixels: 0.0,
+        clipped: 0,
+        not_finite: 0,
+    };
+
+    /// The same with standard errors for noise that so many pixels share, per channel as
+    /// [`pixels_sharing_noise`](super::pixels_sharing_noise) gives it.
+    #[must_use]
+    pub fn with_shared_noise(mut self, pixels: &[f64]) -> Self {
+        for (error, pixels) in self.standard_error.iter_mut().flatten().zip(pixels) {
+            *error *= pixels.sqrt();
+        }
+        self
+    }
+
+    /// Both measurements as one; a number that one of them lacks is none.
+    fn with_channels(self, others: Self) -> Self {
+        let joined = |own: Option<Vec<f64>>, others: Option<Vec<f64>>| Some([own?, others?].concat());
+        Self {
+            mean: joined(self.mean, others.mean),
+            standard_error: joined(self.standard_error, others.standard_error),
+            pixels: self.pixels + others.pixels,
+            clipped: self.clipped + others.clipped,
+            not_finite: self.not_finite + others.not_finite,
+        }
+    }
 }
 
 /// Measures every facet of one panel or more.
@@ -88,32 +123,38 @@ struct Facet<'a> {
 
 impl Facet<'_> {
     fn measure(&self, photograph: &Photograph, margin_px: f64) -> FacetMeasurement {
+        let each = photograph.layers().map(|layer| self.tally(layer, margin_px).finish(layer.channels()));
+        each.fold(FacetMeasurement::NOTHING, FacetMeasurement::with_channels)
+    }
+
+    /// Sums over the pixels of one layer of a photograph.
+    fn tally(&self, layer: Layer, margin_px: f64) -> Tally {
         let mut tally = Tally::default();
         let panel = Quadrilateral::new(self.panel.corners(), margin_px);
         let facet = Quadrilateral::new(&self.panel.rectangle(self.u, self.v), 0.0);
-        let (width, height) = (photograph.width(), photograph.height());
+        let (width, height) = layer.size();
         let run_length = facet.columns(width).len().div_ceil(RUNS).max(1);
         for y in facet.rows(height) {
             let usable = panel.whole_columns(y, width);
             let touched = intersection(&facet.touched_columns(y, width), &usable);
             let whole = intersection(&facet.whole_columns(y, width), &touched);
             for x in whole.clone().step_by(run_length) {
-                self.add(&mut tally, photograph, x..whole.end.min(x + run_length), y, 1.0);
+                self.add(&mut tally, layer, x..whole.end.min(x + run_length), y, 1.0);
             }
             for x in (touched.start..whole.start).chain(whole.end..touched.end) {
                 let overlap = facet.overlap(x, y);
                 if overlap > NO_OVERLAP {
-                    self.add(&mut tally, photograph, x..x + 1, y, overlap);
+                    self.add(&mut tally, layer, x..x + 1, y, overlap);
                 }
             }
         }
-        tally.finish(photograph.channels())
+        tally
     }
 
     /// Adds a run of pixels of row `y`, of each of which the part `overlap` is in the facet.
-    fn add(&self, tally: &mut Tally, photograph: &Photograph, columns: Range<usize>, y: usize, overlap: f64) {
+    fn add(&self, tally: &mut Tally, layer: Layer, columns: Range<usize>, y: usize, overlap: f64) {
         let mut run = Run::default();
-        photograph.visit(columns, y, |x, pixel| match pixel {
+        layer.visit(columns, y, |x, pixel| match pixel {
             Pixel::Light(light) => run.add(x, light),
             Pixel::Clipped => tally.clipped += 1,
             Pixel::NotFinite => tally.not_finite += 1,

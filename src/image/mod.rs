@@ -9,22 +9,38 @@
 
 mod corners;
 mod decode;
+mod development;
 mod exif;
 mod facets;
 mod homography;
+mod info;
+mod interleaved;
+mod mosaic;
 mod orientation;
 mod photograph;
+mod pixel;
 mod pixel_area;
 mod plane_fit;
+#[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
+mod raw;
 mod scale;
+#[cfg(feature = "raw")]
+mod sensor;
+mod shared_noise;
+mod sites;
 mod transfer;
 mod write;
 
 pub use corners::{PANEL_CORNERS, check_inside, parse_corners};
+pub use development::Development;
 pub use facets::{FacetMeasurement, measure};
 pub use homography::{Homography, Point};
+pub use info::{PhotographInfo, SensorInfo};
+pub use mosaic::Mosaic;
 pub use orientation::Orientation;
-pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use photograph::Photograph;
+pub use pixel::Pixel;
 pub use scale::ReadOptions;
+pub use shared_noise::pixels_sharing_noise;
 pub use transfer::{Transfer, srgb_to_linear};
 pub use write::{write_linear, write_srgb_png};

@@ -3,12 +3,15 @@
 //! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields they know
 //! through typed views and add their own.
 
+mod development;
 mod estimate;
 mod fields;
+mod json_file;
 mod model;
 mod npy;
 mod photograph;
 mod plan;
+mod rawtoaces;
 mod reader;
 mod response;
 mod sample;
@@ -17,11 +20,13 @@ mod scene;
 mod unknowns;
 mod writer;
 
+pub use development::read_development;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
+pub use rawtoaces::camera;
 pub use reader::{Reader, Record, Transform, pipe};
 pub use sample::{Colours, ReflectanceRecord, Sample, summary};
 pub use saves::Saves;

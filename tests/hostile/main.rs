@@ -3,6 +3,7 @@
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod cameras;
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;

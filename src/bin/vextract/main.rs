@@ -14,6 +14,7 @@ use clap::Parser;
 use reading::ReadingArgs;
 use regions::RegionArgs;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::image::Photograph;
 use vfold::stream::{Output, Reader, Record};
 use vfold::{Error, Result};
 
@@ -28,13 +29,13 @@ use vfold::{Error, Result};
                   corner of the upright picture; the centre of the first pixel is at 0.5,0.5."
 )]
 struct Args {
-    /// Photographs: PNG, TIFF, OpenEXR or JPEG
+    /// Photographs: PNG, TIFF, OpenEXR or JPEG; RAW if built with the feature raw
     #[arg(value_name = "IMAGE", required_unless_present_any = ["generate", "list"])]
     images: Vec<PathBuf>,
     /// Scene from vkernel [default: standard input]
     #[arg(long, value_name = "FILE", default_value = "-", hide_default_value = true)]
     scene: String,
-    /// Camera: built-in name or CSV file [default: by the photograph's EXIF]
+    /// Camera: built-in name, CSV file or rawtoaces JSON [default: by the photograph's EXIF]
     #[arg(long, value_name = "SPEC")]
     camera: Option<String>,
     #[command(flatten)]
@@ -62,6 +63,8 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let panels = args.regions.panels()?;
     args.calibration.check()?;
+    let options = args.reading.options()?;
+    let open = |path: &PathBuf| Photograph::open(path, &options);
     let mut reader = Reader::open(&args.scene)?;
     let Some(Record::Scene(mut scene)) = reader.read()? else {
         return Err(Error::Record {
@@ -71,7 +74,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             remedy: "pipe vkernel into vextract, or give --scene FILE".to_owned(),
         });
     };
-    let first = args.reading.open(&args.images[0]);
+    let first = open(&args.images[0]);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         scene.set_optics(&args.optics.resolve(camera)?)?;
     }
@@ -80,7 +83,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     let fold = scene.fold()?;
     let id = scene.id()?;
-    let samples = std::iter::once(first).chain(args.images[1..].iter().map(|path| args.reading.open(path)));
+    let samples = std::iter::once(first).chain(args.images[1..].iter().map(open));
     let mut made = samples
         .zip(&args.images)
         .map(|(photograph, path)| sample::sample(args, &id, &fold, &panels, path, photograph));

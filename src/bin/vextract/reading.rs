@@ -1,9 +1,8 @@
 //! How photographs are read.
 
-use std::path::Path;
-
 use clap::Args;
-use vfold::image::{Photograph, ReadOptions, Transfer};
+use vfold::image::{ReadOptions, Transfer};
+use vfold::stream::read_development;
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -17,16 +16,21 @@ pub struct ReadingArgs {
     /// Stored number that means 1, from which on pixels are clipped
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
+    /// Undo the white balance and the matrix with which the camera made an sRGB picture
+    #[arg(long, value_name = "FILE.json")]
+    undo: Option<String>,
 }
 
 impl ReadingArgs {
-    pub fn open(&self, path: &Path) -> Result<Photograph> {
-        let options = ReadOptions {
+    /// # Errors
+    /// If what the camera did cannot be read.
+    pub fn options(&self) -> Result<ReadOptions> {
+        Ok(ReadOptions {
             transfer: self.transfer,
             black_level: self.black_level,
             white_level: self.white_level,
-        };
-        Photograph::open(path, &options)
+            development: self.undo.as_deref().map(read_development).transpose()?,
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use vfold::cli;
 use vfold::geometry::Fold;
-use vfold::image::{Homography, Photograph, measure};
+use vfold::image::{Homography, Photograph, measure, pixels_sharing_noise};
 use vfold::stream::{ImageRecord, Sample};
 use vfold::{Error, Result};
 
@@ -21,7 +21,11 @@ pub fn sample(
     let photograph = photograph?;
     let grid = fold.facets();
     let row_edges = fold.spacing().edges(grid.rows);
-    let facets = measure(&photograph, panels, &row_edges, grid.cols, args.regions.margin)?;
+    let sharing_noise = pixels_sharing_noise(&photograph, panels);
+    let facets: Vec<_> = measure(&photograph, panels, &row_edges, grid.cols, args.regions.margin)?
+        .into_iter()
+        .map(|facet| facet.with_shared_noise(&sharing_noise))
+        .collect();
     if args.common.verbose {
         let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
         let not_finite: usize = facets.iter().map(|facet| facet.not_finite).sum();
@@ -35,7 +39,7 @@ pub fn sample(
     }
     let mut sample = Sample::new(scene, &name(path))?;
     sample.set_photograph(
-        &ImageRecord::new(path, photograph.info(), panels, args.regions.margin),
+        &ImageRecord::new(path, photograph.info(), panels, args.regions.margin, &sharing_noise),
         &facets,
         2 * grid.len(),
     )?;
