@@ -82,7 +82,17 @@ impl Interleaved {
 
     /// Shows the pixels in `columns` of row `y` one after another, with their columns.
     #[inline]
-    pub fn visit(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+    pub fn visit(&self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
+        match &self.development {
+            None => self.visit_linear(columns, y, visitor),
+            Some(development) => {
+                self.visit_linear(columns, y, |x, pixel| visitor(x, pixel.undeveloped(development)));
+            }
+        }
+    }
+
+    #[inline]
+    fn visit_linear(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
         let integer = |v: usize| self.table[v];
         let float = |v: f32| self.scale.linear(v.into());
         match &self.samples {
@@ -107,8 +117,7 @@ impl Interleaved {
             let channel = |k: usize| linear(stored[first + self.colours[k]]);
             let light = [channel(0), channel(1), channel(2)];
             let transparent = self.alpha.is_some_and(|offset| stored[first + offset].into() <= 0.0);
-            let pixel = Pixel::new(light, transparent);
-            visitor(x, self.development.as_ref().map_or(pixel, |development| pixel.undeveloped(development)));
+            visitor(x, Pixel::new(light, transparent));
         }
     }
 }

@@ -1,5 +1,5 @@
 # A camera's own picture: white balance and matrix to sRGB, cut to 0..1, curve, 8 bits. Told what the camera did, vextract
-# gives the camera's RGB again; what the camera cut is counted and left out.
+# gives the camera's RGB again; what the camera cut is counted and left out. Exposed four times as long, much is cut.
 vkernel --angle-deg 50 --facets 2x2 -o scene.json
 cat > did.json <<'END'
 {"white_balance_gains": [2.0, 1.0, 1.5],
@@ -24,6 +24,8 @@ import json, sys
 import numpy as np
 photo, exposure = sys.argv[1:]
 limit = {"linear.exr": 1e-3, "srgb.png": 2e-3, "srgb.jpg": 5e-3}[photo]
+if exposure == "4": # the rest of a facet that is clipped in part says less of it
+    limit = 1e-2
 reference, got = (np.array(np.load(name + ".npy"), float) for name in ("photo.exr", photo))
 error, seen = np.nanmax(np.abs(got / reference - 1)), np.isfinite(got).all(-1).sum()
 undone = json.loads(open("sample.ndjson").readlines()[-1])["image"]["undone"]
