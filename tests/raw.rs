@@ -83,7 +83,6 @@ fn vextract_records_what_was_decided() {
 
 /// A DNG of 16-bit numbers: TIFF entries of tag, type and values, in order of tags.
 struct Dng {
-    width: u32,
     entries: Vec<(u16, u16, Vec<u32>)>,
     samples: Vec<u16>,
 }
@@ -111,7 +110,7 @@ impl Dng {
             (50714, LONG, vec![100]),
             (50717, LONG, vec![1100]),
         ];
-        Self { width, entries, samples }
+        Self { entries, samples }
     }
 
     fn with(mut self, tag: u16, kind: u16, values: &[u32]) -> Self {

@@ -163,7 +163,7 @@ fn scaled(random: &mut ChaCha8Rng) -> Photograph {
     let small: Vec<f64> = (0..half * half).map(|k| noisy(random, k % half, k / half, 2.0)).collect();
     let weights = |at: usize| {
         let near = at / 2;
-        let far = if at % 2 == 0 { near.saturating_sub(1) } else { (near + 1).min(half - 1) };
+        let far = if at.is_multiple_of(2) { near.saturating_sub(1) } else { (near + 1).min(half - 1) };
         [(near, 0.75), (far, 0.25)]
     };
     picture(|x, y, _| {
@@ -201,6 +201,9 @@ fn panel() -> Homography {
     Homography::from_unit_square(corners.map(|(x, y)| Point::new(x, y))).unwrap()
 }
 
+/// What makes a photograph of the light, with its noise.
+type Camera = fn(&mut ChaCha8Rng) -> Photograph;
+
 /// Facet means of the light itself, from a photograph without noise.
 fn noise_free() -> Vec<f64> {
     let photograph = picture(|x, y, _| light(x as f64 + 0.5, y as f64 + 0.5));
@@ -209,7 +212,7 @@ fn noise_free() -> Vec<f64> {
 }
 
 /// Errors of all facets and channels, in standard errors as they are with and without regard to shared noise.
-fn errors_in_standard_errors(take: fn(&mut ChaCha8Rng) -> Photograph) -> [f64; 2] {
+fn errors_in_standard_errors(take: Camera) -> [f64; 2] {
     let truth = noise_free();
     let mut errors = [Vec::new(), Vec::new()];
     for seed in 0..4 {
@@ -231,7 +234,7 @@ fn errors_in_standard_errors(take: fn(&mut ChaCha8Rng) -> Photograph) -> [f64; 2
 
 #[test]
 fn standard_errors_know_of_shared_noise() {
-    let kinds: [(&str, fn(&mut ChaCha8Rng) -> Photograph); 5] = [
+    let kinds: [(&str, Camera); 5] = [
         ("independent", independent),
         ("mosaic", mosaic),
         ("demosaiced", demosaiced),
