@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
+use crate::stream::{self, CameraRecord, Optics, Output, SpectrumRecord};
 
 /// Flags that all tools have.
 #[derive(Args, Clone, Debug)]
@@ -223,10 +223,10 @@ impl OpticsArgs {
     /// was not measured.
     ///
     /// # Errors
-    /// As [`spectrum::camera`] and [`spectrum::illuminant`], or if an illuminant does not cover the wavelengths.
+    /// As [`stream::camera`] and [`spectrum::illuminant`], or if an illuminant does not cover the wavelengths.
     pub fn resolve(&self, camera: &str) -> Result<Optics> {
         let grid = self.wavelengths_nm.clone();
-        let camera = spectrum::camera(camera)?;
+        let camera = stream::camera(camera)?;
         let on_grid = |channel: &Spectrum| channel.on(&grid, Outside::Zero);
         let light = |spec: &String| {
             let spectrum = spectrum::illuminant(spec)?;

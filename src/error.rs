@@ -32,10 +32,10 @@ pub enum Error {
     Output(#[source] io::Error),
 
     // ---- the stream ----
-    /// A line of the stream is not a record.
+    /// A line of the stream is not a record, or one of another JSON file is not what it should be.
     #[error("{path}:{line}: {problem}; {remedy}")]
     Record {
-        /// The stream's file, `-` for standard input.
+        /// The file, `-` for standard input.
         path: String,
         /// Line number, from 1.
         line: usize,

@@ -34,7 +34,8 @@
 //!                                     forward -> image -> colorimetry, files
 //!               score, colorimetry -> spectrum                          all -> error
 //! ```
-//! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, pixels to [`image`] alone, bounds and priors without optics to [`solve`].
+//! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of
+//! cameras included; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 
 pub mod calibrate;
 pub mod camera;

@@ -9,18 +9,27 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use super::exif::{self, CameraNotes};
 use crate::{Error, Result};
 
+/// What a file turned out to hold.
+pub(super) enum Decoded {
+    Picture(Picture),
+    /// A camera's RAW file, which was not decoded.
+    Raw,
+}
+
 /// A picture as it is stored, not yet turned upright, with what the camera wrote beside it.
-pub(super) struct Decoded {
+pub(super) struct Picture {
     pub format: ImageFormat,
-    pub picture: DynamicImage,
+    pub pixels: DynamicImage,
     pub camera: CameraNotes,
 }
 
 /// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
-const MAX_BYTES: u64 = 2 << 30;
+pub(super) const MAX_BYTES: u64 = 2 << 30;
 /// Largest width and height, px.
 const MAX_SIDE: u32 = 1 << 16;
 
+pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";
+pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it again";
 const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 
 /// Reads and decodes a picture file; the content, not the name, says which format it is.
@@ -28,23 +37,44 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     let failed = |source| Error::file(path.display(), source);
     let file = File::open(path).map_err(failed)?;
     if file.metadata().map_err(failed)?.len() > MAX_BYTES {
-        return Err(Error::picture(path, "the file is larger than 2 GiB", "crop the picture to the sheet"));
+        return Err(Error::picture(path, "the file is larger than 2 GiB", TOO_LARGE));
     }
     let mut file = BufReader::new(file);
     let head = file.fill_buf().map_err(failed)?;
     if head.is_empty() {
         return Err(Error::picture(path, "the file is empty", "copy it again"));
     }
+    if begins_like_raw(head) {
+        return Ok(Decoded::Raw);
+    }
     let format = image::guess_format(head).ok().filter(is_supported);
     let format =
         format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
-    let (picture, block) = decode_as(path, &mut file, format)?;
-    if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
-        return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
+    if format != ImageFormat::Tiff {
+        let (pixels, block) = decode_as(path, &mut file, format)?;
+        if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
+            return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
+        }
+        return Ok(Decoded::Picture(Picture { format, pixels, camera: exif::read(block) }));
     }
-    let block =
-        if format == ImageFormat::Tiff { Some(exif::tiff_tags(&mut file).map_err(failed)?) } else { block };
-    Ok(Decoded { format, picture, camera: exif::read(block) })
+    let camera = exif::read(Some(exif::tiff_tags(&mut file).map_err(failed)?));
+    if camera.is_raw {
+        return Ok(Decoded::Raw);
+    }
+    file.rewind().map_err(failed)?;
+    let (pixels, _) = decode_as(path, &mut file, format)?;
+    Ok(Decoded::Picture(Picture { format, pixels, camera }))
+}
+
+/// First bytes of the RAW files that are not, or not only, laid out as TIFF: where they stand, and what they are.
+const RAW_MARKS: [(usize, &[u8]); 3] = [
+    (0, b"FUJIFILMCCD-RAW"), // RAF
+    (4, b"ftypcrx "),        // CR3
+    (8, b"CR\x02"),          // CR2
+];
+
+fn begins_like_raw(head: &[u8]) -> bool {
+    RAW_MARKS.iter().any(|(at, mark)| head.get(*at..).is_some_and(|rest| rest.starts_with(mark)))
 }
 
 fn is_supported(format: &ImageFormat) -> bool {
@@ -67,7 +97,7 @@ fn decode_as(
     }
     if decoder.total_bytes() > MAX_BYTES {
         let problem = format!("{width} x {height} px would take more than 2 GiB");
-        return Err(Error::picture(path, problem, "crop the picture to the sheet"));
+        return Err(Error::picture(path, problem, TOO_LARGE));
     }
     let block = decoder.exif_metadata().ok().flatten();
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| undecodable(path, error))?;
@@ -87,11 +117,14 @@ fn undecodable(path: &Path, error: ImageError) -> Error {
     let remedy = match &error {
         ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
         ImageError::Unsupported(_) => RESAVE,
-        _ => "the file is damaged or cut short: copy it again",
+        _ => DAMAGED,
     };
-    // the decoders' messages may have several lines
-    let problem = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
-    Error::picture(path, problem, remedy)
+    Error::picture(path, one_line(&error.to_string()), remedy)
+}
+
+/// A decoder's message, which may have several lines, in one.
+pub(super) fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Whether a JPEG reaches its end marker; the decoder paints what is missing grey and does not say so.

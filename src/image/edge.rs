@@ -9,7 +9,8 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::distortion::Lens;
 use super::homography::Point;
-use super::photograph::{Photograph, Pixel};
+use super::photograph::Photograph;
+use super::pixel::Pixel;
 use super::pixel_area::Quadrilateral;
 
 /// Pieces along a side.

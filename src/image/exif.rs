@@ -5,12 +5,12 @@
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-use exif::{Exif, In, Reader, Tag, Value};
+use exif::{Context, Exif, In, Reader, Tag, Value};
 
 use super::orientation::Orientation;
 
 /// The few EXIF fields that matter to a measurement.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct CameraNotes {
     pub make: Option<String>,
     pub model: Option<String>,
@@ -18,6 +18,8 @@ pub(super) struct CameraNotes {
     pub f_number: Option<f64>,
     pub iso: Option<u32>,
     pub orientation: Orientation,
+    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
+    pub is_raw: bool,
     pub notes: Vec<String>,
 }
 
@@ -61,6 +63,7 @@ pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
         iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
         orientation: field(Tag::Orientation)
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
+        is_raw: exif.as_ref().is_some_and(is_raw),
         notes,
     }
 }
@@ -76,6 +79,18 @@ fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
         })
         .map_err(|error| notes.push(format!("EXIF: {error}; all of it is ignored")))
         .ok()
+}
+
+/// Whether the first directory is that of a DNG, of a mosaic, or of a preview: then the picture itself is the sensor's, as in
+/// NEF and ARW.
+fn is_raw(exif: &Exif) -> bool {
+    const DNG_VERSION: Tag = Tag(Context::Tiff, 0xc612);
+    const NEW_SUBFILE_TYPE: Tag = Tag(Context::Tiff, 0xfe);
+    const MOSAIC: u32 = 32803;
+    let number = |tag| exif.get_field(tag, In::PRIMARY).and_then(|field| field.value.get_uint(0));
+    number(DNG_VERSION).is_some()
+        || number(Tag::PhotometricInterpretation) == Some(MOSAIC)
+        || number(NEW_SUBFILE_TYPE).is_some_and(|kind| kind & 1 == 1)
 }
 
 fn orientation(value: &Value, notes: &mut Vec<String>) -> Orientation {
@@ -148,6 +163,20 @@ mod tests {
         let camera = read(Some(block(&[make, orientation])));
         assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
         assert_eq!(camera.notes.len(), 1);
+    }
+
+    #[test]
+    fn raw_files_are_told_from_pictures() {
+        for (entry, raw) in [
+            ((0xfe, 4, 1, 0), false),  // the whole picture
+            ((0xfe, 4, 1, 1), true),   // a preview
+            ((0xfe, 4, 1, 2), false),  // a page
+            ((0x106, 3, 1, 2), false), // RGB
+            ((0x106, 3, 1, 32803), true),
+            ((0xc612, 1, 4, 0x0401), true),
+        ] {
+            assert_eq!(read(Some(block(&[entry]))).is_raw, raw, "{entry:?}");
+        }
     }
 
     #[test]

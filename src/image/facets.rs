@@ -12,7 +12,8 @@ use rayon::prelude::*;
 use super::corners::is_inside;
 use super::homography::{Homography, Point};
 use super::outliers::{Placed, without_outliers};
-use super::photograph::{Photograph, Pixel};
+use super::photograph::{Layer, Photograph};
+use super::pixel::Pixel;
 use super::pixel_area::{Quadrilateral, Sides, sense};
 use super::plane_fit::{Estimate, Run};
 use crate::{Error, Result};
@@ -23,9 +24,10 @@ pub struct FacetMeasurement {
     /// Mean linear light per channel, 1 at the white level; none if no pixel is usable or the facet reaches out of the picture.
     pub mean: Option<Vec<f64>>,
     /// Standard error of the mean per channel, from the spread about a plane; none if there are too few pixels to
-    /// tell. Noise that neighbouring pixels share, as in a JPEG, makes it too small.
+    /// tell. It takes the noise of every pixel for its own: see [`FacetMeasurement::with_shared_noise`].
     pub standard_error: Option<Vec<f64>>,
-    /// Usable pixels; a pixel shared among facets counts by the part of its area that lies in this one.
+    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its area that
+    /// lies in this one.
     pub pixels: f64,
     /// Pixels left out because a channel is clipped.
     pub clipped: usize,
@@ -44,6 +46,43 @@ pub struct PixelRun {
     pub columns: Range<usize>,
     /// Their row.
     pub row: usize,
+}
+
+impl FacetMeasurement {
+    /// Of no channels and no pixels.
+    const NOTHING: Self = Self {
+        mean: Some(Vec::new()),
+        standard_error: Some(Vec::new()),
+        pixels: 0.0,
+        clipped: 0,
+        not_finite: 0,
+        outliers: 0,
+        left_out: Vec::new(),
+    };
+
+    /// The same with standard errors for noise that so many pixels share, per channel as
+    /// [`pixels_sharing_noise`](super::pixels_sharing_noise) gives it.
+    #[must_use]
+    pub fn with_shared_noise(mut self, pixels: &[f64]) -> Self {
+        for (error, pixels) in self.standard_error.iter_mut().flatten().zip(pixels) {
+            *error *= pixels.sqrt();
+        }
+        self
+    }
+
+    /// Both measurements as one; a number that one of them lacks is none.
+    fn with_channels(self, others: Self) -> Self {
+        let joined = |own: Option<Vec<f64>>, others: Option<Vec<f64>>| Some([own?, others?].concat());
+        Self {
+            mean: joined(self.mean, others.mean),
+            standard_error: joined(self.standard_error, others.standard_error),
+            pixels: self.pixels + others.pixels,
+            clipped: self.clipped + others.clipped,
+            not_finite: self.not_finite + others.not_finite,
+            outliers: self.outliers + others.outliers,
+            left_out: [self.left_out, others.left_out].concat(),
+        }
+    }
 }
 
 /// Measures every facet of one panel or more.
@@ -90,7 +129,7 @@ pub fn measure(
     };
     for k in 0..panels.len() {
         let mut facets = (k * rows * cols..(k + 1) * rows * cols).map(facet);
-        if !facets.any(|facet| facet.is_inside(photograph)) {
+        if !facets.any(|facet| facet.is_inside((photograph.width(), photograph.height()))) {
             return Err(outside(k, photograph));
         }
     }
@@ -116,16 +155,21 @@ struct Facet<'a> {
 
 impl Facet<'_> {
     fn measure(&self, photograph: &Photograph, margin_px: f64) -> FacetMeasurement {
-        let mut tally = Tally::default();
-        if self.is_inside(photograph) {
-            self.cells().for_each(|cell| self.tally_cell(&cell, photograph, margin_px, &mut tally));
-        }
-        tally.finish(photograph.channels())
+        let each = photograph.layers().map(|layer| self.tally(layer, margin_px).finish(layer.channels()));
+        each.fold(FacetMeasurement::NOTHING, FacetMeasurement::with_channels)
     }
 
-    /// Whether the whole facet lies in the picture.
-    fn is_inside(&self, photograph: &Photograph) -> bool {
-        let (width, height) = (photograph.width(), photograph.height());
+    /// The pixels of one layer of a photograph.
+    fn tally(&self, layer: Layer, margin_px: f64) -> Tally {
+        let mut tally = Tally::default();
+        if self.is_inside(layer.size()) {
+            self.cells().for_each(|cell| self.tally_cell(&cell, layer, margin_px, &mut tally));
+        }
+        tally
+    }
+
+    /// Whether the whole facet lies in a picture of that width and height.
+    fn is_inside(&self, (width, height): (usize, usize)) -> bool {
         self.panel.rectangle(self.u, self.v).iter().all(|corner| is_inside(*corner, width, height))
     }
 
@@ -155,31 +199,31 @@ impl Facet<'_> {
     }
 
     /// Places the pixels of a part of the facet.
-    fn tally_cell(&self, cell: &Self, photograph: &Photograph, margin_px: f64, tally: &mut Tally) {
+    fn tally_cell(&self, cell: &Self, layer: Layer, margin_px: f64, tally: &mut Tally) {
         let panel = cell.panel_sides(margin_px);
         let outline = Quadrilateral::new(&cell.panel.rectangle(cell.u, cell.v));
-        let (width, height) = (photograph.width(), photograph.height());
+        let (width, height) = layer.size();
         let run_length = outline.columns(width).len().div_ceil(RUNS).max(1);
         for y in outline.rows(height) {
             let usable = panel.whole_columns(y, width);
             let touched = intersection(&outline.touched_columns(y, width), &usable);
             let whole = intersection(&outline.whole_columns(y, width), &touched);
             for x in whole.clone().step_by(run_length) {
-                self.add(tally, photograph, x..whole.end.min(x + run_length), y, 1.0);
+                self.add(tally, layer, x..whole.end.min(x + run_length), y, 1.0);
             }
             for x in (touched.start..whole.start).chain(whole.end..touched.end) {
                 let overlap = outline.overlap(x, y);
                 if overlap > NO_OVERLAP {
-                    self.add(tally, photograph, x..x + 1, y, overlap);
+                    self.add(tally, layer, x..x + 1, y, overlap);
                 }
             }
         }
     }
 
     /// Adds a run of pixels of row `y`, of each of which the part `overlap` is in the facet.
-    fn add(&self, tally: &mut Tally, photograph: &Photograph, columns: Range<usize>, y: usize, overlap: f64) {
+    fn add(&self, tally: &mut Tally, layer: Layer, columns: Range<usize>, y: usize, overlap: f64) {
         let mut run = Run::default();
-        photograph.visit(columns.clone(), y, |x, pixel| match pixel {
+        layer.visit(columns.clone(), y, |x, pixel| match pixel {
             Pixel::Light(light) => run.add(x, light),
             other => tally.leave_out(other, x, y),
         });

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::photograph::{Photograph, Pixel};
+use super::photograph::Photograph;
+use super::pixel::Pixel;
 use crate::{Error, Result};
 
 /// A photograph of an evenly coloured sheet: where the light falls, and what the lens takes from it towards the corners.
@@ -32,15 +33,21 @@ impl FlatField {
     /// ```
     pub fn new(photograph: Photograph, path: &Path) -> Result<Self> {
         let (width, height) = (photograph.width(), photograph.height());
-        let (mut pixels, mut sums) = (0_usize, [0.0; 3]);
-        for y in 0..height {
-            photograph.visit(0..width, y, |_, pixel| {
-                let Pixel::Light(light) = pixel else { return };
-                pixels += 1;
-                sums.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
-            });
+        let (mut seen, mut counts, mut sums) = (0, [0.0; 3], [0.0; 3]);
+        for layer in photograph.layers() {
+            let numbers = layer.numbers();
+            for y in 0..height {
+                layer.visit(0..width, y, |_, pixel| {
+                    seen += numbers.len();
+                    let Pixel::Light(light) = pixel else { return };
+                    for channel in numbers.clone() {
+                        counts[channel] += 1.0;
+                        sums[channel] += light[channel];
+                    }
+                });
+            }
         }
-        if 2 * pixels < width * height {
+        if 2.0 * counts.iter().sum::<f64>() < seen as f64 {
             let problem = "most of the flat field is clipped or not finite";
             return Err(Error::picture(path, problem, "expose it less, or check --white-level"));
         }
@@ -51,7 +58,7 @@ impl FlatField {
                 "expose it more, or check --black-level",
             ));
         }
-        Ok(Self { photograph, per_mean: sums.map(|sum| pixels as f64 / sum) })
+        Ok(Self { photograph, per_mean: [0, 1, 2].map(|channel| counts[channel] / sums[channel]) })
     }
 
     /// Width and height, px.

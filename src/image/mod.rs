@@ -10,36 +10,52 @@
 
 mod corners;
 mod decode;
+mod development;
 mod distortion;
 mod edge;
 mod exif;
 mod facets;
 mod flat_field;
 mod homography;
+mod info;
+mod interleaved;
+mod mosaic;
 mod orientation;
 mod outliers;
 mod overlay;
 mod patches;
 mod photograph;
+mod pixel;
 mod pixel_area;
 mod plane_fit;
 mod preview;
+#[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
+mod raw;
 mod refine;
 mod scale;
+#[cfg(feature = "raw")]
+mod sensor;
+mod shared_noise;
+mod sites;
 mod transfer;
 mod write;
 
 pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
+pub use development::Development;
 pub use distortion::Lens;
 pub use facets::{FacetMeasurement, PixelRun, measure};
 pub use flat_field::FlatField;
 pub use homography::{Homography, Point};
+pub use info::{PhotographInfo, SensorInfo};
+pub use mosaic::Mosaic;
 pub use orientation::Orientation;
 pub use overlay::{Grid, write_overlay};
 pub use patches::{corner_orders, measure_patches};
-pub use photograph::{Photograph, PhotographInfo, Pixel};
+pub use photograph::Photograph;
+pub use pixel::Pixel;
 pub use preview::write_preview;
 pub use refine::{Refinement, refine};
 pub use scale::ReadOptions;
+pub use shared_noise::pixels_sharing_noise;
 pub use transfer::{Transfer, srgb_to_linear};
 pub use write::{write_linear, write_srgb_png};

@@ -4,6 +4,12 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Orientation(u32);
 
+impl Default for Orientation {
+    fn default() -> Self {
+        Self::UPRIGHT
+    }
+}
+
 impl Orientation {
     /// Stored as it is to be seen.
     pub const UPRIGHT: Self = Self(1);

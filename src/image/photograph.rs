@@ -1,122 +1,48 @@
 //! A photograph as linear light, pixel by pixel.
-//!
-//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large picture
-//! costs little more than decoding it.
 
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use image::{DynamicImage, ImageFormat};
+use image::ImageFormat;
 
-use super::decode::{Decoded, decode};
+use super::decode::{Decoded, Picture, decode};
 use super::exif::CameraNotes;
 use super::flat_field::FlatField;
-use super::orientation::{Layout, Orientation};
+use super::info::PhotographInfo;
+use super::interleaved::Interleaved;
+use super::mosaic::Mosaic;
+use super::pixel::Pixel;
+use super::raw;
 use super::scale::{ReadOptions, Scale};
-use super::transfer::Transfer;
+use super::sites::Sites;
 use crate::{Error, Result};
-
-/// What is known about a photograph besides its pixels.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PhotographInfo {
-    /// The camera's maker.
-    pub make: Option<String>,
-    /// The camera.
-    pub model: Option<String>,
-    /// Exposure time, s.
-    pub exposure_s: Option<f64>,
-    /// Focal length over aperture.
-    pub f_number: Option<f64>,
-    /// ISO sensitivity.
-    pub iso: Option<u32>,
-    /// How the picture was stored; coordinates are those of the upright picture.
-    pub orientation: Orientation,
-    /// Width of the upright picture, px.
-    pub width: usize,
-    /// Height of the upright picture, px.
-    pub height: usize,
-    /// File format, depth and colours as stored: `TIFF, 16-bit, RGB`.
-    pub format: String,
-    /// The curve that was undone, [`Transfer::Linear`] or [`Transfer::Srgb`].
-    pub transfer_used: Transfer,
-    /// The stored number taken as no light.
-    pub black_level: f64,
-    /// The stored number taken as 1.
-    pub white_level: f64,
-    /// What was wrong but did no harm.
-    pub notes: Vec<String>,
-}
-
-impl PhotographInfo {
-    fn new(camera: CameraNotes, stored_size: (usize, usize), format: String, scale: &Scale) -> Self {
-        let (width, height) = camera.orientation.upright_size(stored_size);
-        Self {
-            make: camera.make,
-            model: camera.model,
-            exposure_s: camera.exposure_s,
-            f_number: camera.f_number,
-            iso: camera.iso,
-            orientation: camera.orientation,
-            width,
-            height,
-            format,
-            transfer_used: scale.transfer,
-            black_level: scale.black,
-            white_level: scale.white,
-            notes: camera.notes,
-        }
-    }
-}
-
-/// What a pixel says.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pixel {
-    /// Linear light, 1 at the white level; a grey picture gives three equal numbers.
-    Light([f64; 3]),
-    /// A channel is at or above the white level: the light may have been anything brighter.
-    Clipped,
-    /// A channel is NaN or infinite, or the pixel is fully transparent.
-    NotFinite,
-}
 
 /// A decoded photograph, seen upright.
 #[derive(Debug, Clone)]
 pub struct Photograph {
-    samples: Samples,
-    layout: Layout,
-    /// Colours a pixel, 1 or 3.
-    channels: usize,
-    /// Samples a pixel.
-    stride: usize,
-    /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
-    colours: [usize; 3],
-    alpha: Option<usize>,
-    scale: Scale,
-    /// Linear light of every integer; empty for floats.
-    table: Vec<f64>,
+    pixels: Pixels,
     flat_field: Option<Arc<FlatField>>,
     info: PhotographInfo,
 }
 
-/// Samples as stored, row by row.
 #[derive(Debug, Clone)]
-enum Samples {
-    U8(Vec<u8>),
-    U16(Vec<u16>),
-    F32(Vec<f32>),
+enum Pixels {
+    Interleaved(Box<Interleaved>),
+    Sites(Sites),
 }
 
 impl Photograph {
-    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha.
+    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha; with the
+    /// feature `raw` also a camera's RAW file.
     ///
     /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
     /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB decoded and 65536 px a side.
     ///
     /// # Errors
-    /// [`Error::File`](crate::Error::File) if the file cannot be read, [`Error::Picture`](crate::Error::Picture) if it
-    /// is no picture, damaged, cut short, empty or too large, [`Error::Usage`](crate::Error::Usage) if the white level
-    /// is not above the black level.
+    /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too
+    /// large, or has no colours to undo a development of; [`Error::Usage`] if the white level is not above the black
+    /// level.
     ///
     /// # Example
     /// ```
@@ -129,26 +55,105 @@ impl Photograph {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn open(path: &Path, options: &ReadOptions) -> Result<Self> {
-        let Decoded { format, picture, camera } = decode(path)?;
-        let color = picture.color();
-        let stride = usize::from(color.channel_count());
-        let channels = stride - usize::from(color.has_alpha());
+        let (decoded, undo) = (decode(path)?, options.development.is_some());
+        let no_colours = |what: &str| {
+            let problem = format!("{what} has no white balance and matrix to undo");
+            Error::picture(path, problem, "read it without --undo")
+        };
+        match decoded {
+            Decoded::Raw if undo => Err(no_colours("a RAW file")),
+            Decoded::Raw => raw::open(path, options),
+            Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
+                Err(no_colours("a grey picture"))
+            }
+            Decoded::Picture(picture) => Self::from_picture(picture, options),
+        }
+    }
+
+    fn from_picture(picture: Picture, options: &ReadOptions) -> Result<Self> {
+        let Picture { format, pixels, camera } = picture;
+        let color = pixels.color();
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
-        let stored_size = (picture.width() as usize, picture.height() as usize);
-        let format = describe(format, bits, color.has_color());
-        Ok(Self {
-            samples: Samples::from(picture),
-            layout: camera.orientation.layout(stored_size),
-            channels,
-            stride,
-            colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
-            alpha: color.has_alpha().then_some(channels),
-            table: scale.table(bits),
-            flat_field: None,
-            info: PhotographInfo::new(camera, stored_size, format, &scale),
-            scale,
+        let stored_size = (pixels.width() as usize, pixels.height() as usize);
+        let layout = camera.orientation.layout(stored_size);
+        let info = PhotographInfo {
+            transfer_used: scale.transfer,
+            black_level: vec![scale.black],
+            white_level: vec![scale.white],
+            undone: options.development,
+            ..PhotographInfo::new(camera, stored_size, describe(format, bits, color.has_color()))
+        };
+        let pixels = Interleaved::from_picture(pixels, layout, scale, options.development);
+        Ok(Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info })
+    }
+
+    /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
+    ///
+    /// [`measure`](super::measure) averages each colour's pixels where they are; nothing is interpolated between them.
+    ///
+    /// # Arguments
+    /// - `mosaic`: the colours, from the top left pixel on.
+    /// - `width`, `height`: px, at least 3.
+    /// - `light`: row by row from the top, width x height numbers, infinite where a pixel is clipped.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the picture is smaller or there are not as many numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Mosaic, Photograph, Pixel};
+    /// let light = vec![1.0, 0.5, 1.0, 0.5, 0.25, 0.5, 1.0, 0.5, 1.0];
+    /// let photograph = Photograph::from_mosaic(Mosaic::new("RGGB").unwrap(), 3, 3, light)?;
+    /// assert_eq!(photograph.pixel(1, 1), Pixel::Light([1.0, 0.5, 0.25]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn from_mosaic(mosaic: Mosaic, width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
+        let info = PhotographInfo::new(CameraNotes::default(), (width, height), "mosaic, float".to_owned());
+        Self::from_sites(light, &mosaic, info).ok_or_else(|| {
+            Error::Numeric(format!("not as many numbers as a mosaic of {width} x {height} px has"))
         })
+    }
+
+    /// From the light of a sensor's sites as stored; none if it is not as many as the picture has pixels.
+    pub(super) fn from_sites(light: Vec<f32>, mosaic: &Mosaic, info: PhotographInfo) -> Option<Self> {
+        let sites = Sites::new(light, mosaic, info.orientation, (info.width, info.height))?;
+        Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
+    }
+
+    /// A photograph of linear light that is at hand.
+    ///
+    /// # Arguments
+    /// - `width`, `height`: px, at least 1.
+    /// - `light`: row by row from the top, one number a pixel or three, infinite where it is clipped.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if there are not as many numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel};
+    /// let photograph = Photograph::from_light(1, 2, vec![0.25, 0.5, 0.75, 0.5, f32::INFINITY, 0.25])?;
+    /// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.25, 0.5, 0.75]));
+    /// assert_eq!(photograph.pixel(0, 1), Pixel::Clipped);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn from_light(width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
+        let pixels = width.checked_mul(height).filter(|pixels| *pixels > 0);
+        let channels = [1, 3]
+            .into_iter()
+            .find(|channels| pixels.and_then(|n| n.checked_mul(*channels)) == Some(light.len()));
+        let info = PhotographInfo::new(CameraNotes::default(), (width, height), "linear, float".to_owned());
+        channels.map(|channels| Self::from_stored_light(light, channels, info)).ok_or_else(|| {
+            Error::Numeric(format!("not one number or three for each of {width} x {height} px"))
+        })
+    }
+
+    /// From linear light as stored, 1 or 3 numbers a pixel of the picture.
+    pub(super) fn from_stored_light(light: Vec<f32>, channels: usize, info: PhotographInfo) -> Self {
+        let layout = info.orientation.layout(info.orientation.upright_size((info.width, info.height)));
+        let pixels = Interleaved::from_light(light, layout, channels);
+        Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
     }
 
     /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
@@ -179,7 +184,10 @@ impl Photograph {
     /// Colours of a pixel: 3, or 1 for a grey picture.
     #[must_use]
     pub fn channels(&self) -> usize {
-        self.channels
+        match &self.pixels {
+            Pixels::Interleaved(pixels) => pixels.channels(),
+            Pixels::Sites(_) => 3,
+        }
     }
 
     /// What is known about the photograph besides its pixels.
@@ -188,81 +196,84 @@ impl Photograph {
         &self.info
     }
 
-    /// The pixel in column `x` and row `y` of the upright picture, both below its size.
+    /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean of each
+    /// colour in the nine pixels around it.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
-        let mut pixel = Pixel::NotFinite;
-        self.visit(x..x + 1, y, |_, seen| pixel = seen);
-        pixel
+        let pixel = match &self.pixels {
+            Pixels::Interleaved(pixels) => {
+                let mut pixel = Pixel::NotFinite;
+                pixels.visit(x..x + 1, y, |_, seen| pixel = seen);
+                pixel
+            }
+            Pixels::Sites(sites) => sites.pixel(x, y),
+        };
+        self.flat_field.as_ref().map_or(pixel, |flat| flat.divide(x, y, pixel))
     }
 
-    /// Shows the pixels in `columns` of row `y` one after another, with their columns.
+    /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
+    pub(super) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
+        let colours = match &self.pixels {
+            Pixels::Interleaved(_) => 0..1,
+            Pixels::Sites(_) => 0..3,
+        };
+        colours.map(|colour| Layer { photograph: self, colour })
+    }
+}
+
+/// One of a photograph's layers.
+#[derive(Clone, Copy)]
+pub(super) struct Layer<'a> {
+    photograph: &'a Photograph,
+    colour: usize,
+}
+
+impl Layer<'_> {
+    /// Width and height, px.
+    pub fn size(self) -> (usize, usize) {
+        (self.photograph.width(), self.photograph.height())
+    }
+
+    /// Colours that its pixels have of their own.
+    pub fn channels(self) -> usize {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.channels(),
+            Pixels::Sites(_) => 1,
+        }
+    }
+
+    /// Which of the three numbers of a pixel are its own; a grey pixel has all three, equal.
+    pub fn numbers(self) -> Range<usize> {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(_) => 0..3,
+            Pixels::Sites(_) => self.colour..self.colour + 1,
+        }
+    }
+
+    /// Shows its pixels in `columns` of row `y` one after another, with their columns.
     #[inline]
-    pub(super) fn visit(&self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
-        match &self.flat_field {
+    pub fn visit(self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
+        match &self.photograph.flat_field {
             None => self.visit_uneven(columns, y, visitor),
-            Some(flat) => self.visit_uneven(columns, y, |x, pixel| visitor(x, flat.divide(x, y, pixel))),
+            Some(flat) => self.visit_uneven(columns, y, |x, pixel| {
+                visitor(x, self.of_own_colour(flat.divide(x, y, pixel)));
+            }),
+        }
+    }
+
+    /// A site has its own colour's light in place of all three.
+    fn of_own_colour(self, pixel: Pixel) -> Pixel {
+        match (&self.photograph.pixels, pixel) {
+            (Pixels::Sites(_), Pixel::Light(light)) => Pixel::Light([light[self.colour]; 3]),
+            (_, other) => other,
         }
     }
 
     #[inline]
-    fn visit_uneven(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
-        let integer = |v: usize| self.table[v];
-        let float = |v: f32| self.scale.linear(v.into());
-        match &self.samples {
-            Samples::U8(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
-            Samples::U16(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
-            Samples::F32(stored) => self.visit_stored(stored, float, columns, y, visitor),
-        }
-    }
-
-    #[inline]
-    fn visit_stored<T: Copy + Into<f64>>(
-        &self,
-        stored: &[T],
-        linear: impl Fn(T) -> f64,
-        columns: Range<usize>,
-        y: usize,
-        mut visitor: impl FnMut(usize, Pixel),
-    ) {
-        for x in columns {
-            let first = self.layout.stored(x, y) * self.stride;
-            let channel = |k: usize| linear(stored[first + self.colours[k]]);
-            let light = [channel(0), channel(1), channel(2)];
-            let transparent = self.alpha.is_some_and(|offset| stored[first + offset].into() <= 0.0);
-            visitor(x, Pixel::new(light, transparent));
-        }
-    }
-}
-
-impl Pixel {
-    #[inline]
-    fn new(light: [f64; 3], transparent: bool) -> Self {
-        let [r, g, b] = light;
-        // one test for the many good pixels: a clipped channel is infinite
-        if (r + g + b).is_finite() && !transparent {
-            Self::Light(light)
-        } else if transparent || light.iter().any(|y| y.is_nan()) {
-            Self::NotFinite
-        } else {
-            Self::Clipped
-        }
-    }
-}
-
-impl From<DynamicImage> for Samples {
-    fn from(picture: DynamicImage) -> Self {
-        match picture {
-            DynamicImage::ImageLuma8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageLumaA8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageRgb8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageRgba8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageLuma16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageLumaA16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgb16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgba16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgba32F(buffer) => Self::F32(buffer.into_raw()),
-            other => Self::F32(other.into_rgb32f().into_raw()),
+    fn visit_uneven(self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.visit(columns, y, visitor),
+            Pixels::Sites(sites) => sites.visit(self.colour, columns, y, visitor),
         }
     }
 }

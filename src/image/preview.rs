@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::photograph::{Photograph, Pixel};
+use super::photograph::Photograph;
+use super::pixel::Pixel;
 use super::write::write_srgb_png_with_text;
 use crate::Result;
 use crate::colorimetry::encode_srgb;

@@ -1,5 +1,6 @@
 //! Black level, white level and curve of a picture: what a stored number means.
 
+use super::development::Development;
 use super::transfer::Transfer;
 use crate::{Error, Result};
 
@@ -13,6 +14,8 @@ pub struct ReadOptions {
     /// The stored number that means 1, from which on a sample is clipped. If not given: 255 or 65535 for integers; for
     /// floats 1, and nothing is clipped.
     pub white_level: Option<f64>,
+    /// White balance and matrix that made camera RGB linear sRGB, to be undone.
+    pub development: Option<Development>,
 }
 
 /// The meaning of a stored number v: the curve's value at (v - black)/(white - black).
@@ -22,12 +25,25 @@ pub(super) struct Scale {
     pub black: f64,
     pub white: f64,
     clipped_from: f64,
+    /// A developed picture's integers up to this are clipped: its matrix makes numbers below zero, which are stored as zero.
+    clipped_to: f64,
+    bits: u32,
 }
 
-/// The light of a clipped number: anything up to this.
+/// The light of a clipped number: anything beyond the others.
 const CLIPPED: f64 = f64::INFINITY;
 
 impl Scale {
+    /// Floats that are light already.
+    pub const LINEAR: Self = Self {
+        transfer: Transfer::Linear,
+        black: 0.0,
+        white: 1.0,
+        clipped_from: f64::INFINITY,
+        clipped_to: f64::NEG_INFINITY,
+        bits: 32,
+    };
+
     /// The scale of a picture of 8 or 16 bits (integers) or 32 (floats).
     pub fn new(options: &ReadOptions, bits: u32) -> Result<Self> {
         let full_scale = if bits == 32 { 1.0 } else { f64::from((1_u32 << bits) - 1) };
@@ -45,14 +61,16 @@ impl Scale {
             Some(white) if bits == 32 => white,
             _ => white.min(full_scale),
         };
-        Ok(Self { transfer: options.transfer.resolve(bits), black, white, clipped_from })
+        let clipped_to = if bits == 32 || options.development.is_none() { f64::NEG_INFINITY } else { 0.0 };
+        let transfer = options.transfer.resolve(bits);
+        Ok(Self { transfer, black, white, clipped_from, clipped_to, bits })
     }
 
-    /// Linear light of a stored number; infinite from the white level on, NaN for what is not finite.
+    /// Linear light of a stored number; infinite if it is clipped, NaN for what is not finite.
     pub fn linear(&self, stored: f64) -> f64 {
         if !stored.is_finite() {
             f64::NAN
-        } else if stored >= self.clipped_from {
+        } else if stored >= self.clipped_from || stored <= self.clipped_to {
             CLIPPED
         } else {
             self.transfer.to_linear((stored - self.black) / (self.white - self.black))
@@ -60,8 +78,8 @@ impl Scale {
     }
 
     /// Linear light of every integer of 8 or 16 bits; empty for floats.
-    pub fn table(&self, bits: u32) -> Vec<f64> {
-        let integers = if bits == 32 { 0 } else { 1_u32 << bits };
+    pub fn table(&self) -> Vec<f64> {
+        let integers = if self.bits == 32 { 0 } else { 1_u32 << self.bits };
         (0..integers).map(|stored| self.linear(stored.into())).collect()
     }
 }
@@ -75,7 +93,7 @@ mod tests {
         let options =
             ReadOptions { black_level: Some(512.0), white_level: Some(15871.0), ..ReadOptions::default() };
         let scale = Scale::new(&options, 16).unwrap();
-        let table = scale.table(16);
+        let table = scale.table();
         assert_eq!((table[512], table[15871]), (0.0, CLIPPED));
         assert!((table[15870] - 15358.0 / 15359.0).abs() < 1e-15);
         assert!((table[0] + 512.0 / 15359.0).abs() < 1e-15, "noise below black must not be cut off");

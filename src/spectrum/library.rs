@@ -1,5 +1,6 @@
 //! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
 
+use super::nearest::nearest;
 use super::{Spectrum, daylight, munsell, spec, table};
 use crate::error::{Error, Result};
 
@@ -175,6 +176,25 @@ fn illuminant(name: &str) -> Result<Option<Spectrum>> {
         remedy: "write kelvins, such as daylight:5500".into(),
     })?;
     daylight::daylight(cct_k).map(Some)
+}
+
+/// The built-in cameras whose EXIF model is like this one, nearest first, at most three.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::cameras_like;
+/// assert_eq!(cameras_like("Canon EOS 5D Mark III"), ["canon-5d-mark-ii"]);
+/// assert!(cameras_like("iPhone 12").is_empty());
+/// ```
+#[must_use]
+pub fn cameras_like(model: &str) -> Vec<&'static str> {
+    let name = |near| CAMERAS.iter().find(|camera| camera.exif_model == near).map(|camera| camera.name);
+    let near = if model.is_empty() {
+        Vec::new()
+    } else {
+        nearest(model, CAMERAS.iter().map(|camera| camera.exif_model))
+    };
+    near.into_iter().filter_map(name).collect()
 }
 
 /// The built-in camera that writes these EXIF fields Make and Model into its pictures.

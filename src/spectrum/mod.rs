@@ -12,7 +12,7 @@ pub mod spec;
 mod table;
 
 pub use grid::WavelengthGrid;
-pub use library::camera_by_exif;
+pub use library::{camera_by_exif, cameras_like};
 pub use spec::{Sensitivities, camera, illuminant, reflectances};
 
 use crate::error::{Error, Result};

@@ -21,6 +21,30 @@ pub struct Sensitivities {
     pub channels: Vec<Spectrum>,
 }
 
+impl Sensitivities {
+    /// The camera of these channels.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which is taken for
+    /// noise and set to 0, or zero throughout.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::spectrum::{Sensitivities, Spectrum};
+    /// let channel = Spectrum::new("Y", vec![400.0, 700.0], vec![1.0, -0.0005])?;
+    /// assert_eq!(Sensitivities::new("grey", vec![channel])?.channels[0].values(), [1.0, 0.0]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn new(name: &str, mut channels: Vec<Spectrum>) -> Result<Self> {
+        let peak = channels.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
+        for channel in &mut channels {
+            check_power(channel, -NOISE_OF_PEAK * peak)?;
+            channel.values.iter_mut().for_each(|value| *value = value.max(0.0));
+        }
+        Ok(Self { name: name.to_owned(), channels })
+    }
+}
+
 /// The reflectances that `spec` names: every member of a set, every column of a file.
 ///
 /// # Errors
@@ -67,7 +91,7 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
 /// The camera that `spec` names; a number is one channel that sees all wavelengths alike.
 ///
 /// # Errors
-/// As for [`reflectances`]; a sensitivity below 0 by more than a thousandth of the camera's peak, or zero throughout.
+/// As for [`reflectances`] and [`Sensitivities::new`].
 ///
 /// # Example
 /// ```
@@ -76,13 +100,7 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn camera(spec: &str) -> Result<Sensitivities> {
-    let mut channels = find(What::Cameras, spec)?;
-    let peak = channels.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
-    for channel in &mut channels {
-        check_power(channel, -NOISE_OF_PEAK * peak)?;
-        channel.values.iter_mut().for_each(|value| *value = value.max(0.0));
-    }
-    Ok(Sensitivities { name: spec.to_owned(), channels })
+    Sensitivities::new(spec, find(What::Cameras, spec)?)
 }
 
 /// The spectra that `spec` names, at least one, not checked for what they are used as.
@@ -155,14 +173,14 @@ fn bad(name: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Err
 
 /// The error for a name that is not among `known`, with the nearest of those.
 pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let (kind, list) = match what {
-        What::Cameras => ("camera", "cameras"),
-        What::Illuminants => ("illuminant", "illuminants"),
-        What::Reflectances => ("reflectance", "reflectances"),
+    let (kind, list, endings) = match what {
+        What::Cameras => ("camera", "cameras", ".csv or .json"),
+        What::Illuminants => ("illuminant", "illuminants", ".csv"),
+        What::Reflectances => ("reflectance", "reflectances", ".csv"),
     };
     let near = nearest(name, known);
     let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
-    let hint = format!("{meant}--list {list} shows what is built in, a file needs its .csv");
+    let hint = format!("{meant}--list {list} shows what is built in, a file needs its {endings}");
     Error::UnknownName { kind, name: name.to_owned(), hint }
 }
 

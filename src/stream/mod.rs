@@ -5,12 +5,15 @@
 
 mod calibration;
 mod colours;
+mod development;
 mod estimate;
 mod fields;
+mod json_file;
 mod model;
 mod npy;
 mod photograph;
 mod plan;
+mod rawtoaces;
 mod reader;
 mod regions;
 mod response;
@@ -22,11 +25,13 @@ mod writer;
 
 pub use calibration::CalibrationRecord;
 pub use colours::Colours;
+pub use development::read_development;
 pub use fields::{Fields, finite};
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
+pub use rawtoaces::camera;
 pub use reader::{Reader, Record, Transform, pipe};
 pub use regions::{Corners, Regions, RegionsFile};
 pub use sample::{ReflectanceRecord, Sample, summary};

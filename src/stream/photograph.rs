@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::development::DevelopmentRecord;
 use super::{Colours, Sample};
 use crate::error::Result;
 use crate::image::{FacetMeasurement, Homography, PhotographInfo, Refinement};
@@ -16,8 +17,13 @@ pub struct ImageRecord {
     height: usize,
     stored_as: String,
     transfer: &'static str,
-    black_level: f64,
-    white_level: f64,
+    black_level: Levels,
+    white_level: Levels,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensor: Option<SensorRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undone: Option<DevelopmentRecord>,
+    pixels_sharing_noise: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     make: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,10 +52,42 @@ struct RefinedRecord {
     sides_without_edge: Vec<&'static str>,
 }
 
+/// A level for all channels, or one for each.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+enum Levels {
+    All(f64),
+    Each(Vec<f64>),
+}
+
+impl From<&[f64]> for Levels {
+    fn from(levels: &[f64]) -> Self {
+        match levels {
+            [level] => Self::All(*level),
+            levels => Self::Each(levels.to_vec()),
+        }
+    }
+}
+
+/// What was read of a RAW file's sensor.
+#[derive(Clone, Debug, Serialize)]
+struct SensorRecord {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mosaic: Option<String>,
+    /// Left, top, width, height, px.
+    area: [usize; 4],
+}
+
 impl ImageRecord {
-    /// The record of a photograph with its panels.
+    /// The record of a photograph with its panels, and of how many pixels share their noise, per channel.
     #[must_use]
-    pub fn new(path: &Path, info: &PhotographInfo, panels: &[Homography], margin_px: f64) -> Self {
+    pub fn new(
+        path: &Path,
+        info: &PhotographInfo,
+        panels: &[Homography],
+        margin_px: f64,
+        pixels_sharing_noise: &[f64],
+    ) -> Self {
         let corners = |panel: &Homography| panel.corners().map(|corner| [corner.x, corner.y]);
         Self {
             file: path.display().to_string(),
@@ -57,8 +95,14 @@ impl ImageRecord {
             height: info.height,
             stored_as: info.format.clone(),
             transfer: info.transfer_used.name(),
-            black_level: info.black_level,
-            white_level: info.white_level,
+            black_level: info.black_level.as_slice().into(),
+            white_level: info.white_level.as_slice().into(),
+            sensor: info
+                .sensor
+                .as_ref()
+                .map(|sensor| SensorRecord { mosaic: sensor.mosaic.clone(), area: sensor.area }),
+            undone: info.undone.as_ref().map(DevelopmentRecord::from),
+            pixels_sharing_noise: pixels_sharing_noise.to_vec(),
             make: info.make.clone(),
             model: info.model.clone(),
             exposure_s: info.exposure_s,

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod calibration;
+mod cameras;
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;

@@ -21,7 +21,7 @@ pub fn measure(
     for images in images.chunks(rayon::current_num_threads()) {
         let opened: Vec<_> = images.iter().map(|path| (path, first.take())).collect();
         let measure = |(path, opened): (&PathBuf, Option<Result<Photograph>>)| {
-            setup.sample_or_error(path, opened.unwrap_or_else(|| setup.args.reading.open(path)))
+            setup.sample_or_error(path, opened.unwrap_or_else(|| Photograph::open(path, &setup.options)))
         };
         let samples: Vec<Result<Sample>> = opened.into_par_iter().map(measure).collect();
         samples.into_iter().try_for_each(|sample| done(sample?))?;

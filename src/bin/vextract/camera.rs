@@ -12,13 +12,20 @@ pub fn camera<'a>(named: Option<&'a str>, first: Option<&Photograph>) -> Result<
     let (make, model) = (info.make.as_deref().unwrap_or(""), info.model.as_deref().unwrap_or(""));
     match spectrum::camera_by_exif(make, model) {
         Some(camera) => Ok(Some(camera)),
-        None => Err(Error::usage(
-            "--camera",
-            match (make, model) {
-                ("", "") => "the photograph names no camera".to_owned(),
-                _ => format!("the photograph names '{make} {model}', whose sensitivities are not known"),
-            },
-            "name one (--list cameras) or give a CSV file",
-        )),
+        None => Err(unknown(make, model)),
     }
+}
+
+fn unknown(make: &str, model: &str) -> Error {
+    const REMEDY: &str =
+        "name one (--list cameras), or give a CSV file or rawtoaces JSON of its sensitivities";
+    if make.is_empty() && model.is_empty() {
+        return Error::usage("--camera", "the photograph names no camera", REMEDY);
+    }
+    let problem = format!("the photograph names '{make} {model}', whose sensitivities are not known");
+    let remedy = match spectrum::cameras_like(model).as_slice() {
+        [] => REMEDY.to_owned(),
+        near => format!("{} is called much like it; {REMEDY}", near.join(" or ")),
+    };
+    Error::usage("--camera", problem, remedy)
 }

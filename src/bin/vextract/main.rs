@@ -22,6 +22,7 @@ use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::image::Photograph;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
@@ -59,13 +60,13 @@ status is 3.";
     after_help = AFTER_HELP
 )]
 struct Args {
-    /// Photographs: PNG, TIFF, OpenEXR or JPEG
+    /// Photographs: PNG, TIFF, OpenEXR or JPEG; RAW if built with the feature raw
     #[arg(value_name = "IMAGE", required_unless_present_any = ["generate", "list"])]
     images: Vec<PathBuf>,
     /// Scene from vkernel [default: standard input]
     #[arg(long, value_name = "FILE", default_value = "-", hide_default_value = true)]
     scene: String,
-    /// Camera: built-in name or CSV file [default: by the photograph's EXIF]
+    /// Camera: built-in name, CSV file or rawtoaces JSON [default: by the photograph's EXIF]
     #[arg(long, value_name = "SPEC")]
     camera: Option<String>,
     #[command(flatten)]
@@ -95,17 +96,18 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    let options = args.reading.options()?;
     args.pictures.check(&args.images)?;
-    if args.pictures.preview(&args.images, |path| args.reading.open(path))? {
+    if args.pictures.preview(&args.images, |path| Photograph::open(path, &options))? {
         return Ok(());
     }
     args.placing.check()?;
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;
-    let flat_field = args.reading.flat_field()?.map(Arc::new);
+    let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
     let mut scene = read_scene(&args.scene)?;
-    let first = args.reading.open(&args.images[0]);
+    let first = Photograph::open(&args.images[0], &options);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         scene.set_optics(&args.optics.resolve(camera)?)?;
     }
@@ -113,7 +115,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         scene.fields.add_history("vextract")?;
     }
     let (id, fold) = (scene.id()?, scene.fold()?);
-    let setup = Setup { args, scene: &scene, id, fold, regions, calibration, flat_field };
+    let setup = Setup { args, options, scene: &scene, id, fold, regions, calibration, flat_field };
     if let [only] = args.images.as_slice() {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;

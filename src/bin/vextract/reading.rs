@@ -1,9 +1,10 @@
 //! How photographs are read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use vfold::image::{FlatField, Photograph, ReadOptions, Transfer};
+use vfold::stream::read_development;
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -21,20 +22,27 @@ pub struct ReadingArgs {
     /// Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1
     #[arg(long, value_name = "IMAGE")]
     white: Option<PathBuf>,
+    /// Undo the white balance and the matrix with which the camera made an sRGB picture
+    #[arg(long, value_name = "FILE.json")]
+    undo: Option<String>,
 }
 
 impl ReadingArgs {
-    pub fn open(&self, path: &Path) -> Result<Photograph> {
-        let options = ReadOptions {
+    /// # Errors
+    /// If what the camera did cannot be read.
+    pub fn options(&self) -> Result<ReadOptions> {
+        Ok(ReadOptions {
             transfer: self.transfer,
             black_level: self.black_level,
             white_level: self.white_level,
-        };
-        Photograph::open(path, &options)
+            development: self.undo.as_deref().map(read_development).transpose()?,
+        })
     }
 
-    pub fn flat_field(&self) -> Result<Option<FlatField>> {
-        self.white.as_ref().map(|path| FlatField::new(self.open(path)?, path)).transpose()
+    /// # Errors
+    /// As [`Photograph::open`] and [`FlatField::new`].
+    pub fn flat_field(&self, options: &ReadOptions) -> Result<Option<FlatField>> {
+        self.white.as_ref().map(|path| FlatField::new(Photograph::open(path, options)?, path)).transpose()
     }
 }
 

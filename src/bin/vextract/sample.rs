@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use vfold::cli;
 use vfold::geometry::Fold;
-use vfold::image::{FacetMeasurement, FlatField, Photograph, measure};
+use vfold::image::{FacetMeasurement, FlatField, Photograph, ReadOptions, measure, pixels_sharing_noise};
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
 
@@ -18,6 +18,7 @@ use super::regions::{GivenRegions, panels};
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
     pub args: &'a Args,
+    pub options: ReadOptions,
     pub scene: &'a Scene,
     pub id: String,
     pub fold: Fold,
@@ -37,7 +38,10 @@ impl Setup<'_> {
         let placed = args.placing.place(&photograph, &panels(&regions)?)?;
         let (grid, margin) = (self.fold.facets(), args.regions.margin);
         let row_edges = self.fold.spacing().edges(grid.rows);
-        let mut facets = measure(&photograph, &placed.panels, &row_edges, grid.cols, margin)?;
+        let sharing_noise = pixels_sharing_noise(&photograph, &placed.panels);
+        let facets = measure(&photograph, &placed.panels, &row_edges, grid.cols, margin)?;
+        let mut facets: Vec<_> =
+            facets.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
         let mut grids = facet_grids(&placed.panels, &row_edges, grid.cols);
         grids.extend(self.calibration.grid(&regions, placed.lens)?);
         args.pictures.overlay(path, &photograph, &grids, &facets)?;
@@ -54,7 +58,7 @@ impl Setup<'_> {
             apply(calibration, &mut facets);
             sample.set_calibration(record)?;
         }
-        let image = ImageRecord::new(path, photograph.info(), &placed.panels, margin)
+        let image = ImageRecord::new(path, photograph.info(), &placed.panels, margin, &sharing_noise)
             .with_placing(placed.distortion, placed.refinement.as_ref());
         sample.set_photograph(&image, &facets, 2 * grid.len())?;
         if let Some(refinement) = &placed.refinement {

@@ -40,7 +40,7 @@ struct Args {
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "bounces", "render"])]
     facet_reflectance: Vec<PathBuf>,
-    /// Camera: built-in name or CSV file
+    /// Camera: built-in name, CSV file or rawtoaces JSON
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
     camera: String,
     #[command(flatten)]

@@ -1,0 +1,151 @@
+//! Cameras: their sensitivities, what they did to a picture, and files of theirs that are not read.
+
+use crate::{assert_refused, case};
+
+const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
+
+#[test]
+fn camera_files() {
+    assert_refused(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        camera() { printf '{"spectral_data": {"index": {"main": %s}, "data": {"main": {%s}}}}' "$1" "$2"; }
+        camera '["R", "G"]' '"400": [1, 2], "500": [1]' > ragged.json
+        camera '["R"]' '"400": [1], "blue": [1]' > colour.json
+        camera '["R"]' '"400": [1], "4e2": [1]' > twice.json
+        camera '["R"]' '"400": [1]' > single.json
+        camera '["R"]' '"400": [1], "nan": [1]' > nan.json
+        camera '["R"]' '"400": [-1], "500": [2]' > negative.json
+        camera '["R"]' '"400": [0], "500": [0]' > dark.json
+        camera '["R"]' '"400": [1e999], "500": [0]' > infinite.json
+        camera '["R"]' '' > empty.json
+        camera '[]' '"400": [], "500": []' > blind.json
+        echo '{"spectral_data": {"index": {"main": ["R"]}}}' > dataless.json
+        echo '{"spectral_data": ' > cut.json
+        echo 'nm,R' > table.json
+        : > void.json
+        head -c 20000 /dev/zero | tr '\0' '[' > deep.json
+        truncate -s 17M long.json
+        cat > forward <<'END'
+        vforward scene.json --reflectance 0.5 --camera "$1"
+END
+        "#,
+        &[
+            case("sh forward ragged.json", 1, &["ragged.json", "1 numbers at 500 nm for 2 channels"]),
+            case("sh forward colour.json", 1, &["colour.json", "'blue' is not a wavelength"]),
+            case("sh forward twice.json", 1, &["wavelength", "400"]),
+            case("sh forward single.json", 1, &["wavelength"]),
+            case("sh forward nan.json", 1, &["wavelength"]),
+            case("sh forward negative.json", 1, &["-1 is below 0"]),
+            case("sh forward dark.json", 1, &["zero at every wavelength"]),
+            case("sh forward infinite.json", 1, &["infinite.json:1", "number out of range"]),
+            case("sh forward empty.json", 1, &["empty.json", "no wavelengths"]),
+            case("sh forward blind.json", 1, &["blind.json", "no channels"]),
+            case(
+                "sh forward dataless.json",
+                1,
+                &["dataless.json:1", "missing field `data`", "spectral_data"],
+            ),
+            case("sh forward cut.json", 1, &["cut.json:2", "EOF"]),
+            case("sh forward table.json", 1, &["table.json:1", "expected"]),
+            case("sh forward void.json", 1, &["void.json:1", "EOF"]),
+            case("sh forward deep.json", 1, &["deep.json:1"]),
+            case("sh forward long.json", 1, &["long.json:1", "larger than 16 MiB"]),
+            case("sh forward missing.json", 1, &["missing.json", "No such file"]),
+        ],
+    );
+}
+
+#[test]
+fn what_a_camera_did() {
+    let setup = format!(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        did() {{ printf '{{"white_balance_gains": %s, "camera_to_linear_srgb": %s}}' "$1" "$2"; }}
+        eye='[[1, 0, 0], [0, 1, 0], [0, 0, 1]]'
+        did '[2, 1, 1.5]' "$eye" > good.json
+        did '[2, 1]' "$eye" > two.json
+        did '[2, 0, 1]' "$eye" > dark.json
+        did '[2, -1, 1]' "$eye" > negative.json
+        did '[2, 1, 1]' '[[1, 2, 3], [1, 2, 3], [0, 0, 1]]' > flat.json
+        did '[2, 1, 1]' '[[1, 2], [1, 2]]' > small.json
+        echo '{{"white_balance_gains": [2, 1, 1]}}' > half.json
+        cp '{PHOTOS}/f_srgb_blue_flower_50.jpg' photo.jpg
+        oiiotool photo.jpg --ch 0 -o grey.png
+        cat > extract <<'END'
+        photo=$1 did=$2
+        shift 2
+        vextract $photo --undo $did --panel0 '301.7,395.3 289.6,54.6 167.5,60.2 183.6,458.9' --scene scene.json --camera nikon-d5100 "$@"
+END
+        "#
+    );
+    assert_refused(
+        &setup,
+        &[
+            case("sh extract photo.jpg two.json", 1, &["two.json:1", "expected an array of length 3"]),
+            case("sh extract photo.jpg dark.json", 1, &["dark.json", "gain 0 is not a number above 0"]),
+            case("sh extract photo.jpg negative.json", 1, &["negative.json", "gain -1"]),
+            case("sh extract photo.jpg flat.json", 1, &["flat.json", "cannot be inverted"]),
+            case("sh extract photo.jpg small.json", 1, &["small.json:1"]),
+            case("sh extract photo.jpg half.json", 1, &["half.json:1", "camera_to_linear_srgb"]),
+            case("sh extract photo.jpg missing.json", 1, &["missing.json", "No such file"]),
+            case("sh extract grey.png good.json", 1, &["grey.png", "a grey picture", "without --undo"]),
+            case("sh extract photo.jpg good.json --white-level 10", 1, &["photo.jpg", "no facet"]),
+        ],
+    );
+}
+
+#[test]
+fn cameras_that_are_not_known() {
+    let setup = format!(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        # oiiotool reads and writes a TIFF's Make and Model
+        for model in 'NIKON D5200' 'iPhone 12'; do
+            oiiotool '{PHOTOS}/f_srgb_blue_flower_50.jpg' --attrib Make NIKON --attrib Model "$model" -o "$model.tif"
+        done
+        cat > extract <<'END'
+        vextract "$1" --panel0 '301.7,395.3 289.6,54.6 167.5,60.2 183.6,458.9' --scene scene.json
+END
+        "#
+    );
+    assert_refused(
+        &setup,
+        &[
+            case(
+                "sh extract 'NIKON D5200.tif'",
+                2,
+                &["'NIKON NIKON D5200'", "nikon-d5100", "--list cameras"],
+            ),
+            case("sh extract 'iPhone 12.tif'", 2, &["'NIKON iPhone 12'", "not known; name one", "rawtoaces"]),
+        ],
+    );
+}
+
+/// Where RAW files are not read the error says how to read them.
+#[cfg(not(feature = "raw"))]
+#[test]
+fn raw_files_without_their_reader() {
+    let setup = format!(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        cp '{PHOTOS}/h_raw_magenta_50.dng' photo.tif
+        printf 'FUJIFILMCCD-RAW 0201' > photo.raf
+        printf '\0\0\0\030ftypcrx \0\0\0\0' > photo.cr3
+        printf 'II*\0\020\0\0\0CR\002\0' > photo.cr2
+        cat > extract <<'END'
+        vextract "$1" --panel0 '0,0 9,0 9,9 0,9' --scene scene.json --camera 1
+END
+        "#
+    );
+    const SAYS: &[&str] = &["a RAW file", "--features raw", "linear TIFF"];
+    assert_refused(
+        &setup,
+        &[
+            case("sh extract photo.tif", 1, SAYS),
+            case("sh extract photo.raf", 1, SAYS),
+            case("sh extract photo.cr3", 1, SAYS),
+            case("sh extract photo.cr2", 1, SAYS),
+        ],
+    );
+}
