@@ -38,7 +38,7 @@ END
 done
 
 echo the chart at 60 degrees to the sun gets half the light
-panels gains.exr --chart "$chart" --chart-cos 0.5 | grep -o '"exposure":[0-9.]*' | tail -n 1
+panels gains.exr --chart "$chart" --chart-cos 0.5 | grep -o '"exposure":[0-9.]*' | tail -n 1 | sed 's/.*/{&}/'
 echo what is refused
 oiiotool ideal.exr --mulc 1.2 -d uint16 -o clipped.tif
 panels clipped.tif --chart "$chart" 2>&1 || echo "exit status $?"

@@ -33,7 +33,7 @@ set -- $(vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance 0.45 --sa
 oiiotool fold.exr --fill:color=$1,$2,$3 60x40+10+10 --mulc 0.6,0.8,0.9 -o card.exr
 panels card.exr --white-region "10,10 70,10 70,50 10,50" --white-reflectance 0.9 --white-cos 0.5 -o sample.ndjson
 exposure=$(grep -o '"exposure":[0-9.]*' sample.ndjson | tail -n 1)
-echo "$exposure"
+echo "{$exposure}"
 compare "white card" ${exposure#*:}
 
 echo what is refused
