@@ -66,7 +66,7 @@ fn regions() {
             case("sh extract --regions nan.json", 1, &["nan.json", "not JSON"]),
             case("sh extract --regions infinite.json", 1, &["infinite.json", "out of range"]),
             case("sh extract --regions crossed.json", 1, &["'panel0'", "cross"]),
-            case("sh extract --regions outside.json", 1, &["crease end 1", "640 x 480 px"]),
+            case("sh extract --regions outside.json", 1, &["panel 0", "640 x 480 px"]),
             case("sh extract --regions same.json", 2, &["--panel1", "inside panel 0"]),
             case("sh extract --regions without.json", 2, &["'panel0'", "--panel0"]),
             case("sh extract --regions width.json", 1, &["'width' and 'height'", "both"]),
