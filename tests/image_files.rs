@@ -76,7 +76,7 @@ fn every_orientation_is_turned_upright() {
         for (name, tolerance) in [("turned.tif", 1e-12), ("turned.jpg", 0.05)] {
             oiiotool(&folder, &format!("{GRADIENT} -d uint8 --orientation {n} -o {name}"));
             let turned = open(folder.path().join(name)).unwrap();
-            assert_eq!(turned.info().orientation.exif(), n);
+            assert_eq!(turned.info().camera.orientation.exif(), n);
             assert_same_picture(&turned, &upright, tolerance, &format!("{name}, orientation {n}"));
         }
     }
@@ -95,7 +95,10 @@ fn a_png_is_turned_upright() {
         encoder.set_exif_metadata(exif.clone()).unwrap();
         encoder.write_image(&pixels, 48, 32, ExtendedColorType::Rgb8).unwrap();
         let turned = open(folder.path().join("turned.png")).unwrap();
-        assert_eq!((turned.info().orientation.exif(), turned.info().notes.len()), (n, usize::from(broken)));
+        assert_eq!(
+            (turned.info().camera.orientation.exif(), turned.info().camera.notes.len()),
+            (n, usize::from(broken))
+        );
         if !broken {
             assert_same_picture(&turned, &open(folder.path().join("turned.tif")).unwrap(), 1e-12, "PNG");
         }
@@ -106,11 +109,14 @@ fn a_png_is_turned_upright() {
 fn the_camera_is_known_from_exif() {
     let photograph = open(Path::new(PHOTOS).join("f_srgb_blue_flower_50.jpg")).unwrap();
     let info = photograph.info();
-    assert_eq!(info.make.as_deref(), Some("NIKON CORPORATION"));
-    assert_eq!(info.model.as_deref(), Some("NIKON D5100"));
-    assert_eq!((info.exposure_s, info.f_number, info.iso), (Some(0.004), Some(8.0), Some(100)));
+    assert_eq!(info.camera.make.as_deref(), Some("NIKON CORPORATION"));
+    assert_eq!(info.camera.model.as_deref(), Some("NIKON D5100"));
+    assert_eq!(
+        (info.camera.exposure_s, info.camera.f_number, info.camera.iso),
+        (Some(0.004), Some(8.0), Some(100))
+    );
     assert_eq!((info.format.as_str(), info.transfer_used), ("JPEG, 8-bit, RGB", Transfer::Srgb));
-    assert_eq!(info.notes, [""; 0]);
+    assert_eq!(info.camera.notes, [""; 0]);
 }
 
 /// IEC 61966-2-1 at 0.2, 0.4, 0.6, which 255 and 65535 divide evenly (colour-science 0.4.7, `eotf_sRGB`).

@@ -50,8 +50,14 @@ fn the_rendered_photograph_gives_the_radiosity_solution() {
 fn what_was_decided_is_told() {
     let photograph = open(PHOTO).unwrap();
     let info = photograph.info();
-    assert_eq!((info.make.as_deref(), info.model.as_deref()), (Some("Canon"), Some("Canon EOS 5D Mark II")));
-    assert_eq!((info.exposure_s, info.f_number, info.iso), (Some(0.005), Some(8.0), Some(100)));
+    assert_eq!(
+        (info.camera.make.as_deref(), info.camera.model.as_deref()),
+        (Some("Canon"), Some("Canon EOS 5D Mark II"))
+    );
+    assert_eq!(
+        (info.camera.exposure_s, info.camera.f_number, info.camera.iso),
+        (Some(0.005), Some(8.0), Some(100))
+    );
     assert_eq!(
         (info.black_level.as_slice(), info.white_level.as_slice()),
         (&[512.0; 3][..], &[15871.0; 3][..])
@@ -174,7 +180,7 @@ fn every_orientation_is_turned_upright() {
         samples[0] = 1100; // the first site as stored is clipped
         let dng = Dng::new(10, samples).with(274, SHORT, &[orientation]);
         let photograph = open(dng.saved(&folder)).unwrap();
-        assert_eq!(photograph.info().orientation.exif(), orientation);
+        assert_eq!(photograph.info().camera.orientation.exif(), orientation);
         let (width, height) = if orientation < 5 { (10, 6) } else { (6, 10) };
         assert_eq!((photograph.width(), photograph.height()), (width, height));
         assert_light(&photograph, (4, 4), [0.2, 0.4, 0.8]);

@@ -2,24 +2,13 @@
 
 use super::development::Development;
 use super::exif::CameraNotes;
-use super::orientation::Orientation;
 use super::transfer::Transfer;
 
 /// What is known about a photograph besides its pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotographInfo {
-    /// The camera's maker.
-    pub make: Option<String>,
-    /// The camera.
-    pub model: Option<String>,
-    /// Exposure time, s.
-    pub exposure_s: Option<f64>,
-    /// Focal length over aperture.
-    pub f_number: Option<f64>,
-    /// ISO sensitivity.
-    pub iso: Option<u32>,
-    /// How the picture was stored; coordinates are those of the upright picture.
-    pub orientation: Orientation,
+    /// What the camera wrote; coordinates are those of the upright picture.
+    pub camera: CameraNotes,
     /// Width of the upright picture, px.
     pub width: usize,
     /// Height of the upright picture, px.
@@ -36,8 +25,6 @@ pub struct PhotographInfo {
     pub undone: Option<Development>,
     /// Of a RAW file: what was read of the sensor.
     pub sensor: Option<SensorInfo>,
-    /// What was wrong but did no harm.
-    pub notes: Vec<String>,
 }
 
 /// The part of a sensor that makes a picture.
@@ -54,12 +41,7 @@ impl PhotographInfo {
     pub(super) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
         let (width, height) = camera.orientation.upright_size(stored_size);
         Self {
-            make: camera.make,
-            model: camera.model,
-            exposure_s: camera.exposure_s,
-            f_number: camera.f_number,
-            iso: camera.iso,
-            orientation: camera.orientation,
+            camera,
             width,
             height,
             format,
@@ -68,7 +50,6 @@ impl PhotographInfo {
             white_level: vec![1.0],
             undone: None,
             sensor: None,
-            notes: camera.notes,
         }
     }
 }

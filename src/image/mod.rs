@@ -43,6 +43,7 @@ mod write;
 pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
 pub use development::Development;
 pub use distortion::Lens;
+pub use exif::CameraNotes;
 pub use facets::{FacetMeasurement, PixelRun, measure};
 pub use flat_field::FlatField;
 pub use homography::{Homography, Point};

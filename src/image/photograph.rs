@@ -117,7 +117,7 @@ impl Photograph {
 
     /// From the light of a sensor's sites as stored; none if it is not as many as the picture has pixels.
     pub(super) fn from_sites(light: Vec<f32>, mosaic: &Mosaic, info: PhotographInfo) -> Option<Self> {
-        let sites = Sites::new(light, mosaic, info.orientation, (info.width, info.height))?;
+        let sites = Sites::new(light, mosaic, info.camera.orientation, (info.width, info.height))?;
         Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
     }
 
@@ -151,7 +151,8 @@ impl Photograph {
 
     /// From linear light as stored, 1 or 3 numbers a pixel of the picture.
     pub(super) fn from_stored_light(light: Vec<f32>, channels: usize, info: PhotographInfo) -> Self {
-        let layout = info.orientation.layout(info.orientation.upright_size((info.width, info.height)));
+        let layout =
+            info.camera.orientation.layout(info.camera.orientation.upright_size((info.width, info.height)));
         let pixels = Interleaved::from_light(light, layout, channels);
         Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
     }

@@ -9,7 +9,7 @@ use vfold::spectrum::{WavelengthGrid, reflectances};
 use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
 use vfold::{Error, Result, cli};
 
-use super::target::Target;
+use super::target::{Target, View};
 
 #[derive(Args)]
 #[command(next_help_heading = "Calibration")]
@@ -124,7 +124,8 @@ impl GivenCalibration {
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
-        target.calibrate(&scene.lighting()?, path, photograph, lens, corners).map(Some)
+        let view = View { path, photograph, lighting: &scene.lighting()?, lens };
+        target.calibrate(&view, corners).map(Some)
     }
 }
 

@@ -9,7 +9,8 @@ pub fn camera<'a>(named: Option<&'a str>, first: Option<&Photograph>) -> Result<
         return Ok(Some(camera));
     }
     let Some(info) = first.map(Photograph::info) else { return Ok(None) };
-    let (make, model) = (info.make.as_deref().unwrap_or(""), info.model.as_deref().unwrap_or(""));
+    let (make, model) =
+        (info.camera.make.as_deref().unwrap_or(""), info.camera.model.as_deref().unwrap_or(""));
     match spectrum::camera_by_exif(make, model) {
         Some(camera) => Ok(Some(camera)),
         None => Err(unknown(make, model)),

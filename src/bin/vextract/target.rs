@@ -28,6 +28,14 @@ pub struct Target {
     patches: Vec<(String, Vec<f64>)>,
 }
 
+/// A photograph, and the light and lens through which it is seen.
+pub struct View<'a> {
+    pub path: &'a Path,
+    pub photograph: &'a Photograph,
+    pub lighting: &'a Lighting,
+    pub lens: Lens,
+}
+
 impl Target {
     pub fn new(
         (name, flag): (&'static str, &'static str),
@@ -48,15 +56,8 @@ impl Target {
     }
 
     /// The calibration by this target between `corners`.
-    pub fn calibrate(
-        &self,
-        lighting: &Lighting,
-        path: &Path,
-        photograph: &Photograph,
-        lens: Lens,
-        corners: Corners,
-    ) -> Result<(Calibration, CalibrationRecord)> {
-        let found = |corners| self.fit(lighting, path, photograph, lens, corners);
+    pub fn calibrate(&self, view: &View, corners: Corners) -> Result<(Calibration, CalibrationRecord)> {
+        let found = |corners| self.fit(view, corners);
         let given = found(corners);
         let residual = given.as_ref().map_or(f64::INFINITY, |(_, record)| record.residual());
         if residual < GOOD_RESIDUAL {
@@ -75,45 +76,32 @@ impl Target {
             100.0 * other
         );
         let corners = order.map(|corner| format!("{},{}", corner.x, corner.y)).join(" ");
-        Err(Error::picture(path, problem, format!("give {} \"{corners}\"", self.flag)))
+        Err(Error::picture(view.path, problem, format!("give {} \"{corners}\"", self.flag)))
     }
 
-    fn fit(
-        &self,
-        lighting: &Lighting,
-        path: &Path,
-        photograph: &Photograph,
-        lens: Lens,
-        corners: Corners,
-    ) -> Result<(Calibration, CalibrationRecord)> {
-        let patches = self.measure(lighting, path, photograph, lens, corners)?;
-        let calibration = Calibration::fit(&patches, lighting.sun.reference_channel()).map_err(|e| {
+    fn fit(&self, view: &View, corners: Corners) -> Result<(Calibration, CalibrationRecord)> {
+        let patches = self.measure(view, corners)?;
+        let calibration = Calibration::fit(&patches, view.lighting.sun.reference_channel()).map_err(|e| {
             let remedy = format!("check {}, its reference, --camera, --illuminant and --transfer", self.flag);
-            Error::picture(path, format!("{}: {e}", self.name), remedy)
+            Error::picture(view.path, format!("{}: {e}", self.name), remedy)
         })?;
         let place = ([self.rows, self.cols], self.cos, corners);
         let record = CalibrationRecord::new(self.name, place, &calibration, &patches);
         Ok((calibration, record))
     }
 
-    fn measure(
-        &self,
-        lighting: &Lighting,
-        path: &Path,
-        photograph: &Photograph,
-        lens: Lens,
-        corners: Corners,
-    ) -> Result<Vec<Patch>> {
-        let (seen, known) = (photograph.channels(), lighting.sun.channels());
+    fn measure(&self, view: &View, corners: Corners) -> Result<Vec<Patch>> {
+        let (seen, known) = (view.photograph.channels(), view.lighting.sun.channels());
         if seen != known {
             let problem = format!("the photograph has {seen} channels, the camera {known}");
-            return Err(Error::picture(path, problem, "give the photograph's --camera"));
+            return Err(Error::picture(view.path, problem, "give the photograph's --camera"));
         }
-        let measured = measure_patches(photograph, self.name, corners, lens, [self.rows, self.cols])?;
+        let measured =
+            measure_patches(view.photograph, self.name, corners, view.lens, [self.rows, self.cols])?;
         let patch = |(measured, (name, reflectance)): (FacetMeasurement, &(String, Vec<f64>))| {
             let clipped = measured.clipped as f64;
             let wrong = |problem: &str, remedy: String| {
-                Error::picture(path, format!("{}: patch '{name}' {problem}", self.name), remedy)
+                Error::picture(view.path, format!("{}: patch '{name}' {problem}", self.name), remedy)
             };
             if clipped > CLIPPED * (measured.pixels + clipped) {
                 return Err(wrong("is clipped", "expose less, or check --white-level".to_owned()));
@@ -121,7 +109,7 @@ impl Target {
             let (Some(mean), Some(standard_error)) = (measured.mean, measured.standard_error) else {
                 return Err(wrong("has too few pixels", format!("check {}", self.flag)));
             };
-            let expected = lighting.flat_rgb(self.cos, reflectance);
+            let expected = view.lighting.flat_rgb(self.cos, reflectance);
             Ok(Patch { name: name.clone(), measured: mean, standard_error, expected })
         };
         measured.into_iter().zip(&self.patches).map(patch).collect()
