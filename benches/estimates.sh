@@ -41,7 +41,7 @@ scipy() {
     echo '# Estimates'
     echo
     echo "45°, 10 x 10 facets a panel, D65, exposure known; $(rustc --version | cut -d' ' -f1,2), one thread of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(date +%F)."
-    echo 'Means of RMSE and CIEDE2000 (10°, D65), medians of time and iterations; the four columns on the right are the'
+    echo 'Means of RMSE and CIEDE2000 (10°, D65), medians of the processor's time and of iterations; the four columns on the right are the'
     echo "paper's estimator (\`--prior smooth\`)."
     echo
     echo '| set | camera | facet noise | RMSE | CIEDE2000 | ms | iterations | RMSE | CIEDE2000 | ms | iterations |'
