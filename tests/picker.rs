@@ -65,6 +65,7 @@ fn clicks_in_a_preview_measure_the_photograph() {
         }
     }
     measures(&folder, said["command"].as_str().unwrap());
+    is_read(&folder, regions);
 }
 
 /// Arrow keys moved the chart's second corner by 10 + 1 + 1 px to the right and 0.1 down.
@@ -85,7 +86,23 @@ fn measures(folder: &Workdir, command: &str) {
     let command = command.replace("photo.png", "photo.exr").replace("-deg 45", "-deg 50");
     let command: Vec<_> = command.lines().filter(|line| !line.contains("--chart")).collect();
     let command = command.join("\n").replace(" | vestimate", " --camera canon-5d-mark-ii");
-    let run = folder.sh(&command);
+    finds_the_panel(folder, &command);
+}
+
+/// The page's file of regions, but for the chart.
+fn is_read(folder: &Workdir, mut regions: Value) {
+    regions["chart"] = Value::Null;
+    finds_the_panel(
+        folder,
+        &format!(
+            "echo '{regions}' > regions.json
+            vkernel --angle-deg 50 | vextract photo.exr --regions regions.json --refine=30 --camera canon-5d-mark-ii"
+        ),
+    );
+}
+
+fn finds_the_panel(folder: &Workdir, command: &str) {
+    let run = folder.sh(command);
     assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{command}");
     let sample: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
     assert_eq!(sample["image"]["refined"]["sides_without_edge"], json!([]));
