@@ -54,7 +54,7 @@ for name, limit in (("bent", 0.002), ("refined", 0.005), ("ignored", 0.005)):
 true = np.array([[float(x) for x in corner.split(",")] for k in "01" for corner in open("bent" + k).read().split()])
 found = np.array(json.load(open("refined.json"))["image"]["panels"]).reshape(8, 2)
 off = np.hypot(*(found - true).T).reshape(2, 4)
-# the warp's filter blurs the end sides, which meet at 17 degrees in one end of the crease
+# one end of the crease, where the end sides meet at 17 degrees, is 0.55 px off
 for what, worst, limit in (("crease ends", off[:, :2].max(), 0.8), ("outer corners", off[:, 2:].max(), 0.1)):
     print(what, f"within {limit} px" if worst < limit else f"off by {worst:.2f} px")
 END
