@@ -275,7 +275,10 @@ impl Tally {
             Pixel::Clipped => self.clipped += 1,
             _ => self.not_finite += 1,
         }
-        self.left_out.push(PixelRun { columns: x..x + 1, row: y });
+        match self.left_out.last_mut() {
+            Some(run) if run.row == y && run.columns.end == x => run.columns.end += 1,
+            _ => self.left_out.push(PixelRun { columns: x..x + 1, row: y }),
+        }
     }
 
     fn finish(mut self, channels: usize) -> FacetMeasurement {

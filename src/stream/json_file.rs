@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::{Error, Result};
 
-/// No file that a flag takes is near it.
-const MAX_BYTES: u64 = 16 << 20;
+/// A list of regions for a hundred thousand photographs is smaller.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// Reads a JSON file; `example` shows what it should hold.
 ///
@@ -25,7 +25,7 @@ pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> 
         remedy: format!("write {example}"),
     };
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(fault(1, "the file is larger than 16 MiB".to_owned()));
+        return Err(fault(1, "the file is larger than 64 MiB".to_owned()));
     }
     serde_json::from_slice(&bytes).map_err(|error| fault(error.line(), error.to_string()))
 }

@@ -18,18 +18,15 @@
 //!   another size, such as the original of a preview, corners are scaled; one of another shape is refused.
 
 use std::collections::HashSet;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use serde_json::Value;
 
-use super::Fields;
+use super::{Fields, json_file};
 use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
-/// A list for a hundred thousand photographs is smaller.
-const MAX_BYTES: u64 = 64 << 20;
+const EXAMPLE: &str = "{\"panel0\": [[x, y], [x, y], [x, y], [x, y]], ..} or a list of such objects";
 
 const FIELDS: [&str; 7] = ["panel0", "panel1", "chart", "white", "image", "width", "height"];
 
@@ -66,7 +63,8 @@ impl RegionsFile {
     /// Reads a file of regions.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read; [`Error::Regions`], with the field, if it is not as this module says.
+    /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON; [`Error::Regions`], with the field, if
+    /// it is not as this module says.
     ///
     /// # Example
     /// ```
@@ -82,21 +80,20 @@ impl RegionsFile {
     /// ```
     pub fn open(path: &Path) -> Result<Self> {
         let path = path.display().to_string();
-        let mut bytes = Vec::new();
-        let file = File::open(&path).map_err(|e| Error::file(&path, e))?;
-        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| Error::file(&path, e))?;
-        let wrong = |problem: String| Error::regions(&path, problem, "write an object or a list of objects");
-        if bytes.len() as u64 > MAX_BYTES {
-            return Err(Error::regions(&path, "the file is larger than 64 MiB", "split the list"));
-        }
-        let value: Value = serde_json::from_slice(&bytes).map_err(|e| wrong(format!("not JSON ({e})")))?;
+        let value: Value = json_file::read(&path, EXAMPLE)?;
         let is_list = value.is_array();
         let objects = match value {
             Value::Array(objects) => objects,
             object => vec![object],
         };
         let entry = |(n, object): (usize, Value)| {
-            let Value::Object(map) = object else { return Err(wrong(format!("entry {n} is no object"))) };
+            let Value::Object(map) = object else {
+                return Err(Error::regions(
+                    &path,
+                    format!("entry {n} is no object"),
+                    format!("write {EXAMPLE}"),
+                ));
+            };
             Regions::from_fields(&path, &Fields(map))
         };
         let entries = objects.into_iter().enumerate().map(entry).collect::<Result<Vec<_>>>()?;
@@ -229,7 +226,7 @@ mod tests {
 
     #[test]
     fn a_fault_is_named_with_its_field() {
-        assert!(refused("").contains("not JSON"));
+        assert!(refused("").contains("EOF while parsing"));
         assert!(refused("7").contains("entry 0 is no object"));
         assert!(
             refused(r#"{"panle0": 1}"#).contains("no field 'panle0'; the fields are panel0, panel1, chart")

@@ -25,7 +25,7 @@ fn camera_files() {
         echo 'nm,R' > table.json
         : > void.json
         head -c 20000 /dev/zero | tr '\0' '[' > deep.json
-        truncate -s 17M long.json
+        truncate -s 70M long.json
         cat > forward <<'END'
         vforward scene.json --reflectance 0.5 --camera "$1"
 END
@@ -50,7 +50,7 @@ END
             case("sh forward table.json", 1, &["table.json:1", "expected"]),
             case("sh forward void.json", 1, &["void.json:1", "EOF"]),
             case("sh forward deep.json", 1, &["deep.json:1"]),
-            case("sh forward long.json", 1, &["long.json:1", "larger than 16 MiB"]),
+            case("sh forward long.json", 1, &["long.json:1", "larger than 64 MiB"]),
             case("sh forward missing.json", 1, &["missing.json", "No such file"]),
         ],
     );
