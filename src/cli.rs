@@ -1,5 +1,7 @@
 //! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
 
+mod generate;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -11,6 +13,7 @@ use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{self, Outside, Spectrum, WavelengthGrid};
 use crate::stream::{self, CameraRecord, Optics, Output, SpectrumRecord};
+pub use generate::Generate;
 
 /// Flags that all tools have.
 #[derive(Args, Clone, Debug)]
@@ -54,19 +57,6 @@ pub enum ProgressWhen {
     Always,
     /// Never.
     Never,
-}
-
-/// What `--generate` prints.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Generate {
-    /// The man page.
-    Man,
-    /// Completions for bash.
-    Bash,
-    /// Completions for zsh.
-    Zsh,
-    /// Completions for fish.
-    Fish,
 }
 
 /// What `--list` prints.
@@ -125,7 +115,7 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     let mut out = Output::to(common.output.as_deref(), &common.save)?;
     out.show(Progress::new(A::command().get_name(), common.when(), common.output.is_some()));
     let done = match (common.generate, common.list) {
-        (Some(what), _) => generate::<A>(what, &mut out),
+        (Some(what), _) => what.print(A::command(), &mut out),
         (None, Some(what)) => print_list(what, &mut out),
         (None, None) => tool(args, &mut out),
     };
@@ -138,23 +128,6 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
 /// Writes a line to standard error; unlike `eprintln!` it survives a closed one.
 pub fn say(tool: &str, message: &str) {
     let _ = writeln!(io::stderr(), "{tool}: {message}");
-}
-
-fn generate<A: ToolArgs>(what: Generate, out: &mut Output) -> Result<()> {
-    let mut command = A::command();
-    let name = command.get_name().to_owned();
-    let mut text = Vec::new();
-    let shell = match what {
-        Generate::Man => {
-            clap_mangen::Man::new(command).render(&mut text).map_err(Error::Output)?;
-            return out.text(&String::from_utf8_lossy(&text));
-        }
-        Generate::Bash => clap_complete::Shell::Bash,
-        Generate::Zsh => clap_complete::Shell::Zsh,
-        Generate::Fish => clap_complete::Shell::Fish,
-    };
-    clap_complete::generate(shell, &mut command, name, &mut text);
-    out.text(&String::from_utf8_lossy(&text))
 }
 
 fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {

@@ -26,7 +26,7 @@ const SAMPLES: u32 = 10_000;
     version,
     after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
                   vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json\n  \
-                  vkernel --angle-deg 30 --method midpoint --check"
+                  vkernel --angle-deg 1 --check"
 )]
 struct Args {
     /// Angle between the two panels, degrees

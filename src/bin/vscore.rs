@@ -18,7 +18,7 @@ use vfold::{Error, Result};
     name = "vscore",
     version,
     after_help = "Examples:\n  vkernel | vforward --reflectance cc24 | vestimate | vscore --table\n  \
-                  vestimate samples.ndjson | vscore --truth measured.csv --illuminant D50"
+                  vestimate samples.ndjson | vscore --truth measured.csv --illuminant D50 --plot spectra.svg"
 )]
 struct Args {
     /// Estimated samples from vestimate [default: standard input]

@@ -27,8 +27,10 @@ const MISFIT: f64 = 5.0;
 #[command(
     name = "vestimate",
     version,
-    after_help = "Examples:\n  vkernel | vextract photo.tif --camera nikon-d5100 --panel0 ... --panel1 ... | vestimate --plot spectrum.svg\n  \
-                  vestimate --prior smooth --smoothness 1e-4 samples.ndjson"
+    after_help = "Examples:\n  vestimate samples.ndjson --plot spectrum.svg > estimates.ndjson\n  \
+                  vestimate samples.ndjson --fit exposure,tilt,sky --save estimate.reflectance=spectra.npy\n  \
+                  vestimate samples.ndjson --prior smooth --smoothness 1e-4\n  \
+                  vkernel --angle-deg 60 | vestimate --plan --camera nikon-d5100 --noise-sd 1e-3"
 )]
 struct Args {
     /// Scenes and samples from vforward or vextract [default: standard input]

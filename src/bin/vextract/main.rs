@@ -30,7 +30,7 @@ const AFTER_HELP: &str = "\
 Examples:
   vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\
     --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate
-  vextract *.tif --scene scene.json --regions corners.json --white sheet.tif -o samples.ndjson
+  vextract *.exr --scene scene.json --regions corners.json --camera nikon-d5100 -o samples.ndjson
 
 Corners are x,y in pixels from the top left corner of the upright picture; the centre of the
 first pixel is at 0.5,0.5. Order:

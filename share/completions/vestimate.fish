@@ -1,0 +1,42 @@
+complete -c vestimate -l prior -d 'What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper\'s estimator) or none [default: munsell]' -r
+complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
+complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
+complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
+complete -c vestimate -l exposure -d 'Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]' -r
+complete -c vestimate -l fit -d 'What is fitted along with the spectrum: the exposure (as --exposure free), the tilt of the sun, the sky with its colour (unless the scene has a sky illuminant), the angle of the fold; the scene\'s values are what is expected' -r -f -a "exposure\t'Value of white facing the sun'
+tilt\t'Sun off the bisecting plane'
+sky\t'Amount of skylight, and its colour unless the scene says it'
+angle\t'Angle between the panels'"
+complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
+complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
+complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
+complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
+park\t'Flat sheet: combination of principal components, smooth'
+khan\t'Flat sheet: combination of the components that sensors and lights see'"
+complete -c vestimate -l components -d 'Components that a spectrum is combined of [default: 8 for park, 9 for khan, no more than channels times lights]' -r
+complete -c vestimate -l basis -d 'Spectra that have the components [default: munsell]' -r
+complete -c vestimate -l reflectance -d 'Reflectances that will be photographed [default: cc24]' -r
+complete -c vestimate -l camera -d 'Camera of a scene that has none [default: canon-5d-mark-ii]' -r
+complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each [default: D65]' -r
+complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r
+complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vestimate -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+always\t'Always'
+never\t'Never'"
+complete -c vestimate -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
+complete -c vestimate -l generate -d 'Print the man page or a shell\'s completions' -r -f -a "man\t'The man page'
+bash\t'Completions for bash'
+zsh\t'Completions for zsh'
+fish\t'Completions for fish'"
+complete -c vestimate -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+illuminants\t'Illuminants'
+reflectances\t'Reflectances and sets of them'"
+complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record a scene, for --noise-sd [default: 1e-3]'
+complete -c vestimate -s q -l quiet -d 'Say nothing but errors'
+complete -c vestimate -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vestimate -l no-history -d 'Do not record this tool\'s arguments in the stream'
+complete -c vestimate -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c vestimate -s V -l version -d 'Print version'
+

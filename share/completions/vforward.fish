@@ -1,0 +1,34 @@
+complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, or CSV file' -r
+complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
+complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a facet, no truth in the samples' -r -F
+complete -c vforward -l camera -d 'Camera: built-in name, CSV file or rawtoaces JSON' -r
+complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each' -r
+complete -c vforward -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
+complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
+complete -c vforward -l reference-panel -d 'Panel 1 is a card of this reflectance: --panel-reflectance 1=SPEC' -r
+complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene\'s tolerance asks for' -r
+complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel' -r
+complete -c vforward -l noise-sd -d 'Standard deviation of noise on every facet (with --render: on every pixel of the picture only)' -r
+complete -c vforward -l photon-noise -d 'Standard deviation of photon noise at value 1; it grows with the root of the signal' -r
+complete -c vforward -l seed -d 'Seed of the noise' -r
+complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
+complete -c vforward -l render-size -d 'Size of the photograph' -r
+complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vforward -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vforward -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+always\t'Always'
+never\t'Never'"
+complete -c vforward -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
+complete -c vforward -l generate -d 'Print the man page or a shell\'s completions' -r -f -a "man\t'The man page'
+bash\t'Completions for bash'
+zsh\t'Completions for zsh'
+fish\t'Completions for fish'"
+complete -c vforward -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+illuminants\t'Illuminants'
+reflectances\t'Reflectances and sets of them'"
+complete -c vforward -s q -l quiet -d 'Say nothing but errors'
+complete -c vforward -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vforward -l no-history -d 'Do not record this tool\'s arguments in the stream'
+complete -c vforward -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c vforward -s V -l version -d 'Print version'
+

@@ -1,0 +1,39 @@
+complete -c vkernel -l angle-deg -d 'Angle between the two panels, degrees' -r
+complete -c vkernel -l panel -d 'Panel along the crease x away from it; only the ratio matters' -r
+complete -c vkernel -l panel1-depth -d 'Depth of panel 1, in the unit of --panel, if it is not that of panel 0' -r
+complete -c vkernel -l facets -d 'Facets of a panel, rows away from the crease x columns along it: where colour is measured' -r
+complete -c vkernel -l spacing -d 'Rows of equal depth, or graded: narrow at the crease, where colour varies' -r -f -a "uniform\t'Rows of equal depth'
+graded\t'Row n ends at (n/rows)² of the depth'"
+complete -c vkernel -l method -d 'How form factors are found: right to rounding, estimated from samples as in the paper, or eq. (2) at the facets\' centres, which is far off at the crease; the last two are for comparison' -r -f -a "exact\t'Right to rounding'
+monte-carlo\t'Estimated from samples'
+midpoint\t'Eq. (2) at the facets\' centres'"
+complete -c vkernel -l sampling -d 'Monte Carlo from pairs of points even over two facets (the paper\'s way; its variance is infinite where facets meet at the crease), or from rays with the cosine law [default: area]' -r -f -a "area\t'Pairs of points'
+cosine\t'Rays with the cosine law'"
+complete -c vkernel -l samples -d 'Pairs of points a distinct entry, or rays a row of facets [default: 10000]' -r
+complete -c vkernel -l seed -d 'Seed of the samples [default: 0]' -r
+complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed, one flat patch a facet (the paper\'s model), or given patches [default: auto; facets unless --method is exact]' -r
+complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold]' -r
+complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
+complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
+complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s' -r
+complete -c vkernel -l id -d 'Name of the scene' -r
+complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vkernel -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+always\t'Always'
+never\t'Never'"
+complete -c vkernel -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
+complete -c vkernel -l generate -d 'Print the man page or a shell\'s completions' -r -f -a "man\t'The man page'
+bash\t'Completions for bash'
+zsh\t'Completions for zsh'
+fish\t'Completions for fish'"
+complete -c vkernel -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+illuminants\t'Illuminants'
+reflectances\t'Reflectances and sets of them'"
+complete -c vkernel -l check -d 'Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit status 1 if one is broken'
+complete -c vkernel -s q -l quiet -d 'Say nothing but errors'
+complete -c vkernel -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vkernel -l no-history -d 'Do not record this tool\'s arguments in the stream'
+complete -c vkernel -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c vkernel -s V -l version -d 'Print version'
+

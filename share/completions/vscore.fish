@@ -1,0 +1,24 @@
+complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set with a member of each sample\'s name [default: what the samples say]' -r
+complete -c vscore -l illuminant -d 'Illuminant of the colour difference' -r
+complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
+complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vscore -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vscore -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+always\t'Always'
+never\t'Never'"
+complete -c vscore -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
+complete -c vscore -l generate -d 'Print the man page or a shell\'s completions' -r -f -a "man\t'The man page'
+bash\t'Completions for bash'
+zsh\t'Completions for zsh'
+fish\t'Completions for fish'"
+complete -c vscore -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+illuminants\t'Illuminants'
+reflectances\t'Reflectances and sets of them'"
+complete -c vscore -l table -d 'Print a table instead of records'
+complete -c vscore -s q -l quiet -d 'Say nothing but errors'
+complete -c vscore -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vscore -l no-history -d 'Do not record this tool\'s arguments in the stream'
+complete -c vscore -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c vscore -s V -l version -d 'Print version'
+

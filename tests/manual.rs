@@ -1,0 +1,74 @@
+//! The manual is that of the tools as they are: man pages and completions that are checked in are what `--generate` prints,
+//! and every example of `--help` runs as it stands.
+
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::Workdir;
+
+const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
+
+/// `MANUAL=write cargo test --test manual` rewrites them.
+#[test]
+fn man_pages_and_completions_are_up_to_date() {
+    let folder = Workdir::new();
+    let write = std::env::var("MANUAL").is_ok_and(|what| what == "write");
+    let mut stale = Vec::new();
+    for tool in TOOLS {
+        for (what, file) in [
+            ("man", format!("man/{tool}.1")),
+            ("bash", format!("share/completions/{tool}.bash")),
+            ("zsh", format!("share/completions/_{tool}")),
+            ("fish", format!("share/completions/{tool}.fish")),
+        ] {
+            let run = folder.sh(&format!("{tool} --generate {what}"));
+            assert!(run.status == 0 && run.stderr.is_empty(), "{tool} {what}: {run:?}");
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&file);
+            if write {
+                fs::write(path, run.stdout).unwrap();
+            } else if !fs::read_to_string(path).is_ok_and(|kept| kept == run.stdout) {
+                stale.push(file);
+            }
+        }
+    }
+    assert!(stale.is_empty(), "{stale:?} are stale: MANUAL=write cargo test --test manual writes them anew");
+}
+
+#[test]
+fn the_overview_is_of_this_version() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("man/vfold.7")).unwrap();
+    assert!(page.contains(concat!("\"vfold ", env!("CARGO_PKG_VERSION"), "\"")));
+}
+
+/// Leaves the files that the examples name.
+const SETUP: &str = concat!(
+    "cp '",
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/data/photos/a_ideal_magenta_50.exr' photo.exr",
+    r#"
+vkernel --angle-deg 50 -o scene.json
+cp photo.exr 1.exr; cp photo.exr 2.exr
+echo '{"panel0": [[332,462],[345,77],[122,12],[104,442]], "panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
+vforward scene.json --reflectance cc24:red -o samples.ndjson
+printf 'nm,red\n380,0.05\n600,0.4\n780,0.6\n' > measured.csv
+"#
+);
+
+#[test]
+fn examples_of_help_run() {
+    for tool in TOOLS {
+        let help = Workdir::new().sh(&format!("{tool} --help")).stdout;
+        let (_, end) = help.split_once("Examples:\n").unwrap();
+        let examples = end.split("\n\n").next().unwrap().replace("\\\n", " ");
+        assert!(examples.lines().count() >= 2, "{tool}: {examples}");
+        for example in examples.lines() {
+            let run = Workdir::new().sh(&format!("{SETUP}{example}"));
+            assert_eq!(run.status, 0, "{example}: {run:?}");
+        }
+    }
+}
