@@ -146,6 +146,18 @@ fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> 
     }
 }
 
+/// Parses the name of a drawing.
+///
+/// # Errors
+/// A message for the command line, if it ends in neither .svg nor .png.
+pub fn drawing(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).as_deref() {
+        Some("svg" | "png") => Ok(path),
+        _ => Err("end the name in .svg or .png".to_owned()),
+    }
+}
+
 /// Parses two numbers around an `x`, such as `10x10` or `1.5x1`.
 ///
 /// # Errors

@@ -34,7 +34,7 @@ struct Args {
     #[arg(long, value_name = "2|10", default_value = "10", value_parser = observer)]
     observer: Observer,
     /// Draw estimates, their error bands and true spectra
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Print a table instead of records
     #[arg(long)]

@@ -1,3 +1,4 @@
 //! Drawings for people.
 
+mod figure;
 pub mod spectra;

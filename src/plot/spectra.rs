@@ -2,25 +2,15 @@
 
 use std::path::Path;
 
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use super::figure::{COLOURS, Drawn, FONT, Figure, save};
 use crate::error::{Error, Result};
-use crate::files::Saved;
 
 /// Most curves in one drawing: more could not be told apart.
 pub const CURVES_MAX: usize = 8;
 const SIZE: (u32, u32) = (760, 460);
-/// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(153, 153, 153),
-];
-
 /// One estimated spectrum.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -36,7 +26,7 @@ pub struct Curve {
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// Draws up to eight curves as an SVG file.
+/// Draws up to eight curves, as SVG or PNG.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be written, [`Error::Usage`] if there is nothing to draw.
@@ -45,70 +35,76 @@ pub fn draw(path: &Path, curves: &[Curve]) -> Result<()> {
     if shown.is_empty() {
         return Err(Error::usage("--plot", "no sample has an estimate to draw", "check the samples' errors"));
     }
-    let mut svg = String::new();
-    render(&mut svg, shown).map_err(|e| Error::Numeric(format!("{}: cannot draw: {e}", path.display())))?;
-    Saved::write(path, svg.as_bytes())
+    save(path, &Spectra(shown))
 }
 
-type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
+/// Curves over wavelength.
+struct Spectra<'a>(&'a [Curve]);
 
-fn render(svg: &mut String, curves: &[Curve]) -> Drawn {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let ends = curves.iter().flat_map(|curve| curve.wavelengths_nm.iter().copied());
-    let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), nm| (a.min(nm), b.max(nm)));
-    let top = curves.iter().map(highest).fold(0.0, f64::max);
-    let mut chart = ChartBuilder::on(&root)
-        .margin(14)
-        .x_label_area_size(42)
-        .y_label_area_size(52)
-        .build_cartesian_2d(low..high, 0.0..(1.08 * top).min(1.0))?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .x_desc("wavelength, nm")
-        .y_desc("reflectance")
-        .label_style(("sans-serif", 14))
-        .axis_desc_style(("sans-serif", 15))
-        .draw()?;
-    for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {
-        if let Some(sd) = &curve.reflectance_sd {
-            let edge = |side: f64| {
-                points(
-                    &curve.wavelengths_nm,
-                    curve.reflectance.iter().zip(sd).map(move |(r, sd)| (r + side * sd).clamp(0.0, 1.0)),
-                )
-            };
-            let outline: Vec<_> = edge(2.0).chain(edge(-2.0).collect::<Vec<_>>().into_iter().rev()).collect();
-            chart.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.22))))?;
-        }
-        if let Some((wavelengths_nm, reflectance)) = &curve.truth {
-            let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
-            chart.draw_series(DashedLineSeries::new(line, 6, 4, BLACK.stroke_width(2)))?;
-        }
-        let style = colour.stroke_width(2);
-        chart
-            .draw_series(LineSeries::new(
-                points(&curve.wavelengths_nm, curve.reflectance.iter().copied()),
-                style,
-            ))?
-            .label(&curve.name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+impl Figure for Spectra<'_> {
+    fn size(&self) -> (u32, u32) {
+        SIZE
     }
-    if curves.iter().any(|curve| curve.truth.is_some()) {
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        let curves = self.0;
+        let ends = curves.iter().flat_map(|curve| curve.wavelengths_nm.iter().copied());
+        let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), nm| (a.min(nm), b.max(nm)));
+        let top = curves.iter().map(highest).fold(0.0, f64::max);
+        let mut chart = ChartBuilder::on(area)
+            .margin(14)
+            .margin_right(24)
+            .x_label_area_size(42)
+            .y_label_area_size(56)
+            .build_cartesian_2d(low..high, 0.0..(1.08 * top).min(1.0))?;
         chart
-            .draw_series(std::iter::empty::<PathElement<(f64, f64)>>())?
-            .label("true (dashed)")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], BLACK.stroke_width(2)));
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .x_label_formatter(&|nm| format!("{nm:.0}"))
+            .x_desc("wavelength, nm")
+            .y_desc("reflectance")
+            .label_style((FONT, 14))
+            .axis_desc_style((FONT, 15))
+            .draw()?;
+        for (curve, colour) in curves.iter().zip(COLOURS.into_iter().cycle()) {
+            if let Some(band) = band(curve) {
+                chart.draw_series(std::iter::once(Polygon::new(band, colour.mix(0.22))))?;
+            }
+            if let Some((wavelengths_nm, reflectance)) = &curve.truth {
+                let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
+                chart.draw_series(DashedLineSeries::new(line, 6, 4, BLACK.stroke_width(2)))?;
+            }
+            let style = colour.stroke_width(2);
+            let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
+            chart
+                .draw_series(LineSeries::new(line, style))?
+                .label(&curve.name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+        }
+        if curves.iter().any(|curve| curve.truth.is_some()) {
+            chart
+                .draw_series(std::iter::empty::<PathElement<(f64, f64)>>())?
+                .label("true (dashed)")
+                .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], BLACK.stroke_width(2)));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .background_style(WHITE.mix(0.85))
+            .label_font((FONT, 14))
+            .draw()
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.85))
-        .label_font(("sans-serif", 14))
-        .draw()?;
-    root.present()?;
-    Ok(())
+}
+
+/// Outline of two standard deviations to either side of a curve.
+fn band(curve: &Curve) -> Option<Vec<(f64, f64)>> {
+    let sd = curve.reflectance_sd.as_ref()?;
+    let edge = |side: f64| {
+        let reflectance =
+            curve.reflectance.iter().zip(sd).map(move |(r, sd)| (r + side * sd).clamp(0.0, 1.0));
+        points(&curve.wavelengths_nm, reflectance)
+    };
+    Some(edge(2.0).chain(edge(-2.0).collect::<Vec<_>>().into_iter().rev()).collect())
 }
 
 /// The highest point that a curve, its band or its truth reaches.

@@ -63,7 +63,7 @@ struct Args {
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
     /// Draw estimates, their error bands and true spectra
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Write the iterations of every estimate, one JSON record a line
     #[arg(long, value_name = "FILE")]

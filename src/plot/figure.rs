@@ -1,0 +1,78 @@
+//! What all drawings share: SVG or PNG as the file's name ends, a font that is always there, colours that all readers tell apart.
+
+use std::path::Path;
+use std::sync::Once;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::register_font;
+
+use crate::error::{Error, Result};
+use crate::files::Saved;
+use crate::image::write_srgb_png;
+
+/// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
+pub(super) const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(153, 153, 153),
+];
+/// Text is set in it, and measured in it where a browser sets it.
+pub(super) const FONT: &str = "sans-serif";
+
+/// What a drawing step gives.
+pub(super) type Drawn<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// A drawing for any backend.
+pub(super) trait Figure {
+    /// Width and height, pixels.
+    fn size(&self) -> (u32, u32);
+
+    /// Draws it on an area of that size, white at first.
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
+}
+
+/// Writes a figure as PNG if the name ends so, else as SVG.
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be written.
+pub(super) fn save(path: &Path, figure: &impl Figure) -> Result<()> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("png") => png(path, figure),
+        _ => Saved::write(path, svg(path, figure)?.as_bytes()),
+    }
+}
+
+fn svg(path: &Path, figure: &impl Figure) -> Result<String> {
+    let mut text = String::new();
+    draw_on(SVGBackend::with_string(&mut text, figure.size()), figure).map_err(|e| undrawable(path, e))?;
+    Ok(text)
+}
+
+fn png(path: &Path, figure: &impl Figure) -> Result<()> {
+    let (width, height) = figure.size();
+    let mut pixels = vec![0; 3 * (width * height) as usize];
+    draw_on(BitMapBackend::with_buffer(&mut pixels, (width, height)), figure)
+        .map_err(|e| undrawable(path, e))?;
+    let rgb: Vec<f64> = pixels.iter().map(|byte| f64::from(*byte) / 255.0).collect();
+    write_srgb_png(path, width as usize, height as usize, &rgb)
+}
+
+fn draw_on<B: DrawingBackend>(backend: B, figure: &impl Figure) -> Drawn<B> {
+    static FONTS: Once = Once::new();
+    // fails only for a file that is no font
+    FONTS.call_once(|| drop(register_font(FONT, FontStyle::Normal, dejavu::sans::regular())));
+    let area = backend.into_drawing_area();
+    area.fill(&WHITE)?;
+    figure.draw(&area)?;
+    area.present()
+}
+
+fn undrawable(path: &Path, error: impl std::fmt::Display) -> Error {
+    Error::Numeric(format!("{}: cannot draw: {error}", path.display()))
+}
