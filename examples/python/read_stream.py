@@ -42,9 +42,12 @@ def lab(reflectance):
         spectra.copy().align(reflectance.shape)
         for spectra in (colour.SDS_ILLUMINANTS["D65"], colour.MSDS_CMFS["CIE 1964 10 Degree Standard Observer"])
     ]
-    white = colour.SpectralDistribution(np.ones_like(reflectance.values), reflectance.wavelengths)
-    xyz, xyz_of_white = [colour.sd_to_XYZ(sd, observer, d65, method="Integration") for sd in (reflectance, white)]
-    return colour.XYZ_to_Lab(xyz / xyz_of_white[1], colour.XYZ_to_xy(xyz_of_white))
+    light = d65.values[:, np.newaxis] * observer.values
+    xyz, white = [
+        np.trapezoid(values[:, np.newaxis] * light, reflectance.wavelengths, axis=0)
+        for values in (reflectance.values, np.ones_like(reflectance.values))
+    ]
+    return colour.XYZ_to_Lab(xyz / white[1], colour.XYZ_to_xy(white))
 
 
 def main(stream, array, picture):
