@@ -233,6 +233,16 @@ fn quiet_is_silent_and_verbose_is_not() {
 }
 
 #[test]
+fn every_tool_goes_on_with_its_own_file() {
+    for run in RUNS {
+        let script = format!(
+            "{run} -q > whole; head -c 700 whole > out; {run} --resume out; cmp whole out; {run} -j 2 --resume=out; cmp whole out"
+        );
+        assert_eq!(printed(&script), "", "{run}");
+    }
+}
+
+#[test]
 fn every_tool_adds_its_line_of_history() {
     let scene = |script: &str| records(&printed(script)).swap_remove(0);
     let tools = |scene: Value| -> Vec<_> {

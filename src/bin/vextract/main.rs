@@ -123,7 +123,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         return out.sample(&sample);
     }
     out.scene(&scene)?;
-    batch::measure(&setup, &args.images, first, |sample| out.sample(&sample))
+    let kept = out.kept()?;
+    batch::measure(&setup, &args.images, first, kept, |sample| out.sample(&sample))
 }
 
 fn read_scene(path: &str) -> Result<Scene> {
