@@ -60,7 +60,9 @@ mod tests {
     #[test]
     fn results_keep_their_order_and_few_are_ahead() {
         let (drawn, mut taken) = (AtomicUsize::new(0), 0);
-        let items = (0..200_u64).inspect(|_| drop(drawn.fetch_add(1, Ordering::SeqCst)));
+        let items = (0..200_u64).inspect(|_| {
+            drawn.fetch_add(1, Ordering::SeqCst);
+        });
         let work = |n: u64| {
             thread::sleep(Duration::from_micros(n * 7919 % 300));
             n
