@@ -73,6 +73,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.table {
         out.text(&format!("{:<28} {:>8} {:>10} {:>10}", "sample", "RMSE", "CIEDE2000", "PD"))?;
     }
+    // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record| {
         if let Record::Sample(sample) = &record {
             summary.add(sample.metrics()?);
