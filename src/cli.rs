@@ -22,6 +22,9 @@ pub struct Common {
     /// Write here instead of standard output; the file appears when it is whole
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write here as --output does, line by line, and go on where an interrupted run of the same command stopped
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    pub resume: Option<PathBuf>,
     /// Threads to use [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -112,8 +115,12 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
         // Fails only if a pool exists already, which no tool makes before this.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    let mut out = Output::to(common.output.as_deref(), &common.save)?;
-    out.show(Progress::new(A::command().get_name(), common.when(), common.output.is_some()));
+    let mut out = match &common.resume {
+        Some(path) => Output::resume(path, &common.save)?,
+        None => Output::to(common.output.as_deref(), &common.save)?,
+    };
+    let to_file = common.output.is_some() || common.resume.is_some();
+    out.show(Progress::new(A::command().get_name(), common.when(), to_file));
     let done = match (common.generate, common.list) {
         (Some(what), _) => what.print(A::command(), &mut out),
         (None, Some(what)) => print_list(what, &mut out),

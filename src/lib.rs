@@ -28,7 +28,7 @@
 //!
 //! ```text
 //! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
-//!               stream -> plot, score, progress, files, calibrate
+//!               stream -> plot, score, progress, files, calibrate, parallel
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> colorimetry, files
@@ -48,6 +48,7 @@ pub mod forward;
 pub mod geometry;
 pub mod image;
 pub mod kernel;
+pub mod parallel;
 pub mod plot;
 pub mod progress;
 pub mod response;

@@ -220,6 +220,33 @@ fn quiet_is_silent_and_verbose_is_not() {
 }
 
 #[test]
+fn a_record_leaves_before_the_next_comes() {
+    for (tool, input) in [("vestimate", "samples.ndjson"), ("vscore", "estimates.ndjson")] {
+        let script = format!(
+            "mkfifo slow
+            {{ head -n 5 {input}; exec sleep 60; }} > slow & feeder=$!
+            {tool} < slow > out & tool=$!
+            for try in $(seq 200); do
+                [ $(wc -l < out) = 5 ] && break || sleep 0.1
+            done
+            kill -9 $tool $feeder
+            wc -l < out"
+        );
+        assert_eq!(after_setup(&script).stdout, "5\n", "{tool}");
+    }
+}
+
+#[test]
+fn every_tool_goes_on_with_its_own_file() {
+    for run in RUNS {
+        let script = format!(
+            "{run} -q > whole; head -c 700 whole > out; {run} --resume out; cmp whole out; {run} -j 2 --resume=out; cmp whole out"
+        );
+        assert_eq!(printed(&script), "", "{run}");
+    }
+}
+
+#[test]
 fn every_tool_adds_its_line_of_history() {
     let scene = |script: &str| records(&printed(script)).swap_remove(0);
     let tools = |scene: Value| -> Vec<_> {

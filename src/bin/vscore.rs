@@ -9,7 +9,7 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::score::{Metrics, Summary, pearson_distance, rmse};
 use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Output, Reader, Record, ReflectanceRecord, Sample, Scene, Transform, pipe};
+use vfold::stream::{Kept, Output, Reader, Record, ReflectanceRecord, Sample, Scene, Transform, pipe};
 use vfold::{Error, Result};
 
 /// Score estimated spectra against true ones
@@ -73,7 +73,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.table {
         out.text(&format!("{:<28} {:>8} {:>10} {:>10}", "sample", "RMSE", "CIEDE2000", "PD"))?;
     }
-    pipe(&mut Reader::open(&args.samples)?, &scorer, |record| {
+    // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.
+    pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record| {
         if let Record::Sample(sample) = &record {
             summary.add(sample.metrics()?);
             if args.plot.is_some() && curves.len() < CURVES_MAX {

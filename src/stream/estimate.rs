@@ -53,6 +53,14 @@ impl Sample {
         self.fields.set("estimate", record)
     }
 
+    /// Whether this is what an estimate, or the attempt of one, made of `measured`.
+    #[must_use]
+    pub fn is_estimate_of(&self, measured: &Self) -> bool {
+        let same = |name: &&str| self.fields.0.get(*name) == measured.fields.0.get(*name);
+        let is_done = ["estimate", "error"].iter().any(|name| self.fields.0.contains_key(*name));
+        is_done && ["id", "scene", "facet_rgb", "facet_sd", "exposure"].iter().all(same)
+    }
+
     /// Names of the numbers that were to be fitted and of which the facets say nothing.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use crate::error::{Error, Result};
 
@@ -52,17 +52,6 @@ impl Fields {
         let value = serde_json::to_value(value).map_err(|e| Error::field(name, e))?;
         self.0.insert(name.to_owned(), value);
         Ok(())
-    }
-
-    /// Adds the line that says which tool, of which version, with which arguments, made or changed this record.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if `history` is not an array.
-    pub fn add_history(&mut self, tool: &str) -> Result<()> {
-        let mut history: Vec<Value> = self.get("history")?.unwrap_or_default();
-        let arguments: Vec<String> = std::env::args().skip(1).collect();
-        history.push(json!({ "tool": tool, "version": env!("CARGO_PKG_VERSION"), "arguments": arguments }));
-        self.set("history", history)
     }
 }
 

@@ -3,12 +3,13 @@
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::{Fields, Sample, Saves, Scene};
+use super::resume::Resumed;
+use super::{Fields, Kept, Record, Sample, Saves, Scene};
 use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::progress::Progress;
 
-/// Where a tool's records go: standard output, or a file that appears when it is whole.
+/// Where a tool's records go: standard output, a file that appears when it is whole, or one that grows line by line.
 pub struct Output {
     sink: Sink,
     /// Fields that are also written as arrays.
@@ -20,6 +21,7 @@ pub struct Output {
 enum Sink {
     Stdout(BufWriter<io::Stdout>),
     File(BufWriter<Saved>),
+    Resumed(Resumed),
 }
 
 impl Output {
@@ -32,7 +34,30 @@ impl Output {
             Some(path) if path != Path::new("-") => Sink::File(BufWriter::new(Saved::new(path)?)),
             _ => Sink::Stdout(BufWriter::new(io::stdout())),
         };
-        Ok(Self { sink, saves: Saves::new(saves), progress: None, failed: 0 })
+        Ok(Self::into(sink, saves))
+    }
+
+    /// The file of an interrupted run, or a new one: records that it has are compared, others appended.
+    ///
+    /// # Errors
+    /// As [`Resumed::open`]: a folder, a file that is no stream, one that another run is writing.
+    pub fn resume(path: &Path, saves: &[(String, PathBuf)]) -> Result<Self> {
+        Ok(Self::into(Sink::Resumed(Resumed::open(path)?), saves))
+    }
+
+    fn into(sink: Sink, saves: &[(String, PathBuf)]) -> Self {
+        Self { sink, saves: Saves::new(saves), progress: None, failed: 0 }
+    }
+
+    /// The records of the interrupted run, none if there was none.
+    ///
+    /// # Errors
+    /// [`Error::File`] if they cannot be read.
+    pub fn kept(&self) -> Result<Kept> {
+        match &self.sink {
+            Sink::Resumed(resumed) => resumed.kept(),
+            _ => Ok(Kept::none()),
+        }
     }
 
     /// Shows how many samples have been written.
@@ -60,15 +85,31 @@ impl Output {
         self.fields(&sample.fields)
     }
 
-    /// Writes any record.
+    /// Writes the fields of a record. A reader gets them at once: the next may be long in coming.
     ///
     /// # Errors
-    /// [`Error::Output`] or [`Error::File`] if it cannot be written.
+    /// [`Error::Output`] or [`Error::File`] if it cannot be written, [`Error::Record`] if a resumed file has another in its place.
     pub fn fields(&mut self, fields: &Fields) -> Result<()> {
         self.saves.record(fields)?;
         let mut line = serde_json::to_vec(&fields.0).map_err(|e| Error::field(fields.kind(), e))?;
         line.push(b'\n');
-        self.bytes(&line)
+        self.bytes(&line)?;
+        match &mut self.sink {
+            Sink::Stdout(out) => out.flush().map_err(Error::Output),
+            Sink::File(_) | Sink::Resumed(_) => Ok(()),
+        }
+    }
+
+    /// Writes any record.
+    ///
+    /// # Errors
+    /// As [`Output::fields`].
+    pub fn record(&mut self, record: &Record) -> Result<()> {
+        match record {
+            Record::Scene(scene) => self.scene(scene),
+            Record::Sample(sample) => self.sample(sample),
+            Record::Other(fields) => self.fields(fields),
+        }
     }
 
     /// Writes a line of plain text, for tables.
@@ -94,6 +135,7 @@ impl Output {
             Sink::File(out) => {
                 out.write_all(bytes).map_err(|e| Error::file(out.get_ref().path().display(), e))
             }
+            Sink::Resumed(out) => out.write(bytes),
         }
     }
 
@@ -112,6 +154,7 @@ impl Output {
                 let path = out.get_ref().path().display().to_string();
                 out.into_inner().map_err(|e| Error::file(path, e.into_error()))?.keep()?;
             }
+            Sink::Resumed(out) => out.finish()?,
         }
         Ok(self.failed)
     }

@@ -10,6 +10,7 @@ mod common;
 mod flags;
 mod methods;
 mod photographs;
+mod resume;
 mod spectra;
 mod streams;
 

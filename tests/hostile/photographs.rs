@@ -128,3 +128,25 @@ fn photographs_of_a_batch() {
     assert_eq!((errors[0], errors[1], errors[4]), ("", "", ""));
     assert!(errors[2].starts_with("text.png: ") && errors[3].starts_with("missing.tif: "), "{errors:?}");
 }
+
+#[test]
+fn lists_of_photographs() {
+    assert_refused(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        printf '\n\n' > empty.txt
+        printf '\377\n' > bytes.txt
+        cat > extract <<'END'
+        vextract --files-from "$@" --scene scene.json --camera canon-5d-mark-ii --panel0 '0,0 9,0 9,9 0,9'
+END
+        "#,
+        &[
+            case("sh extract empty.txt", 2, &["--files-from", "empty.txt", "a name a line"]),
+            case("sh extract - < empty.txt", 2, &["--files-from", "a name a line"]),
+            case("sh extract missing.txt", 1, &["missing.txt", "No such file"]),
+            case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
+            case("sh extract .", 1, &["directory"]),
+            case("vextract --files-from - --panel0 '0,0 9,0 9,9 0,9'", 2, &["--files-from", "--scene FILE"]),
+        ],
+    );
+}

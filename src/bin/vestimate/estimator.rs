@@ -155,6 +155,10 @@ impl Transform for Estimator<'_> {
         }
         sample.set_estimate(name, prior, wavelengths_nm, &estimate, with_covariance)
     }
+
+    fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
+        kept.is_estimate_of(sample)
+    }
 }
 
 impl<'a> Estimator<'a> {

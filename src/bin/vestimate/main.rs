@@ -66,7 +66,7 @@ struct Args {
     #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Write the iterations of every estimate, one JSON record a line
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     trace: Option<PathBuf>,
     #[command(flatten)]
     method: MethodArgs,
@@ -106,7 +106,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     let mut curves = Vec::new();
     let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
-    pipe(&mut reader, &estimator, |mut record| {
+    pipe(&mut reader, &estimator, out.kept()?, |mut record| {
         if let Record::Sample(sample) = &mut record {
             warn(args, sample)?;
             if let Some(trace) = &mut trace {

@@ -3,6 +3,7 @@
 mod batch;
 mod calibration;
 mod camera;
+mod list;
 mod pictures;
 mod placing;
 mod reading;
@@ -31,6 +32,8 @@ Examples:
   vkernel --angle-deg 50 | vextract photo.exr --camera canon-5d-mark-ii \\
     --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\" | vestimate
   vextract *.exr --scene scene.json --regions corners.json --camera nikon-d5100 -o samples.ndjson
+  find . -name '*.exr' | sort | vextract --files-from - --scene scene.json --camera nikon-d5100 \\
+    --regions corners.json --resume measured.ndjson
 
 Corners are x,y in pixels from the top left corner of the upright picture; the centre of the
 first pixel is at 0.5,0.5. Order:
@@ -61,8 +64,11 @@ status is 3.";
 )]
 struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG; RAW if built with the feature raw
-    #[arg(value_name = "IMAGE", required_unless_present_any = ["generate", "list"])]
+    #[arg(value_name = "IMAGE", required_unless_present_any = ["generate", "list", "files_from"])]
     images: Vec<PathBuf>,
+    /// More photographs: a file with a name a line, - for standard input
+    #[arg(long, value_name = "FILE")]
+    files_from: Option<PathBuf>,
     /// Scene from vkernel [default: standard input]
     #[arg(long, value_name = "FILE", default_value = "-", hide_default_value = true)]
     scene: String,
@@ -97,8 +103,9 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let options = args.reading.options()?;
-    args.pictures.check(&args.images)?;
-    if args.pictures.preview(&args.images, |path| Photograph::open(path, &options))? {
+    let images = list::images(args)?;
+    args.pictures.check(&images)?;
+    if args.pictures.preview(&images, |path| Photograph::open(path, &options))? {
         return Ok(());
     }
     args.placing.check()?;
@@ -107,7 +114,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
     let mut scene = read_scene(&args.scene)?;
-    let first = Photograph::open(&args.images[0], &options);
+    let first = Photograph::open(&images[0], &options);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         scene.set_optics(&args.optics.resolve(camera)?)?;
     }
@@ -116,14 +123,15 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     let (id, fold) = (scene.id()?, scene.fold()?);
     let setup = Setup { args, options, scene: &scene, id, fold, regions, calibration, flat_field };
-    if let [only] = args.images.as_slice() {
+    if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;
         out.scene(&scene)?;
         return out.sample(&sample);
     }
     out.scene(&scene)?;
-    batch::measure(&setup, &args.images, first, |sample| out.sample(&sample))
+    let kept = out.kept()?;
+    batch::measure(&setup, &images, first, kept, |sample| out.sample(&sample))
 }
 
 fn read_scene(path: &str) -> Result<Scene> {

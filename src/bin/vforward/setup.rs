@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use vfold::camera::CameraResponse;
 use vfold::cli;
 use vfold::colorimetry::{Colorimeter, Observer};
@@ -12,6 +11,7 @@ use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
+use vfold::parallel::in_order;
 use vfold::spectrum;
 use vfold::stream::{Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
@@ -19,8 +19,8 @@ use vfold::{Error, Result};
 use super::Args;
 use super::subject::{Sheet, Subject};
 
-/// Samples computed before any is written.
-const BATCH: usize = 64;
+/// Samples a thread that are computed before the first of them is written.
+const AHEAD: usize = 16;
 
 /// What the samples of one scene need.
 pub struct Setup<'a> {
@@ -52,15 +52,10 @@ impl<'a> Setup<'a> {
         }
     }
 
-    /// Some at a time on all threads.
     fn sheets(&self, sheets: &[Sheet], out: &mut Output) -> Result<()> {
-        let numbered: Vec<_> = sheets.iter().enumerate().collect();
-        for batch in numbered.chunks(BATCH) {
-            let made: Vec<Result<Sample>> =
-                batch.par_iter().map(|(n, sheet)| self.of_sheet(sheet, *n as u64)).collect();
-            made.into_iter().try_for_each(|sample| out.sample(&sample?))?;
-        }
-        Ok(())
+        let ahead = AHEAD * rayon::current_num_threads();
+        let make = |(n, sheet): (usize, _)| self.of_sheet(sheet, n as u64);
+        in_order(sheets.iter().enumerate(), ahead, make, |sample| out.sample(&sample?))
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64) -> Result<Sample> {

@@ -1,0 +1,122 @@
+#!/bin/bash
+# Batches: samples a second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
+# megapixels; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and batch.csv. Some six
+# minutes on two cores; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools
+# openssh-server zstd) and 6 GB in $TMPDIR.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+cargo build --quiet --release --bins
+PATH=$(cd "${CARGO_TARGET_DIR:-target}/release" && pwd):$PATH
+cluster=$PWD/examples/cluster csv=$PWD/benches/results/batch.csv table=$PWD/benches/results/batch.md
+work=$(mktemp -d)
+trap 'cat "$work"/*.pid 2>/dev/null | xargs -r kill; rm -rf "$work"' EXIT
+cd "$work"
+many=${1:-100000} some=$((${1:-100000} / 10)) few=$((${1:-100000} / 100))
+
+# measure WHAT SAMPLES THREADS HOSTS COMMAND: a row of the CSV
+measure() {
+    local row="$1,$2,$3,$4"
+    shift 4
+    command time -o took -f '%e %U %S %M' "$@" > out 2> said || { [ $? = 3 ] || cat said >&2; }
+    awk -v row="$row" '{ split(row, r, ","); printf "%s,%.2f,%.3g,%.3g,%.0f\n", row, $1, r[2] / $1, 1000 * ($2 + $3) / r[2], $4 / 1024 }' \
+        took | tee -a "$csv"
+}
+
+# samples N: the first N of 1269 Munsell chips under one seed of the noise after the other
+samples() {
+    vforward scene.json --reflectance munsell --noise-sd 1e-3 --no-history | head -n 1
+    for ((seed = 0; seed * 1269 < $1; seed++)); do
+        vforward scene.json --reflectance munsell --noise-sd 1e-3 --seed $seed --no-history | tail -n +2
+    done | head -n "$1" || true # vforward is not at its end
+}
+
+hosts() {
+    ssh-keygen -q -t ed25519 -N '' -f host_key
+    ssh-keygen -q -t ed25519 -N '' -f user_key
+    [ "$(id -u)" != 0 ] || mkdir -p /run/sshd
+    for host in 127.0.0.1 127.0.0.2; do
+        printf '%s\n' "ListenAddress $host:22022" "HostKey $work/host_key" "AuthorizedKeysFile $work/user_key.pub" \
+            "PidFile $work/$host.pid" 'StrictModes no' 'UsePAM no' > $host.conf
+        /usr/sbin/sshd -f $host.conf -E $host.log
+        echo "1/$host" >> hosts
+    done
+    export PARALLEL_SSH="ssh -F none -i $work/user_key -p 22022 -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR"
+}
+
+vkernel --no-history -o scene.json
+echo 'what,samples,threads,hosts,seconds,samples_per_s,cpu_ms_per_sample,peak_MB' > "$csv"
+samples "$many" > "$many.ndjson"
+for n in $few $some; do head -n $((n + 1)) "$many.ndjson" > "$n.ndjson"; done
+
+# vestimate
+for threads in 1 2; do
+    for n in $few $some; do measure vestimate "$n" "$threads" 1 vestimate -j "$threads" "$n.ndjson"; done
+done
+measure vestimate "$many" 2 1 vestimate -j 2 "$many.ndjson"
+measure 'vestimate --fit exposure tilt sky' "$few" 2 1 vestimate -q -j 2 --fit exposure,tilt,sky "$few.ndjson"
+measure 'vestimate by GNU parallel' "$some" 2 1 "$cluster/parallel/estimate" < "$some.ndjson"
+hosts
+measure 'vestimate by GNU parallel over ssh' "$some" 1 2 "$cluster/parallel/estimate" --sshloginfile hosts --env PATH < "$some.ndjson"
+vestimate --no-history "$some.ndjson" > estimated.ndjson
+head -n $((some / 2 + 1)) estimated.ndjson > half.ndjson
+measure 'vestimate --resume of a half' "$some" 2 1 vestimate --no-history -j 2 "$some.ndjson" --resume half.ndjson
+cmp half.ndjson estimated.ndjson
+measure vscore "$some" 2 1 vscore -j 2 estimated.ndjson
+
+# how long a sample takes from one end to the other, when the next is late
+late() { { head -n 2 "$few.ndjson"; sleep 2; } | vestimate | { head -n 2 >/dev/null; date +%s%N; }; }
+begin=$(date +%s%N)
+first_ms=$((($(late) - begin) / 1000000))
+
+# vextract
+photograph() { # SIZE FORMAT COUNT
+    mkdir "$2-$1"
+    for ((k = 1; k <= $3; k++)); do ln -s "../$1.$2" "$2-$1/$k.$2"; done
+}
+for size in 320x240 6000x4000; do
+    vforward scene.json --reflectance cc24:orange --exposure 0.5 --noise-sd 3e-3 --render $size.tif --render-size $size \
+        2> corners-$size >/dev/null
+    eval "set -- $(grep -o -- '--panel0.*' corners-$size)"
+    printf '%q ' "$@" --scene scene.json --camera canon-5d-mark-ii > flags-$size
+done
+oiiotool 6000x4000.tif -d uint8 --compression jpeg:95 -o 6000x4000.jpg
+photograph 320x240 tif 1000
+photograph 6000x4000 tif 16
+photograph 6000x4000 jpg 16
+for threads in 1 2; do
+    eval "measure 'vextract 320x240 TIFF' 1000 $threads 1 vextract -j $threads $(cat flags-320x240) tif-320x240/*"
+    eval "measure 'vextract 24 megapixels TIFF of 16 bits' 16 $threads 1 vextract -j $threads $(cat flags-6000x4000) tif-6000x4000/*"
+    eval "measure 'vextract 24 megapixels JPEG' 16 $threads 1 vextract -j $threads $(cat flags-6000x4000) jpg-6000x4000/*"
+done
+
+# bytes
+vestimate -q "$few.ndjson" --save facet_rgb=facet_rgb.npy --save reflectance=reflectance.npy --save reflectance_sd=sd.npy > estimates.ndjson
+bytes() { echo "$1,$(($(wc -c < "$2") / few))"; }
+zstd -q -T0 < "$few.ndjson" > samples.zst
+zstd -q -T0 < estimates.ndjson > estimates.zst
+gzip < estimates.ndjson > estimates.gz
+sizes=$(bytes 'sample' "$few.ndjson"; bytes 'sample, zstd' samples.zst; bytes 'estimate (the sample in it)' estimates.ndjson
+    bytes 'estimate, zstd' estimates.zst; bytes 'estimate, gzip' estimates.gz; bytes 'facet RGB, NPY' facet_rgb.npy
+    bytes 'reflectance, NPY' reflectance.npy; bytes 'its standard deviation, NPY' sd.npy)
+
+{
+    echo '# Batches'
+    echo
+    echo "vfold $(vkernel --version | cut -d' ' -f2), $(rustc --version | cut -d' ' -f1,2), $(nproc) cores of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(parallel --version | sed 's/GNU parallel/GNU parallel/;q'), $(date +%F), load $(cut -d' ' -f1 /proc/loadavg);"
+    echo '45°, 10 x 10 facets a panel, facet noise 1e-3 of white. Hosts are daemons of ssh on loopback and share the cores, one process each. Memory is'
+    echo 'that of the largest process, and counts the file pages of programs.'
+    echo
+    echo '| what | samples | threads | hosts | s | samples/s | processor ms a sample | peak MB |'
+    echo '|---|---|---|---|---|---|---|---|'
+    tail -n +2 "$csv" | sed 's/,/ | /g; s/^/| /; s/$/ |/'
+    echo
+    awk -F, '$1 == "vestimate" && $3 == 2 { n[++rows] = $2; s[rows] = $5; m[rows] = $8 } END {
+        for (k = 2; k <= rows; k++) printf "From %d to %d samples vestimate'"'"'s time grows with the power %.2f of their number, its memory from %d to %d MB.\n",
+            n[k - 1], n[k], log(s[k] / s[k - 1]) / log(n[k] / n[k - 1]), m[k - 1], m[k] }' "$csv"
+    echo "A sample whose successor is two seconds late leaves vestimate $first_ms ms after the pipeline was started."
+    echo
+    echo '| a record | bytes |'
+    echo '|---|---|'
+    echo "$sizes" | sed 's/\(.*\),/| \1 | /; s/$/ |/'
+} > "$table.new"
+mv "$table.new" "$table"

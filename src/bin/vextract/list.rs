@@ -1,0 +1,40 @@
+//! Which photographs are measured: more of them than a command line holds can be listed in a file.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use vfold::{Error, Result};
+
+use super::Args;
+
+/// Those of the command line, then those of the list.
+///
+/// # Errors
+/// [`Error::Usage`] if there are none, or list and scene both come from standard input; [`Error::File`] if the list cannot be
+/// read.
+pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
+    let mut images = args.images.clone();
+    if let Some(list) = &args.files_from {
+        if list == Path::new("-") && args.scene == "-" {
+            let problem = "names and scene cannot both come from standard input";
+            return Err(Error::usage("--files-from", problem, "give --scene FILE"));
+        }
+        images.extend(names(list).map_err(|e| Error::file(list.display(), e))?);
+        if images.is_empty() {
+            let problem = format!("{} names no photograph", list.display());
+            return Err(Error::usage("--files-from", problem, "write a name a line"));
+        }
+    }
+    Ok(images)
+}
+
+fn names(list: &Path) -> io::Result<Vec<PathBuf>> {
+    let source: Box<dyn Read> = match list.to_str() {
+        Some("-") => Box::new(io::stdin()),
+        _ => Box::new(File::open(list)?),
+    };
+    let names =
+        BufReader::new(source).lines().filter(|name| name.as_ref().map_or(true, |name| !name.is_empty()));
+    names.map(|name| name.map(PathBuf::from)).collect()
+}

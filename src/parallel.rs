@@ -1,0 +1,85 @@
+//! Work on all threads whose results leave in the order of the work.
+
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::thread;
+
+use crate::error::Result;
+
+/// Does `work` on every item on all threads and hands the results to `done` in the order of the items, each as soon as it and
+/// those before it are there.
+///
+/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead` (1 or more) are
+/// drawn and not yet handed on, which bounds memory.
+///
+/// # Errors
+/// That of `done`, after which no item is drawn but the one that is waited for.
+///
+/// # Example
+/// ```
+/// let mut squares = Vec::new();
+/// vfold::parallel::in_order(1..=4, 2, |n| n * n, |square| Ok(squares.push(square)))?;
+/// assert_eq!(squares, [1, 4, 9, 16]);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn in_order<I: Send, O: Send>(
+    items: impl IntoIterator<Item = I, IntoIter: Send>,
+    ahead: usize,
+    work: impl Fn(I) -> O + Sync,
+    mut done: impl FnMut(O) -> Result<()>,
+) -> Result<()> {
+    let (items, work) = (items.into_iter(), &work);
+    // The result that is waited for is out of the queue.
+    let (queue, results) = sync_channel::<Receiver<O>>(ahead - 1);
+    thread::scope(|threads| {
+        let draw = move || {
+            rayon::in_place_scope(|jobs| {
+                for item in items {
+                    let (result, place) = sync_channel(1);
+                    if queue.send(place).is_err() {
+                        return;
+                    }
+                    // Nobody waits for a result after an error.
+                    jobs.spawn(move |_| drop(result.send(work(item))));
+                }
+            });
+        };
+        threads.spawn(draw);
+        // A place stays empty if its work panicked: the scope passes that on.
+        results.into_iter().map_while(|place| place.recv().ok()).try_for_each(&mut done)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::Duration;
+
+    use super::*;
+    use crate::Error;
+
+    #[test]
+    fn results_keep_their_order_and_few_are_ahead() {
+        let (drawn, mut taken) = (AtomicUsize::new(0), 0);
+        let items = (0..200_u64).inspect(|_| {
+            drawn.fetch_add(1, Ordering::SeqCst);
+        });
+        let work = |n: u64| {
+            thread::sleep(Duration::from_micros(n * 7919 % 300));
+            n
+        };
+        in_order(items, 5, work, |n| {
+            assert_eq!(n, taken);
+            assert!(drawn.load(Ordering::SeqCst) <= n as usize + 6, "{n}");
+            taken += 1;
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(taken, 200);
+    }
+
+    #[test]
+    fn an_error_ends_it() {
+        let refused = |n| if n < 3 { Ok(()) } else { Err(Error::Numeric("enough".to_owned())) };
+        assert!(in_order(0.., 4, |n| n, refused).is_err());
+    }
+}

@@ -1,0 +1,61 @@
+//! What made a record: the line of history that each tool adds to a scene.
+
+use serde_json::{Value, json};
+
+use super::Fields;
+use crate::error::Result;
+
+/// Flags that change no record, long and short, and whether a value follows: with others a run has the same history.
+const NO_MATTER: [(&str, &str, bool); 6] = [
+    ("--output", "-o", true),
+    ("--resume", "--resume", true),
+    ("--threads", "-j", true),
+    ("--progress", "--progress", true),
+    ("--quiet", "-q", false),
+    ("--verbose", "-v", false),
+];
+
+impl Fields {
+    /// Adds the line that says which tool, of which version, with which arguments, made or changed this record. Arguments that
+    /// change no record are left out.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `history` is not an array.
+    pub fn add_history(&mut self, tool: &str) -> Result<()> {
+        let mut history: Vec<Value> = self.get("history")?.unwrap_or_default();
+        let arguments = that_matter(std::env::args().skip(1));
+        history.push(json!({ "tool": tool, "version": env!("CARGO_PKG_VERSION"), "arguments": arguments }));
+        self.set("history", history)
+    }
+}
+
+fn that_matter(mut arguments: impl Iterator<Item = String>) -> Vec<String> {
+    let mut kept = Vec::new();
+    while let Some(argument) = arguments.next() {
+        match NO_MATTER.iter().find(|(long, short, _)| argument == *long || argument == *short) {
+            Some((.., true)) => drop(arguments.next()),
+            Some(_) => {}
+            None if NO_MATTER.iter().any(|flag| is_with_value(&argument, flag)) => {}
+            None => kept.push(argument),
+        }
+    }
+    kept
+}
+
+/// Whether flag and value are one word: `--threads=2`, `-j2`.
+fn is_with_value(argument: &str, (long, short, takes_value): &(&str, &str, bool)) -> bool {
+    let of_long = argument.strip_prefix(long).is_some_and(|rest| rest.starts_with('='));
+    *takes_value && (of_long || (short.len() == 2 && argument.starts_with(short)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_matters_is_remembered() {
+        let line =
+            "-j4 photo.tif -o out --margin 2 --threads=3 --resume out -q --progress always --resume=x -j 2";
+        assert_eq!(that_matter(line.split(' ').map(str::to_owned)), ["photo.tif", "--margin", "2"]);
+    }
+}

@@ -1,0 +1,95 @@
+//! Passing records through a tool: samples on all threads, their order kept.
+
+use std::iter;
+use std::sync::Arc;
+
+use super::{Kept, Reader, Record, Sample, Scene};
+use crate::error::Result;
+use crate::parallel::in_order;
+
+/// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
+const AHEAD: usize = 16;
+
+/// What a tool does to the records that pass through it.
+pub trait Transform {
+    /// What samples need of the scene above them.
+    type Context: Send + Sync;
+
+    /// Takes a scene, adds to it, and prepares its samples.
+    ///
+    /// # Errors
+    /// Any: a scene that cannot be used ends the run.
+    fn scene(&self, scene: &mut Scene) -> Result<Self::Context>;
+
+    /// Takes a sample and adds to it.
+    ///
+    /// # Errors
+    /// Any: the sample goes out with an `error` field and the run goes on.
+    fn sample(&self, context: &Self::Context, sample: &mut Sample) -> Result<()>;
+
+    /// Whether `kept` is what an interrupted run made of `sample`: it need not be made again.
+    fn is_made(&self, _sample: &Sample, _kept: &Sample) -> bool {
+        false
+    }
+}
+
+/// A record on its way.
+enum Step<C> {
+    Done(Record),
+    ToDo(Arc<C>, Sample),
+}
+
+/// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order, each as soon as
+/// it is made. Samples that `kept` has are not made again.
+///
+/// # Errors
+/// From the stream itself or from a scene; samples carry their own.
+pub fn pipe<T: Transform + Sync>(
+    reader: &mut Reader,
+    transform: &T,
+    mut kept: Kept,
+    mut done: impl FnMut(Record) -> Result<()>,
+) -> Result<()> {
+    let mut context = None;
+    let steps = iter::from_fn(|| step(reader, transform, &mut kept, &mut context).transpose());
+    let finish = |step: Result<Step<T::Context>>| match step? {
+        Step::Done(record) => Ok(record),
+        Step::ToDo(context, sample) => transformed(transform, &context, sample).map(Record::Sample),
+    };
+    in_order(steps, AHEAD * rayon::current_num_threads(), finish, |record| done(record?))
+}
+
+/// Reads a record, and does to it all that is not done in parallel.
+fn step<T: Transform>(
+    reader: &mut Reader,
+    transform: &T,
+    kept: &mut Kept,
+    context: &mut Option<Arc<T::Context>>,
+) -> Result<Option<Step<T::Context>>> {
+    let Some(record) = reader.read()? else { return Ok(None) };
+    if let Record::Sample(sample) = record {
+        let Some(context) = context else {
+            return Err(reader.wrong("a sample before any scene", "put its scene line first"));
+        };
+        return Ok(Some(match kept.sample(|kept| transform.is_made(&sample, kept))? {
+            Some(kept) => Step::Done(Record::Sample(kept)),
+            None => Step::ToDo(Arc::clone(context), sample),
+        }));
+    }
+    kept.pass()?;
+    if let Record::Scene(mut scene) = record {
+        *context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
+        return Ok(Some(Step::Done(Record::Scene(scene))));
+    }
+    Ok(Some(Step::Done(record)))
+}
+
+/// The sample as the tool leaves it; one that carries an error is left as it is.
+fn transformed<T: Transform>(transform: &T, context: &T::Context, mut sample: Sample) -> Result<Sample> {
+    if sample.error()?.is_none()
+        && let Err(error) = transform.sample(context, &mut sample)
+    {
+        sample.set_error(&error)?;
+    }
+    Ok(sample)
+}

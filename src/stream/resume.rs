@@ -1,0 +1,191 @@
+//! `--resume FILE`: what an interrupted run wrote is kept, the rest appended.
+//!
+//! A run writes what it would write anyway; [`Resumed`] compares the lines that the file has and appends the others, so that
+//! in the end the file is what one run makes. Tools whose work is dear take it from [`Kept`] instead of doing it again.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::{Fields, Reader, Record, Sample};
+use crate::error::{Error, Result};
+
+/// How every record begins.
+const BEGINNING: &[u8] = b"{\"kind\":";
+
+/// The records that an interrupted run wrote, one for each that this run is about to make.
+pub struct Kept(Option<Reader>);
+
+impl Kept {
+    /// No records.
+    #[must_use]
+    pub fn none() -> Self {
+        Self(None)
+    }
+
+    /// Passes the record of a scene.
+    ///
+    /// # Errors
+    /// As [`Reader::read`].
+    pub fn pass(&mut self) -> Result<()> {
+        self.0.as_mut().map_or(Ok(None), Reader::read).map(drop)
+    }
+
+    /// The sample in the next place, if it is there and is that of the input that `is_its` knows.
+    ///
+    /// # Errors
+    /// As [`Reader::read`].
+    pub fn sample(&mut self, is_its: impl Fn(&Sample) -> bool) -> Result<Option<Sample>> {
+        match self.0.as_mut().map_or(Ok(None), Reader::read)? {
+            Some(Record::Sample(sample)) if is_its(&sample) => Ok(Some(sample)),
+            _ => Ok(None),
+        }
+    }
+}
+
+/// A file that takes the lines it does not have yet.
+pub struct Resumed {
+    file: File,
+    path: PathBuf,
+    /// Lines still to be compared.
+    written: BufReader<io::Take<File>>,
+    line: usize,
+    /// Bytes in whole lines.
+    whole: u64,
+    is_cut: bool,
+}
+
+impl Resumed {
+    /// Opens a file, or makes it, and keeps other runs out of it.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for standard output, [`Error::File`] if it cannot be read or written, [`Error::Record`] if it ends in
+    /// something else than part of a record.
+    pub fn open(path: &Path) -> Result<Self> {
+        let failed = |e| Error::file(path.display(), e);
+        if path == Path::new("-") {
+            return Err(Error::usage("--resume", "standard output cannot be read again", "name a file"));
+        }
+        let mut file =
+            File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(failed)?;
+        if !file.metadata().map_err(failed)?.is_file() {
+            return Err(failed(io::Error::other("not a regular file, which alone can be resumed")));
+        }
+        #[cfg(unix)]
+        rustix::fs::flock(&file, rustix::fs::FlockOperation::NonBlockingLockExclusive)
+            .map_err(|_| failed(io::Error::other("another run is writing it")))?;
+        let (lines, whole) = whole_lines(&file).map_err(failed)?;
+        let mut rest = Vec::new();
+        file.seek(SeekFrom::Start(whole)).map_err(failed)?;
+        (&file).take(BEGINNING.len() as u64).read_to_end(&mut rest).map_err(failed)?;
+        if !BEGINNING.starts_with(&rest) {
+            return Err(wrong(path, lines + 1, "the last line is no part of a record"));
+        }
+        let written = BufReader::new(File::open(path).map_err(failed)?.take(whole));
+        Ok(Self { file, path: path.to_owned(), written, line: 0, whole, is_cut: false })
+    }
+
+    /// What the file has, as records.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be opened once more.
+    pub fn kept(&self) -> Result<Kept> {
+        let file = File::open(&self.path).map_err(|e| Error::file(self.path.display(), e))?;
+        let source = BufReader::new(file.take(self.whole));
+        Ok(Kept(Some(Reader::new(Box::new(source), &self.path.display().to_string()))))
+    }
+
+    /// Compares a line with that in its place, or appends it.
+    ///
+    /// # Errors
+    /// [`Error::Record`] if the file has another line there, [`Error::File`] if it cannot be read or written.
+    pub fn write(&mut self, line: &[u8]) -> Result<()> {
+        let mut there = Vec::new();
+        let read = self.written.read_until(b'\n', &mut there);
+        self.line += 1;
+        match read.map_err(|e| self.failed(e))? {
+            0 => self.append(line),
+            _ if there == line => Ok(()),
+            _ => Err(wrong(&self.path, self.line, &difference(&there, line))),
+        }
+    }
+
+    fn append(&mut self, line: &[u8]) -> Result<()> {
+        self.cut()?;
+        self.file.write_all(line).map_err(|e| self.failed(e))
+    }
+
+    /// Cuts off part of a line.
+    fn cut(&mut self) -> Result<()> {
+        if !self.is_cut {
+            self.file.set_len(self.whole).map_err(|e| self.failed(e))?;
+            self.file.seek(SeekFrom::Start(self.whole)).map_err(|e| self.failed(e))?;
+            self.is_cut = true;
+        }
+        Ok(())
+    }
+
+    /// Makes sure that the file has what was written and nothing else.
+    ///
+    /// # Errors
+    /// [`Error::Record`] if it has more, [`Error::File`] if it cannot be read or cut.
+    pub fn finish(mut self) -> Result<()> {
+        match self.written.fill_buf().map_err(|e| Error::file(self.path.display(), e))? {
+            [] => self.cut(),
+            _ => Err(wrong(&self.path, self.line + 1, "more records than this run makes")),
+        }
+    }
+
+    fn failed(&self, source: io::Error) -> Error {
+        Error::file(self.path.display(), source)
+    }
+}
+
+/// How many lines have an end, and their bytes.
+fn whole_lines(file: &File) -> io::Result<(usize, u64)> {
+    let (mut reader, mut lines, mut whole, mut read) = (BufReader::new(file), 0, 0, 0);
+    loop {
+        let bytes = reader.fill_buf()?;
+        if bytes.is_empty() {
+            return Ok((lines, whole));
+        }
+        lines += bytes.iter().filter(|byte| **byte == b'\n').count();
+        if let Some(last) = bytes.iter().rposition(|byte| *byte == b'\n') {
+            whole = read + last as u64 + 1;
+        }
+        let taken = bytes.len();
+        read += taken as u64;
+        reader.consume(taken);
+    }
+}
+
+fn wrong(path: &Path, line: usize, problem: &str) -> Error {
+    Error::Record {
+        path: path.display().to_string(),
+        line,
+        problem: problem.to_owned(),
+        remedy: "--resume goes on with what the same command wrote from the same input; give another file"
+            .to_owned(),
+    }
+}
+
+/// What tells two records apart.
+fn difference(there: &[u8], made: &[u8]) -> String {
+    let fields = |line| serde_json::from_slice(line).map(Fields).ok();
+    let (Some(there), Some(made)) = (fields(there), fields(made)) else {
+        return "not the line that this run makes".to_owned();
+    };
+    let name = |fields: &Fields| format!("{} '{}'", fields.kind(), fields.0.get("id").map_or("", id));
+    if name(&there) != name(&made) {
+        return format!("{}, where this run makes {}", name(&there), name(&made));
+    }
+    let names = made.0.keys().chain(there.0.keys());
+    match names.into_iter().find(|field| there.0.get(*field) != made.0.get(*field)) {
+        Some(field) => format!("the '{field}' of {} is not what this run makes", name(&there)),
+        None => format!("{} is written in another way than by this run", name(&there)),
+    }
+}
+
+fn id(value: &serde_json::Value) -> &str {
+    value.as_str().unwrap_or("")
+}
