@@ -11,6 +11,7 @@
 
 #[allow(dead_code, reason = "other benchmarks use the rest")]
 mod common;
+#[allow(dead_code, reason = "other benchmarks use the rest")]
 #[path = "common/samples.rs"]
 mod samples;
 
@@ -28,7 +29,7 @@ fn main() -> Result<()> {
     let smoothness: f64 = std::env::args()
         .find_map(|argument| argument.parse().ok())
         .ok_or_else(|| Error::Numeric("no weight of smoothness; write one after --".to_owned()))?;
-    let batch = Batch::read()?;
+    let batch = Batch::read("-")?;
     let classes = classes::of_munsell();
     let prior = Prior::from_spectra(batch.grid.wavelengths_nm(), &batch.chips()?, Some(&classes))?;
     let default = row(&batch, |shot| Ok(map::estimate(&shot.data(&batch.scene)?, &prior, None)))?;

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 target=${CARGO_TARGET_DIR:-target}
 cargo build --quiet --release --bins --benches
 bin=$target/release
-python=$target/scipy/bin/python
+. benches/peers.sh
 table=benches/results/estimates.md
 
 rows() {
@@ -24,8 +24,7 @@ rows() {
 }
 
 scipy() {
-    if ! { { [ -x "$python" ] || python3 -m venv "$target/scipy"; } >/dev/null 2>&1 &&
-        "$python" -m pip install --quiet --disable-pip-version-check scipy==1.14.1 2>/dev/null; }; then
+    if ! python=$(peer scipy scipy==1.14.1); then
         echo 'SciPy: pip cannot install it here; left out'
         return
     fi

@@ -4,14 +4,14 @@
 set -eu
 cd "$(dirname "$0")/.."
 target=${CARGO_TARGET_DIR:-target}
+. benches/peers.sh
 cargo build --quiet --release --bins --benches
 kernel=$(mktemp)
 trap 'rm -f "$kernel"' EXIT
 "$target/release/vkernel" --mesh facets --save kernel="$kernel" >/dev/null
-if { [ -x "$target/pyviewfactor/bin/python" ] || python3 -m venv "$target/pyviewfactor"; } >/dev/null 2>&1 &&
-    "$target/pyviewfactor/bin/python" -m pip install --quiet --disable-pip-version-check pyviewfactor==1.1.0 2>/dev/null; then
+if python=$(peer pyviewfactor pyviewfactor==1.1.0); then
     echo pyviewfactor >&2
-    "$target/pyviewfactor/bin/python" benches/pyviewfactor_kernel.py "$kernel" benches/results/pyviewfactor.csv
+    "$python" benches/pyviewfactor_kernel.py "$kernel" benches/results/pyviewfactor.csv
 else
     echo 'pyviewfactor: pip cannot install it here; left out' >&2
     rm -f benches/results/pyviewfactor.csv

@@ -14,7 +14,7 @@ use vfold::estimate::{classes, map};
 use vfold::score::rmse;
 
 fn main() -> Result<()> {
-    let batch = Batch::read()?;
+    let batch = Batch::read("-")?;
     let chips = batch.chips()?;
     // The built-in classes, and those joined again that were halved last.
     let means = [3, 2, 1, 0].map(|joins| {

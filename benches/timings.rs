@@ -1,30 +1,52 @@
-//! Whole runs of vkernel and their parts, one thread. Markdown goes to standard output and to `benches/results/timings.md`.
+//! Times that have a target, and those of whole runs and their parts; one thread unless said. Markdown goes to standard output and to `benches/results/timings.md`.
 
 #![allow(clippy::unwrap_used, reason = "a measurement stops at the first surprise")]
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 
 #[path = "common/mod.rs"]
 mod common;
+#[allow(dead_code, reason = "another benchmark uses the rest")]
+#[path = "kernel/reference.rs"]
+mod reference;
+#[allow(dead_code, reason = "another benchmark uses the rest")]
+#[path = "common/samples.rs"]
+mod samples;
+#[allow(dead_code, reason = "another benchmark uses the rest")]
+#[path = "common/solutions.rs"]
+mod solutions;
+#[path = "common/tools.rs"]
+mod tools;
 
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{fold, machine, results, timed};
+use common::{fold, machine, results, timed, timed_once};
+use image::{ImageBuffer, Rgb};
+use samples::Batch;
+use tools::shell;
+use vfold::estimate::prior::Prior;
+use vfold::estimate::{classes, map};
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
 
 const ANGLE_DEG: f64 = 45.0;
-/// Facets along a side over which the growth of the kernel's time is measured.
-const SIDES: [usize; 4] = [32, 64, 128, 256];
+/// Angles at which form factors are known in 60 digits.
+const ANGLES_DEG: [f64; 9] = [1.0, 5.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 179.0];
 /// Runs of a process, of which the median counts.
 const RUNS: usize = 11;
 
 fn main() {
     common::on_one_thread();
     let mut page = format!("# Timings\n\n{}; 45°.\n\n| what | took | target |\n|---|---|---|\n", machine());
+    let work = tempfile::tempdir().unwrap();
     kernels(&mut page);
+    estimates(&mut page, work.path());
+    pipelines(&mut page);
+    batches(&mut page, work.path());
+    photograph(&mut page, work.path());
     meshes(&mut page);
     processes(&mut page);
     print!("{page}");
@@ -38,17 +60,98 @@ fn line(page: &mut String, what: &str, took: &str, target: &str) {
 fn kernels(page: &mut String) {
     let of = |n: usize| timed(|| form_factors(&fold(ANGLE_DEG, n))).0;
     line(page, "exact form factors, 10x10", &milliseconds(of(10)), "1 ms");
-    let times = SIDES.map(of);
-    line(page, "exact form factors, 256x256", &milliseconds(times[3]), "1.5 s");
-    let growth: Vec<_> = times
-        .windows(2)
-        .zip(SIDES.windows(2))
-        .map(|(times, sides)| {
-            let exponent = (times[1] / times[0]).ln() / (sides[1] as f64 / sides[0] as f64).ln();
-            format!("{exponent:.2} from {} to {}", sides[0], sides[1])
-        })
-        .collect();
-    line(page, "their growth with n, exponent (distinct entries: 3)", &growth.join(", "), "");
+    let error = |angle_deg: f64| {
+        let fold = fold(angle_deg, 10);
+        reference::entry_error(&fold, &form_factors(&fold))
+    };
+    let error = ANGLES_DEG.map(error).into_iter().fold(0.0, f64::max);
+    line(page, "their largest error, 1° to 179°", &format!("{error:.0e}"), "1e-12");
+    line(page, "exact form factors, 256x256", &milliseconds(of(256)), "1.2 s");
+}
+
+/// Estimates in process, processor time.
+fn estimates(page: &mut String, work: &Path) {
+    for (noise, target) in [("1e-3", "1 ms"), ("0", "2 ms")] {
+        let path = work.join("chart.ndjson");
+        photographed(&format!("--reflectance cc24 --noise-sd {noise}"), &path);
+        let batch = Batch::read(path.to_str().unwrap()).unwrap();
+        let chips = batch.chips().unwrap();
+        let classes = classes::of_munsell();
+        let prior = Prior::from_spectra(batch.grid.wavelengths_nm(), &chips, Some(&classes)).unwrap();
+        let estimate = |shot: &samples::Shot| {
+            timed_once(|| map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None)).0
+        };
+        let took = milliseconds(median(batch.shots.iter().map(estimate).collect()));
+        line(page, &format!("an estimate, 10x10, facet noise {noise}, median of 24"), &took, target);
+    }
+}
+
+/// Sheets in front of the default camera.
+fn photographed(flags: &str, path: &Path) {
+    let made = shell(&format!("vkernel | vforward {flags} >\"$path\"")).env("path", path).status();
+    assert!(made.unwrap().success());
+}
+
+fn pipelines(page: &mut String) {
+    for (sheets, target) in [("cc24:orange", "30 ms"), ("cc24", "")] {
+        let script =
+            format!("vkernel | vforward --reflectance {sheets} | vestimate | vscore --table >/dev/null");
+        let run = || {
+            let start = Instant::now();
+            assert!(shell(&script).status().unwrap().success());
+            1e3 * start.elapsed().as_secs_f64()
+        };
+        let took = milliseconds(median((0..RUNS).map(|_| run()).collect()));
+        line(page, &format!("four tools, {sheets}, wall"), &took, target);
+    }
+}
+
+/// Samples a second, and whether more of them take more memory.
+fn batches(page: &mut String, work: &Path) {
+    let [few, many] = ["few.ndjson", "many.ndjson"].map(|name| work.join(name));
+    photographed("--reflectance munsell --noise-sd 1e-3", &few);
+    let text = fs::read_to_string(&few).unwrap();
+    let samples: String = text.split_inclusive('\n').skip(1).collect();
+    let count = samples.lines().count();
+    fs::write(&many, format!("{text}{}", samples.repeat(3))).unwrap();
+    let [once, often] = [&few, &many].map(|path| run("vestimate", &["-j", "2", path.to_str().unwrap()]));
+    let rate = 4.0 * count as f64 / often.0.as_secs_f64();
+    let took =
+        format!("{rate:.0} samples/s; {} MB, of a quarter of them {} MB", often.1 / 1000, once.1 / 1000);
+    line(page, &format!("vestimate -j 2, {} samples", 4 * count), &took, "1500 samples/s, memory flat");
+}
+
+/// A photograph of 24 million pixels, measured and merely decoded.
+fn photograph(page: &mut String, work: &Path) {
+    let path = work.join("photo.tif");
+    let pixel = |x: u32, y: u32| Rgb([1000 + 7 * x as u16, 2000 + 5 * y as u16, 3000 + (x + y) as u16]);
+    ImageBuffer::<Rgb<u16>, Vec<u16>>::from_fn(6000, 4000, pixel).save(&path).unwrap();
+    let scene = work.join("scene.json");
+    let made = shell("vkernel --angle-deg 50 -o \"$scene\"").env("scene", &scene).status();
+    assert!(made.unwrap().success());
+    let start = Instant::now();
+    let pixels = image::open(&path).unwrap();
+    let decoding = start.elapsed().as_secs_f64();
+    drop(pixels);
+    let scene = scene.to_str().unwrap();
+    let crease = "3319,3680 3218,834";
+    let panels = [format!("{crease} 1629,458 1719,3557"), format!("{crease} 4247,320 4371,3445")];
+    let flags = ["-j", "1", path.to_str().unwrap(), "--scene", scene, "--camera", "nikon-d5100"];
+    let (took, peak_kb) =
+        run("vextract", &[&flags[..], &["--panel0", &panels[0], "--panel1", &panels[1]]].concat());
+    let took = took.as_secs_f64();
+    let said = format!(
+        "{:.2} x decoding ({}), {} MB",
+        took / decoding,
+        milliseconds(1e3 * decoding),
+        peak_kb / 1000
+    );
+    line(page, "vextract, 24 million pixels, 16-bit TIFF", &said, "1.5 x decoding");
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 fn meshes(page: &mut String) {
@@ -68,26 +171,26 @@ fn meshes(page: &mut String) {
 
 fn processes(page: &mut String) {
     for (flags, target) in [
-        ("", "10 ms"),
-        ("--mesh facets", "10 ms"),
+        ("", ""),
+        ("--mesh facets", ""),
         ("--tolerance 1e-3", ""),
-        ("--facets 256x256 --mesh facets", "10 s, 1.5 GB"),
+        ("--facets 256x256 --mesh facets", "1 GB"),
     ] {
         let runs = if flags.contains("256") { 1 } else { RUNS };
-        let mut all: Vec<_> = (0..runs).map(|_| run(flags)).collect();
+        let flags: Vec<&str> = ["-j", "1"].into_iter().chain(flags.split_whitespace()).collect();
+        let mut all: Vec<_> = (0..runs).map(|_| run("vkernel", &flags)).collect();
         all.sort_unstable();
         let (time, peak_kb) = all[runs / 2];
         let took = format!("{}, {} MB", milliseconds(1e3 * time.as_secs_f64()), peak_kb / 1000);
-        line(page, &format!("`vkernel -j 1 {flags}`, whole process"), &took, target);
+        line(page, &format!("`vkernel {}`, whole process, wall", flags.join(" ")), &took, target);
     }
 }
 
 /// Time of one run, and the most memory it was seen to hold, kB.
-fn run(flags: &str) -> (Duration, u64) {
+fn run(tool: &str, flags: &[&str]) -> (Duration, u64) {
     let start = Instant::now();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_vkernel"))
-        .args(["-j", "1"])
-        .args(flags.split_whitespace())
+    let mut child = Command::new(Path::new(env!("CARGO_BIN_EXE_vkernel")).with_file_name(tool))
+        .args(flags)
         .stdout(Stdio::null())
         .spawn()
         .unwrap();

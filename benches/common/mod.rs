@@ -18,15 +18,21 @@ const LONG_ENOUGH: [Duration; 2] = [Duration::from_millis(300), Duration::from_s
 pub fn timed<T>(mut work: impl FnMut() -> T) -> (f64, T) {
     let (begin, mut times) = (Instant::now(), Vec::new());
     loop {
-        let start = processor_time();
-        let result = black_box(work());
-        times.push(processor_time().saturating_sub(start));
+        let (ms, result) = timed_once(&mut work);
+        times.push(ms);
         let [three, one] = LONG_ENOUGH.map(|time| begin.elapsed() > time);
         if times.len() == RUNS_MAX || (three && times.len() >= 3) || one {
-            times.sort_unstable();
-            return (1e3 * times[times.len() / 2].as_secs_f64(), result);
+            times.sort_by(f64::total_cmp);
+            return (times[times.len() / 2], result);
         }
     }
+}
+
+/// Time of one run in milliseconds, and what it gave.
+pub fn timed_once<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = processor_time();
+    let result = black_box(work());
+    (1e3 * processor_time().saturating_sub(start).as_secs_f64(), result)
 }
 
 fn processor_time() -> Duration {

@@ -1,4 +1,4 @@
-//! Samples on standard input, ready to be estimated in process as `vestimate` does.
+//! Samples of a stream, ready to be estimated in process as `vestimate` does.
 
 use vfold::estimate::Exposure;
 use vfold::estimate::data::{FacetData, Measured};
@@ -22,18 +22,20 @@ pub struct Batch {
 }
 
 /// The facets of a sheet that is known.
+#[derive(Clone)]
 pub struct Shot {
     rgb: Colours,
     sd: Colours,
-    exposure: Exposure,
+    /// Value of white facing the sun.
+    pub exposure: Exposure,
     /// Reflectance a waveband.
     pub truth: Vec<f64>,
 }
 
 impl Batch {
-    /// Reads one scene and all of its samples.
-    pub fn read() -> Result<Self> {
-        let mut reader = Reader::open("-")?;
+    /// Reads one scene and all of its samples from a file, or from standard input for `-`.
+    pub fn read(path: &str) -> Result<Self> {
+        let mut reader = Reader::open(path)?;
         let Some(Record::Scene(scene)) = reader.read()? else {
             return Err(Error::Numeric("no scene; pipe vkernel | vforward into the benchmark".to_owned()));
         };
@@ -70,9 +72,20 @@ impl Shot {
         Ok(Self { rgb, sd, exposure, truth: truth.reflectance })
     }
 
+    /// The facets and their noise.
+    pub fn measured(&self) -> Measured<'_> {
+        Measured { rgb: &self.rgb, sd: &self.sd }
+    }
+
+    /// The same facets, thought to have `times` their noise.
+    pub fn with_noise(mut self, times: f64) -> Self {
+        self.sd.iter_mut().flatten().flatten().for_each(|sd| *sd *= times);
+        self
+    }
+
     /// The facets in units of their noise.
     pub fn data<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
-        FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &self.sd }, self.exposure, CUTOFF)
+        FacetData::new(scene, &self.measured(), self.exposure, CUTOFF)
     }
 
     /// The facets, white being 1, as the paper's objective has them.

@@ -7,6 +7,7 @@ use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 
 use crate::common::results;
+use crate::marks::{Mark, element};
 use crate::steps::Steps;
 use crate::table::Row;
 use crate::{ANGLES_DEG, FACETS};
@@ -23,14 +24,6 @@ const STYLES: [(&str, RGBColor, Mark); 7] = [
     ("auto", RGBColor(0, 158, 115), Mark::Ring),
     ("pyviewfactor", RGBColor(86, 180, 233), Mark::Cross),
 ];
-
-#[derive(Clone, Copy)]
-enum Mark {
-    Disc,
-    Ring,
-    Triangle,
-    Cross,
-}
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
@@ -166,18 +159,4 @@ fn plot<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, Series { name, colour, mark, poin
     chart.draw_series(LineSeries::new(points.iter().copied(), colour.mix(0.5))).unwrap();
     let marks = points.iter().map(|point| element(*point, mark, colour));
     chart.draw_series(marks).unwrap().label(name).legend(move |(x, y)| element((x + 8, y), mark, colour));
-}
-
-/// One point.
-fn element<'b, C: Clone + 'static>(
-    at: C,
-    mark: Mark,
-    colour: RGBColor,
-) -> DynElement<'static, SVGBackend<'b>, C> {
-    match mark {
-        Mark::Disc => Circle::new(at, 5, colour.filled()).into_dyn(),
-        Mark::Ring => Circle::new(at, 4, colour.stroke_width(2)).into_dyn(),
-        Mark::Triangle => TriangleMarker::new(at, 5, colour.filled()).into_dyn(),
-        Mark::Cross => Cross::new(at, 4, colour.stroke_width(2)).into_dyn(),
-    }
 }

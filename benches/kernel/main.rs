@@ -8,8 +8,11 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod drawings;
+#[path = "../common/marks.rs"]
+mod marks;
 mod measure;
 mod pyviewfactor;
+#[allow(dead_code, reason = "another benchmark uses the rest")]
 mod reference;
 #[path = "../common/solutions.rs"]
 mod solutions;

@@ -70,6 +70,23 @@ pub fn relative_error(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
 }
 
+/// Irradiance of the facets of panel 0 in 14 digits, each facet being one flat patch, by reflectance.
+pub fn radiances(fold: &Fold) -> Vec<(f64, Vec<f64>)> {
+    let n = fold.facets().rows;
+    let systems = read("radiance.json", "systems");
+    let system = systems.iter().find(|system| is_angle(fold, system) && index(&system["nx"]) == n).unwrap();
+    let row = |row: &Value| -> Vec<f64> {
+        let half: Vec<f64> = row.as_array().unwrap().iter().map(number).collect();
+        (0..n).map(|col| half[col.min(n - 1 - col)]).collect()
+    };
+    let solution = |solution: &Value| {
+        let r = number(&solution["r"]);
+        let facets = solution["L"].as_array().unwrap().iter().flat_map(row);
+        (r, facets.map(|radiance| std::f64::consts::PI * radiance / r).collect())
+    };
+    system["radiance"].as_array().unwrap().iter().map(solution).collect()
+}
+
 fn read(name: &str, list: &str) -> Vec<Value> {
     let path = format!("{}/tests/data/reference/{name}", env!("CARGO_MANIFEST_DIR"));
     let mut value: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();

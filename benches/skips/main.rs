@@ -9,6 +9,8 @@
 mod bounces;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/products.rs"]
+mod direct;
 mod factors;
 mod products;
 #[path = "../common/solutions.rs"]

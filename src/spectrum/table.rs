@@ -68,7 +68,7 @@ impl Place<'_> {
 }
 
 fn cells(row: &str) -> impl Iterator<Item = &str> {
-    row.split(',').map(|cell| cell.trim().trim_matches('"'))
+    row.split(',').map(|cell| cell.trim_ascii().trim_matches('"'))
 }
 
 fn column_names<'a>(header: &'a str, at: &Place) -> Result<Vec<&'a str>> {
@@ -91,7 +91,7 @@ fn column_names<'a>(header: &'a str, at: &Place) -> Result<Vec<&'a str>> {
 }
 
 fn read_row(row: &str, names: &[&str], columns: &mut [Vec<f64>], at: &Place) -> Result<()> {
-    let count = cells(row).count();
+    let count = row.split(',').count();
     if count != names.len() {
         let problem = format!("{count} values, but the header has {} columns", names.len());
         return Err(at.fails(problem, "give every column a value in every row"));

@@ -1,5 +1,7 @@
 //! Pairs of strips along the crease: the kernel depends on the shift between two points alone.
 
+use nalgebra::DMatrix;
+
 use super::strips::polynomials;
 use crate::kernel::quadrature::Rule;
 
@@ -52,13 +54,12 @@ impl Correlation {
         }
     }
 
-    /// The integrals with `g = 1/(q² + z²)²` into `out[b * order + d]`.
-    pub(super) fn integrate(&self, q2: f64, out: &mut [f64]) {
-        out.fill(0.0);
-        for (z2, weights) in self.shift2.iter().zip(self.weights.chunks_exact(self.order * self.order)) {
-            let g = (q2 + z2).powi(2).recip();
-            out.iter_mut().zip(weights).for_each(|(out, w)| *out += w * g);
-        }
+    /// The integrals with `g = q³/(q² + z²)²`: pair (b, d), d fast, by distance q.
+    pub(super) fn integrals(self, distances: &[f64]) -> DMatrix<f64> {
+        let shifts = self.shift2.len();
+        let weights = DMatrix::from_vec(self.order * self.order, shifts, self.weights);
+        let g = |z: usize, q: usize| distances[q].powi(3) / (distances[q].powi(2) + self.shift2[z]).powi(2);
+        weights * DMatrix::from_fn(shifts, distances.len(), g)
     }
 }
 

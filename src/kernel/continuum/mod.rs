@@ -11,6 +11,7 @@
 //! Lengths are in units of panel 0's depth.
 
 mod correlation;
+mod exchange;
 mod rows;
 mod strips;
 mod table;
@@ -20,12 +21,12 @@ use std::f64::consts::FRAC_PI_4;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use self::exchange::Exchange;
 use self::rows::Rows;
 use self::strips::{Strips, graded};
 use self::table::{Nodes, StripPair, tabulate};
 use super::panel::PanelOperator;
 use crate::geometry::{FacetGrid, Fold};
-use crate::solve::dot;
 
 /// Distances below this share of the nearest strips' count as one: nothing changes there any more.
 const NEAREST: f64 = 0.05;
@@ -124,9 +125,7 @@ impl Resolution {
 
 /// The radiosity operator of a fold, and how to read facet means from its functions.
 pub struct Continuum {
-    /// What panel 0 gives to panel 1, column by column what a function on panel 1 gets; if the panels differ, its
-    /// transpose as well.
-    exchange: Vec<DMatrix<f64>>,
+    exchange: Exchange,
     uniform: [Vec<f64>; 2],
     facets: FacetGrid,
     /// For each panel, facet row by function across it.
@@ -145,8 +144,10 @@ impl Continuum {
         let layout = Layout::new(fold, resolution);
         let nodes = layout.nodes(fold, resolution.nodes);
         let pairs = tabulate(&layout.along, layout.width, &nodes);
-        let matrix = assemble(&layout, &Rows::new(fold, resolution.orders[0]), &nodes, &pairs);
-        let exchange = if fold.is_symmetric() { vec![matrix] } else { vec![matrix.transpose(), matrix] };
+        let alike = fold.is_symmetric();
+        let matrix = assemble(&layout, alike, &Rows::new(fold, resolution.orders[0]), &nodes, &pairs);
+        let exchange =
+            if alike { Exchange::Alike(matrix) } else { Exchange::Differing([matrix.transpose(), matrix]) };
         let unit = fold.depths()[0];
         let edges = fold.row_edges();
         let rows = |panel: usize| -> Vec<_> {
@@ -175,7 +176,7 @@ impl Continuum {
 
 impl PanelOperator for Continuum {
     fn is_symmetric(&self) -> bool {
-        self.exchange.len() == 1
+        matches!(self.exchange, Exchange::Alike(_))
     }
 
     fn uniform(&self, panel: usize) -> Vec<f64> {
@@ -183,9 +184,7 @@ impl PanelOperator for Continuum {
     }
 
     fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
-        // Columns are contiguous, so that the transpose is the one to multiply with.
-        let columns = self.exchange[panel % self.exchange.len()].as_slice().par_chunks_exact(x.len());
-        columns.zip(out).with_min_len(100_000 / x.len()).for_each(|(column, out)| *out = dot(column, x));
+        self.exchange.apply(panel, x, out);
     }
 
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
@@ -197,18 +196,19 @@ impl PanelOperator for Continuum {
     }
 }
 
-/// The matrix of the exchange, functions of panel 0 by functions of panel 1: across the crease slow, along it fast.
-fn assemble(layout: &Layout, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) -> DMatrix<f64> {
+/// The matrix of the exchange, functions of panel 0 by functions of panel 1: across the crease slow, along it fast. Of panels
+/// that are `alike` the upper triangle alone.
+fn assemble(layout: &Layout, alike: bool, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) -> DMatrix<f64> {
     let [across0, across1] = &layout.across;
     let (along, order) = (layout.along.len(), across0.order);
-    let symmetric = across0.ends == across1.ends;
-    let height = layout.unknowns(0);
-    let mut matrix = DMatrix::zeros(height, layout.unknowns(1));
+    let (height, width) = (layout.unknowns(0), layout.unknowns(1));
+    // Zeros that nobody wrote take no memory: what is never set costs nothing.
+    let mut matrix = DMatrix::from_vec(height, width, vec![0.0; height * width]);
     // Columns of one strip of panel 1 each.
     let columns = matrix.as_mut_slice().par_chunks_exact_mut(order * along * height).enumerate();
     columns.for_each(|(j, columns)| {
         for (i, strip) in across0.ends.iter().enumerate() {
-            if symmetric && i > j {
+            if alike && i > j {
                 continue;
             }
             let weights = rows.weights(*strip, across1.ends[j], nodes);
@@ -222,9 +222,6 @@ fn assemble(layout: &Layout, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) ->
             }
         }
     });
-    if symmetric {
-        matrix.fill_lower_triangle_with_upper_triangle();
-    }
     matrix
 }
 

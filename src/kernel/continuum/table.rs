@@ -74,12 +74,7 @@ pub(super) fn tabulate(strips: &Strips, width: f64, nodes: &Nodes) -> Vec<StripP
         let (near, [low, high], peak) = (strips.ends[e], strips.ends[f], 0.5 * nodes.start.exp());
         correlation.add(near, [low, high], false, peak);
         correlation.add(near, [width - high, width - low], true, peak);
-        let mut values = DMatrix::zeros(strips.order * strips.order, distances.len());
-        for (mut integrals, q) in values.column_iter_mut().zip(&distances) {
-            correlation.integrate(q * q, integrals.as_mut_slice());
-            integrals *= q.powi(3);
-        }
-        StripPair { strips: [e, f], values }
+        StripPair { strips: [e, f], values: correlation.integrals(&distances) }
     };
     pairs.into_par_iter().map(tabulate).collect()
 }
