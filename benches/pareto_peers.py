@@ -3,7 +3,7 @@
 
     pareto_peers.py response KERNEL.npy PANEL        dense solutions for 61 wavebands; KERNEL.npy from `vkernel --mesh facets --save`
     pareto_peers.py estimate SMOOTHNESS PANEL        the paper's objective by SciPy, of the samples on standard input
-    pareto_peers.py colour PANEL                     flat sheets by colour-science from their true XYZ, of the same samples
+    pareto_peers.py colour PANEL...                  flat sheets by colour-science from their true XYZ, of the same samples
 """
 
 import os
@@ -92,7 +92,7 @@ def estimate(smoothness, panel):
         summary(panel, "SciPy eq. (36)", setting, found)
 
 
-def colour(panel):
+def colour(*panels):
     """From the XYZ under D65 that a perfect colorimeter would measure, which is kind: no camera, no noise."""
     warnings.simplefilter("ignore")
     import colour
@@ -109,7 +109,8 @@ def colour(panel):
             xyz = colour.sd_to_XYZ(truth, cmfs, light, method="Integration") / 100
             ms, sd = timed(lambda: colour.XYZ_to_sd(xyz, method=method, cmfs=cmfs, illuminant=light))
             found.append((ms, rmse(np.interp(shape.wavelengths, sd.wavelengths, sd.values), sample)))
-        summary(panel, "colour-science from true XYZ", method, found)
+        for panel in panels:
+            summary(panel, "colour-science from true XYZ", method, found)
 
 
 if __name__ == "__main__":

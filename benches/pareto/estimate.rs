@@ -76,7 +76,7 @@ fn folded(panel: &str, set: &str, noise: &str) {
     // Without noise there is none that could be mistaken.
     let assumed = if noise == "0" { &[] } else { ASSUMED.as_slice() };
     for times in assumed {
-        score(panel, "default; --noise-sd, true x", &times.to_string(), &batch, 1, |shot| {
+        score(panel, "default; --noise-sd x true", &times.to_string(), &batch, 1, |shot| {
             map::estimate(&shot.clone().with_noise(*times).data(&batch.scene).unwrap(), &prior, None)
         });
     }
