@@ -5,29 +5,38 @@ use std::thread;
 
 use crate::error::Result;
 
-/// Does `work` on every item on all threads and hands the results to `done` in the order of the items, each as soon as it and
+/// An item of which the result is known, or is to be worked out.
+pub enum Item<I, O> {
+    /// The result.
+    Known(O),
+    /// What it is worked out from.
+    ToDo(I),
+}
+
+/// Does `work` on items on all threads and hands the results to `done` in the order of the items, each as soon as it and
 /// those before it are there.
 ///
-/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead` (1 or more) are
-/// drawn and not yet handed on, which bounds memory.
+/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead` (1 or more) are in
+/// work or wait for those before them, which bounds memory.
 ///
 /// # Errors
 /// That of `done`, after which no item is drawn but the one that is waited for.
 ///
 /// # Example
 /// ```
+/// use vfold::parallel::{Item, in_order};
 /// let mut squares = Vec::new();
-/// vfold::parallel::in_order(1..=4, 2, |n| n * n, |square| Ok(squares.push(square)))?;
+/// in_order((1..=4).map(Item::ToDo), 2, |n| n * n, |square| Ok(squares.push(square)))?;
 /// assert_eq!(squares, [1, 4, 9, 16]);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn in_order<I: Send, O: Send>(
-    items: impl IntoIterator<Item = I, IntoIter: Send>,
+    items: impl Iterator<Item = Item<I, O>> + Send,
     ahead: usize,
     work: impl Fn(I) -> O + Sync,
     mut done: impl FnMut(O) -> Result<()>,
 ) -> Result<()> {
-    let (items, work) = (items.into_iter(), &work);
+    let work = &work;
     // The result that is waited for is out of the queue.
     let (queue, results) = sync_channel::<Receiver<O>>(ahead - 1);
     thread::scope(|threads| {
@@ -39,7 +48,10 @@ pub fn in_order<I: Send, O: Send>(
                         return;
                     }
                     // Nobody waits for a result after an error.
-                    jobs.spawn(move |_| drop(result.send(work(item))));
+                    match item {
+                        Item::Known(known) => drop(result.send(known)),
+                        Item::ToDo(item) => jobs.spawn(move |_| drop(result.send(work(item)))),
+                    }
                 }
             });
         };
@@ -63,6 +75,7 @@ mod tests {
         let items = (0..200_u64).inspect(|_| {
             drawn.fetch_add(1, Ordering::SeqCst);
         });
+        let items = items.map(|n| if n % 3 == 0 { Item::Known(n) } else { Item::ToDo(n) });
         let work = |n: u64| {
             thread::sleep(Duration::from_micros(n * 7919 % 300));
             n
@@ -80,6 +93,6 @@ mod tests {
     #[test]
     fn an_error_ends_it() {
         let refused = |n| if n < 3 { Ok(()) } else { Err(Error::Numeric("enough".to_owned())) };
-        assert!(in_order(0.., 4, |n| n, refused).is_err());
+        assert!(in_order((0..).map(Item::ToDo), 4, |n| n, refused).is_err());
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Kept, Reader, Record, Sample, Scene};
 use crate::error::Result;
-use crate::parallel::in_order;
+use crate::parallel::{Item, in_order};
 
 /// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
 const AHEAD: usize = 16;
@@ -33,11 +33,8 @@ pub trait Transform {
     }
 }
 
-/// A record on its way.
-enum Step<C> {
-    Done(Record),
-    ToDo(Arc<C>, Sample),
-}
+/// A record that is as it should be, or a sample with the context of its scene.
+type Step<C> = Item<(Arc<C>, Sample), Result<Record>>;
 
 /// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order, each as soon as
 /// it is made. Samples that `kept` has are not made again.
@@ -51,11 +48,12 @@ pub fn pipe<T: Transform + Sync>(
     mut done: impl FnMut(Record) -> Result<()>,
 ) -> Result<()> {
     let mut context = None;
-    let steps = iter::from_fn(|| step(reader, transform, &mut kept, &mut context).transpose());
-    let finish = |step: Result<Step<T::Context>>| match step? {
-        Step::Done(record) => Ok(record),
-        Step::ToDo(context, sample) => transformed(transform, &context, sample).map(Record::Sample),
-    };
+    let steps = iter::from_fn(|| {
+        let step = step(reader, transform, &mut kept, &mut context);
+        step.unwrap_or_else(|error| Some(Item::Known(Err(error))))
+    });
+    let finish =
+        |(context, sample): (Arc<_>, _)| transformed(transform, &*context, sample).map(Record::Sample);
     in_order(steps, AHEAD * rayon::current_num_threads(), finish, |record| done(record?))
 }
 
@@ -72,16 +70,16 @@ fn step<T: Transform>(
             return Err(reader.wrong("a sample before any scene", "put its scene line first"));
         };
         return Ok(Some(match kept.sample(|kept| transform.is_made(&sample, kept))? {
-            Some(kept) => Step::Done(Record::Sample(kept)),
-            None => Step::ToDo(Arc::clone(context), sample),
+            Some(kept) => Item::Known(Ok(Record::Sample(kept))),
+            None => Item::ToDo((Arc::clone(context), sample)),
         }));
     }
     kept.pass()?;
     if let Record::Scene(mut scene) = record {
         *context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
-        return Ok(Some(Step::Done(Record::Scene(scene))));
+        return Ok(Some(Item::Known(Ok(Record::Scene(scene)))));
     }
-    Ok(Some(Step::Done(record)))
+    Ok(Some(Item::Known(Ok(record))))
 }
 
 /// The sample as the tool leaves it; one that carries an error is left as it is.

@@ -1,21 +1,14 @@
 //! Many photographs at once.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use vfold::Result;
 use vfold::image::Photograph;
-use vfold::parallel::in_order;
+use vfold::parallel::{Item, in_order};
 use vfold::stream::{Kept, Sample};
-use vfold::{Error, Result};
 
 use super::pictures::name;
 use super::sample::Setup;
-
-/// A photograph on its way.
-enum Step<'a> {
-    Measured(Sample),
-    Opened(&'a Path, Result<Photograph>),
-    ToOpen(&'a Path),
-}
 
 /// Measures photographs, of which the first is open already, and hands on their samples in order, each as soon as it is there.
 /// Those that `kept` has are not measured again. No more of them are in memory than there are threads.
@@ -31,16 +24,13 @@ pub fn measure(
     let steps = images.iter().map(|path| {
         let opened = first.take();
         let is_its = |sample: &Sample| sample.id().is_ok_and(|id| id == name(path));
-        Ok(match (kept.sample(is_its)?, opened) {
-            (Some(sample), _) => Step::Measured(sample),
-            (None, Some(opened)) => Step::Opened(path, opened),
-            (None, None) => Step::ToOpen(path),
-        })
+        match kept.sample(is_its).transpose() {
+            Some(sample) => Item::Known(sample),
+            None => Item::ToDo((path, opened)),
+        }
     });
-    let measure = |step: Result<Step>| match step? {
-        Step::Measured(sample) => Ok::<_, Error>(sample),
-        Step::Opened(path, opened) => setup.sample_or_error(path, opened),
-        Step::ToOpen(path) => setup.sample_or_error(path, Photograph::open(path, &setup.options)),
+    let measure = |(path, opened): (&PathBuf, Option<_>)| {
+        setup.sample_or_error(path, opened.unwrap_or_else(|| Photograph::open(path, &setup.options)))
     };
     in_order(steps, rayon::current_num_threads(), measure, |sample| done(sample?))
 }

@@ -11,7 +11,7 @@ use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
-use vfold::parallel::in_order;
+use vfold::parallel::{Item, in_order};
 use vfold::spectrum;
 use vfold::stream::{Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
@@ -55,7 +55,7 @@ impl<'a> Setup<'a> {
     fn sheets(&self, sheets: &[Sheet], out: &mut Output) -> Result<()> {
         let ahead = AHEAD * rayon::current_num_threads();
         let make = |(n, sheet): (usize, _)| self.of_sheet(sheet, n as u64);
-        in_order(sheets.iter().enumerate(), ahead, make, |sample| out.sample(&sample?))
+        in_order(sheets.iter().enumerate().map(Item::ToDo), ahead, make, |sample| out.sample(&sample?))
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64) -> Result<Sample> {
