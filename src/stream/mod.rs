@@ -31,7 +31,7 @@ pub use model::ReferencePanel;
 pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use plan::{ExpectedError, plan};
-pub use rawtoaces::camera;
+pub use rawtoaces::{camera, illuminant, reflectances};
 pub use reader::{Reader, Record, Transform, pipe};
 pub use regions::{Corners, Regions, RegionsFile};
 pub use sample::{ReflectanceRecord, Sample, summary};
