@@ -166,10 +166,7 @@ impl Specs {
 
     /// The spectra of the file, or the member of a file, that `spec` names.
     fn named_file(self, what: What, spec: &str) -> Result<Vec<Spectrum>> {
-        let (path, member) = match spec.rsplit_once(':') {
-            Some((path, member)) if !Path::new(spec).exists() => (path, Some(member)),
-            _ => (spec, None),
-        };
+        let (path, member) = path_and_member(spec);
         if !Path::new(path).exists() && !path.contains('/') && !has_ending(path, &ENDINGS) {
             return Err(unknown(what, spec, library::list(what)?.iter().map(|(name, _)| name.as_str())));
         }
@@ -183,6 +180,16 @@ impl Specs {
         }
         let spectra = column_called(path, member, table.spectra(path))?;
         Ok(if what == What::Cameras { spectra } else { called_after_file(path, member, spectra) })
+    }
+}
+
+/// The file that `spec` begins with, and what follows its colon; a member's name may have colons as well.
+fn path_and_member(spec: &str) -> (&str, Option<&str>) {
+    let exists = |path: &str| Path::new(path).exists();
+    let mut splits = spec.match_indices(':').map(|(at, _)| (&spec[..at], &spec[at + 1..]));
+    match splits.find(|(path, _)| exists(path)).or_else(|| spec.rsplit_once(':')) {
+        Some((path, member)) if !exists(spec) => (path, Some(member)),
+        _ => (spec, None),
     }
 }
 
