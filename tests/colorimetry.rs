@@ -1,5 +1,8 @@
 //! Colour against published numbers and against colour-science.
 
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used)]
+
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

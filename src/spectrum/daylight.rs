@@ -27,7 +27,7 @@ pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
     let basis = library::builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
     let [s0, s1, s2] = [0, 1, 2].map(|i| basis[i].values());
     let values = s0.iter().zip(s1).zip(s2).map(|((s0, s1), s2)| s0 + m1 * s1 + m2 * s2).collect();
-    // CIE 15 joins the values of its daylight by lines
+    // CIE 15 joins the values by lines
     Ok(Spectrum::from_table(name, basis[0].wavelengths_nm.clone(), values).linear())
 }
 

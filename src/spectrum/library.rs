@@ -22,9 +22,10 @@ macro_rules! shared {
     };
 }
 
-/// The spectra of an embedded CSV text.
+/// The spectra of an embedded CSV text, joined by lines: CIE 15 has it so for its illuminants, and the published figures of this
+/// project for its cameras.
 pub(super) fn builtin(path: &str, text: &str) -> Result<Vec<Spectrum>> {
-    Ok(formats::parse_csv(path, text)?.spectra(path))
+    Ok(formats::parse_csv(path, text)?.spectra(path).into_iter().map(Spectrum::linear).collect())
 }
 
 struct Camera {
@@ -138,9 +139,8 @@ fn about(illuminant: &str) -> &'static str {
     }
 }
 
-/// CIE 15 joins the values of its illuminants by lines.
 fn cie_illuminants() -> Result<Vec<Spectrum>> {
-    Ok(shared!("illuminants.csv")?.into_iter().map(Spectrum::linear).collect())
+    shared!("illuminants.csv")
 }
 
 fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {

@@ -7,6 +7,7 @@ mod daylight;
 pub mod formats;
 mod grid;
 mod interpolation;
+mod kinds;
 pub mod library;
 mod munsell;
 mod nearest;
@@ -15,8 +16,9 @@ pub mod spec;
 
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
+pub use kinds::Sensitivities;
 pub use library::{camera_by_exif, cameras_like};
-pub use spec::{Sensitivities, camera, illuminant, reflectances};
+pub use spec::{camera, illuminant, reflectances};
 
 use crate::error::{Error, Result};
 use interpolation::sprague;
@@ -90,7 +92,7 @@ impl Spectrum {
         Self { name, wavelengths_nm, values, interpolation, ceiling: f64::INFINITY, note: None }
     }
 
-    /// The same samples joined by lines, as CIE 15 has it for its illuminants.
+    /// The same samples joined by lines.
     fn linear(self) -> Self {
         Self { interpolation: Interpolation::Linear, ..self }
     }

@@ -5,48 +5,13 @@
 
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
+use super::kinds::{Sensitivities, bad, check_power, check_reflectance};
 use super::library::{self, What};
 use super::nearest::nearest;
 use super::own::{self, OwnFile};
 use crate::error::{Error, Result};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Negative sensitivities up to this fraction of the peak are measurement noise about zero.
-const NOISE_OF_PEAK: f64 = 1e-3;
-
-/// What the channels of a camera see of each wavelength.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivities {
-    /// The SPEC the camera was named by.
-    pub name: String,
-    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in ones.
-    pub channels: Vec<Spectrum>,
-}
-
-impl Sensitivities {
-    /// The camera of these channels.
-    ///
-    /// # Errors
-    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which is taken for
-    /// noise and set to 0, or zero throughout.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::spectrum::{Sensitivities, Spectrum};
-    /// let channel = Spectrum::new("Y", vec![400.0, 700.0], vec![1.0, -0.0005])?;
-    /// assert_eq!(Sensitivities::new("grey", vec![channel])?.channels[0].values(), [1.0, 0.0]);
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    pub fn new(name: &str, mut channels: Vec<Spectrum>) -> Result<Self> {
-        let peak = channels.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
-        for channel in &mut channels {
-            check_power(channel, -NOISE_OF_PEAK * peak)?;
-            channel.values.iter_mut().for_each(|value| *value = value.max(0.0));
-        }
-        Ok(Self { name: name.to_owned(), channels })
-    }
-}
 
 /// The reflectances that `spec` names: every member of a set, every column of a file.
 ///
@@ -219,36 +184,6 @@ fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -
     spectra.into_iter().map(|spectrum| spectrum.renamed(name)).collect()
 }
 
-fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
-    let Some(&value) = spectrum.values().iter().find(|value| !(0.0..=1.0).contains(*value)) else {
-        return Ok(());
-    };
-    let remedy = match value {
-        ..0.0 => "set negative noise to 0",
-        2.0.. => "rescale it to fractions or percent",
-        _ => "leave out fluorescent samples, rescale wrongly scaled ones",
-    };
-    Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
-}
-
-fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
-    if let Some(value) = spectrum.values().iter().find(|value| **value < least) {
-        return Err(bad(spectrum.name(), format!("{value} is below 0"), "give values of 0 or more"));
-    }
-    if !spectrum.values().iter().any(|value| *value > 0.0) {
-        return Err(bad(
-            spectrum.name(),
-            "it is zero at every wavelength",
-            "give a positive value somewhere",
-        ));
-    }
-    Ok(())
-}
-
-fn bad(name: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
-    Error::Spectrum { name: name.to_owned(), problem: problem.into(), remedy: remedy.into() }
-}
-
 /// The error for a name that is not among `known`, with the nearest of those.
 pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
     let (kind, list) = match what {
@@ -332,14 +267,6 @@ mod tests {
         with_csv("nm,r [%]\n400,0.5\n700,0.7\n", |path| {
             assert!(message(reflectances(path)).contains("says percent, but no value is above 1"));
         });
-    }
-
-    #[test]
-    fn sensor_noise_below_zero_is_cut() {
-        with_csv("nm,R\n400,-0.0009\n700,1\n", |path| {
-            assert_eq!(camera(path).unwrap().channels[0].values(), [0.0, 1.0]);
-        });
-        with_csv("nm,R\n400,-0.0011\n700,1\n", |path| assert!(camera(path).is_err()));
     }
 
     #[test]

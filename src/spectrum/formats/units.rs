@@ -22,36 +22,14 @@ pub(super) fn to_nm(
     wavelengths: &[f64],
     first_line: usize,
 ) -> Result<(Vec<f64>, Option<&'static str>)> {
-    let said = unit(header);
-    let looks_small = |value: &f64| (0.1..10.0).contains(value);
-    let found = said.unwrap_or(match wavelengths.first() {
-        Some(first) if looks_small(first) => Unit::Micrometres,
+    let found = unit(header).unwrap_or(match wavelengths.first() {
+        Some(first) if looks_small(*first) => Unit::Micrometres,
         _ => Unit::Nanometres,
     });
     let mut wavelengths_nm: Vec<f64> = Vec::with_capacity(wavelengths.len());
     for (value, line) in wavelengths.iter().zip(first_line..) {
         let at = Place { line, ..at };
-        let nm = match found {
-            Unit::Nanometres => *value,
-            // 0.57 um are 570 nm, and not a rounding error less
-            Unit::Micrometres => (value * 1e9).round() / 1e6,
-        };
-        if !(100.0..=3000.0).contains(&nm) {
-            return Err(match found {
-                Unit::Nanometres if looks_small(value) => {
-                    let problem = format!("wavelength {value} looks like micrometres, not nm");
-                    at.fails(problem, "give all in nm, or head them um")
-                }
-                Unit::Nanometres => at.fails(
-                    format!("wavelength {value} does not look like nm"),
-                    "give nm, such as 400 to 700",
-                ),
-                Unit::Micrometres => at.fails(
-                    format!("wavelength {value} does not look like micrometres"),
-                    "give micrometres, such as 0.4 to 0.7, or head them nm",
-                ),
-            });
-        }
+        let nm = found.nm(*value, at)?;
         if let Some(before_nm) = wavelengths_nm.last().filter(|before_nm| **before_nm >= nm) {
             let problem = format!("wavelength {nm} nm follows {before_nm} nm");
             return Err(at.fails(problem, "sort the rows by wavelength and drop repeated ones"));
@@ -59,6 +37,35 @@ pub(super) fn to_nm(
         wavelengths_nm.push(nm);
     }
     Ok((wavelengths_nm, (found == Unit::Micrometres).then_some("micrometres read as nm")))
+}
+
+impl Unit {
+    /// A wavelength in nm.
+    fn nm(self, value: f64, at: Place) -> Result<f64> {
+        let (nm, name, remedy) = match self {
+            Self::Nanometres if looks_small(value) => {
+                let problem = format!("wavelength {value} looks like micrometres, not nm");
+                return Err(at.fails(problem, "give all in nm, or head them um"));
+            }
+            Self::Nanometres => (value, "nm", "give nm, such as 400 to 700"),
+            // 0.57 um are 570 nm, and not a rounding error less
+            Self::Micrometres => (
+                (value * 1e9).round() / 1e6,
+                "micrometres",
+                "give micrometres, such as 0.4 to 0.7, or head them nm",
+            ),
+        };
+        if (100.0..=3000.0).contains(&nm) {
+            Ok(nm)
+        } else {
+            Err(at.fails(format!("wavelength {value} does not look like {name}"), remedy))
+        }
+    }
+}
+
+/// Whether a wavelength is about that of light in micrometres.
+fn looks_small(value: f64) -> bool {
+    (0.1..10.0).contains(&value)
 }
 
 fn unit(header: &str) -> Option<Unit> {
