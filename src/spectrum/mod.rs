@@ -156,12 +156,12 @@ impl Spectrum {
     /// # Example
     /// ```
     /// use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-    /// let grid = |step_nm| WavelengthGrid::uniform(400.0, 700.0, step_nm);
     /// let parabola = |nm: &f64| (nm / 700.0).powi(2);
-    /// let coarse = grid(20.0)?.wavelengths_nm().to_vec();
-    /// let values = coarse.iter().map(parabola).collect();
-    /// let fine = Spectrum::new("parabola", coarse, values)?.on(&grid(5.0)?, Outside::Refuse)?;
-    /// assert!(grid(5.0)?.wavelengths_nm().iter().map(parabola).zip(fine).all(|(a, b)| (a - b).abs() < 1e-12));
+    /// let coarse_nm = WavelengthGrid::uniform(400.0, 700.0, 20.0)?.wavelengths_nm().to_vec();
+    /// let values = coarse_nm.iter().map(parabola).collect();
+    /// let grid = WavelengthGrid::uniform(500.0, 600.0, 5.0)?;
+    /// let fine = Spectrum::new("parabola", coarse_nm, values)?.on(&grid, Outside::Refuse)?;
+    /// assert!(grid.wavelengths_nm().iter().map(parabola).zip(fine).all(|(a, b)| (a - b).abs() < 1e-12));
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn on(&self, grid: &WavelengthGrid, outside: Outside) -> Result<Vec<f64>> {
