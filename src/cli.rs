@@ -1,6 +1,7 @@
 //! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
 
 mod generate;
+mod spectra;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -11,8 +12,8 @@ use clap::{Args, Parser, ValueEnum};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use crate::stream::{self, CameraRecord, Optics, Output, SpectrumRecord};
+use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
+use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
 pub use generate::Generate;
 
 /// Flags that all tools have.
@@ -46,9 +47,11 @@ pub struct Common {
     /// Print the man page or a shell's completions
     #[arg(long, value_name = "WHAT")]
     pub generate: Option<Generate>,
-    /// Print the built-in spectra of a kind
+    /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
+    #[arg(skip)]
+    said: spectra::Said,
 }
 
 /// What `--progress` takes.
@@ -180,7 +183,7 @@ pub fn pair<T: std::str::FromStr>(text: &str) -> std::result::Result<(T, T), Str
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each
+    /// Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each
     #[arg(long, value_name = "SPEC", default_value = "D65")]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky [default: that of the sun]
@@ -212,40 +215,35 @@ impl OpticsArgs {
     }
 
     /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera sees nothing where it
-    /// was not measured.
+    /// was not measured. What was converted is said as `common` asks.
     ///
     /// # Errors
-    /// As [`stream::camera`] and [`spectrum::illuminant`], or if an illuminant does not cover the wavelengths.
-    pub fn resolve(&self, camera: &str) -> Result<Optics> {
+    /// As [`Common::camera`] and [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
+    pub fn resolve(&self, camera: &str, common: &Common) -> Result<Optics> {
         let grid = self.wavelengths_nm.clone();
-        let camera = stream::camera(camera)?;
+        let camera = common.camera(camera)?;
         let on_grid = |channel: &Spectrum| channel.on(&grid, Outside::Zero);
+        let name = |interpolation: Interpolation| interpolation.name().to_owned();
         let light = |spec: &String| {
-            let spectrum = spectrum::illuminant(spec)?;
+            let spectrum = common.illuminant(spec)?;
             let power = spectrum.on(&grid, Outside::Refuse)?;
-            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power })
+            let interpolation = spectrum.interpolation(&grid).map(name);
+            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power, interpolation })
         };
         Ok(Optics {
             camera: CameraRecord {
                 name: camera.name.clone(),
                 channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
                 sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
+                interpolation: camera
+                    .channels
+                    .iter()
+                    .find_map(|channel| channel.interpolation(&grid))
+                    .map(name),
             },
             illuminants: self.illuminant.iter().map(light).collect::<Result<_>>()?,
             sky: self.sky_illuminant.as_ref().map(light).transpose()?,
             grid,
         })
-    }
-}
-
-/// The one reflectance that a flag names.
-///
-/// # Errors
-/// As [`spectrum::reflectances`], or [`Error::Usage`] if it is a set.
-pub fn one_reflectance(flag: &'static str, spec: &str) -> Result<Spectrum> {
-    let mut spectra = spectrum::reflectances(spec)?;
-    match (spectra.pop(), spectra.is_empty()) {
-        (Some(spectrum), true) => Ok(spectrum),
-        _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
     }
 }

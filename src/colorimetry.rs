@@ -3,6 +3,10 @@
 //! Paper section 5B scores an estimate by CIEDE2000 for the 10° observer under D65. CIELAB, CIEDE2000 and the sRGB
 //! primaries are the crate `colorimetry`'s; only the integral over the scene's own grid is done here.
 
+mod uncertainty;
+
+pub use uncertainty::{Colour, ErrorBars};
+
 use crate::error::{Error, Result};
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 use colorimetry::lab::CieLab;
@@ -95,7 +99,12 @@ impl Colorimeter {
     /// If `reflectance` is not as long as the grid.
     #[must_use]
     pub fn lab(&self, reflectance: &[f64]) -> [f64; 3] {
-        CieLab::from_rxyz(RelXYZ::new(self.xyz(reflectance), self.white)).to_array()
+        self.lab_of(self.xyz(reflectance))
+    }
+
+    /// CIELAB of XYZ under the illuminant.
+    fn lab_of(&self, xyz: [f64; 3]) -> [f64; 3] {
+        CieLab::from_rxyz(RelXYZ::new(xyz, self.white)).to_array()
     }
 
     /// CIEDE2000 between two reflectances on the grid.
@@ -105,6 +114,30 @@ impl Colorimeter {
     #[must_use]
     pub fn delta_e_2000(&self, a: &[f64], b: &[f64]) -> f64 {
         ciede2000(self.lab(a), self.lab(b))
+    }
+
+    /// Special metamerism index for a change of illuminant: CIEDE2000 under `self` between two reflectances, `b` being corrected by the
+    /// factors in X, Y and Z that make the two look alike under `reference`.
+    ///
+    /// 0 for two reflectances that match under both; what is left is what no correction for one light can take away.
+    ///
+    /// # Source
+    /// CIE 15:2018, section 9.2; the multiplicative correction is that of A. Brockes, "Vergleich der Metamerie-Indizes bei
+    /// Lichtartwechsel", *Die Farbe* 19 (1970), p. 135, and DIN 6172.
+    ///
+    /// # Panics
+    /// If a reflectance is not as long as the grid.
+    #[must_use]
+    pub fn metamerism_index(&self, reference: &Self, a: &[f64], b: &[f64]) -> f64 {
+        let (a_reference, b_reference) = (reference.xyz(a), reference.xyz(b));
+        let (a, mut b) = (self.xyz(a), self.xyz(b));
+        for (i, b) in b.iter_mut().enumerate() {
+            // nothing multiplies black to match
+            if b_reference[i] > 0.0 {
+                *b *= a_reference[i] / b_reference[i];
+            }
+        }
+        ciede2000(self.lab_of(a), self.lab_of(b))
     }
 
     /// The reflectance as a colour on screen: sRGB (IEC 61966-2-1) with its transfer curve, each 0..1.

@@ -32,10 +32,10 @@
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> colorimetry, files
-//!               score, colorimetry -> spectrum                          all -> error
+//!               score, colorimetry -> spectrum -> files                 all -> error
 //! ```
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of
-//! cameras included; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
+//! spectra included; other files of spectra to [`spectrum::formats`]; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 
 pub mod calibrate;
 pub mod camera;

@@ -1,7 +1,11 @@
 //! Distances between a true and an estimated reflectance spectrum.
 //!
 //! Paper section 5B: eq. (37) is [`rmse`], eq. (38) is [`pearson_distance`]. CIEDE2000, which needs an observer, is in
-//! [`crate::colorimetry`].
+//! [`crate::colorimetry`]. [`Summary`] has mean, median and worst of many samples.
+
+mod summary;
+
+pub use summary::{Group, Score, Statistics, Summary};
 
 /// Root mean square error over the wavebands, eq. (37); 0..1 for reflectances.
 ///
@@ -52,63 +56,52 @@ fn norm(spectrum: &[f64]) -> f64 {
     spectrum.iter().map(|r| r * r).sum::<f64>().sqrt()
 }
 
-/// The scores of one sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Metrics {
-    /// Root mean square error, eq. (37).
-    pub rmse: f64,
-    /// CIEDE2000 colour difference.
-    pub ciede2000: f64,
-    /// The paper's "Pearson distance", eq. (38).
-    pub pd: f64,
+/// Goodness of fit coefficient: the cosine between the spectra, 1 for the same shape.
+///
+/// 0.999 is called good, 0.9999 very good. One minus it is [`pearson_distance`], with which it shares what becomes of black.
+///
+/// # Source
+/// J. Romero, A. García-Beltrán, J. Hernández-Andrés, "Linear bases for representation of natural and artificial illuminants", *JOSA A*
+/// 14 (1997), p. 1007.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// # Example
+/// ```
+/// use vfold::score::goodness_of_fit;
+/// assert!((goodness_of_fit(&[0.4, 0.6], &[0.6, 0.4]) - 12.0 / 13.0).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn goodness_of_fit(truth: &[f64], estimate: &[f64]) -> f64 {
+    1.0 - pearson_distance(truth, estimate)
 }
 
-/// The scores of a batch: 24 bytes a sample, so that the median is exact.
-#[derive(Clone, Debug, Default)]
-pub struct Summary {
-    samples: usize,
-    scores: [Vec<f64>; 3],
-}
-
-impl Summary {
-    /// Counts a sample, and its scores if it has any.
-    pub fn add(&mut self, metrics: Option<Metrics>) {
-        self.samples += 1;
-        if let Some(Metrics { rmse, ciede2000, pd }) = metrics {
-            self.scores.iter_mut().zip([rmse, ciede2000, pd]).for_each(|(scores, score)| scores.push(score));
-        }
+/// Angle between the spectra as vectors, degrees, 0..90 for reflectances.
+///
+/// By half angles, which keeps the digits that the arc cosine of nearly 1 loses; black is at 0° from black, at 90° from anything else.
+///
+/// # Source
+/// F. A. Kruse et al., "The spectral image processing system (SIPS)", *Remote Sensing of Environment* 44 (1993), p. 145.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// # Example
+/// ```
+/// use vfold::score::spectral_angle_deg;
+/// assert!((spectral_angle_deg(&[0.5, 0.0], &[0.2, 0.2]) - 45.0).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn spectral_angle_deg(truth: &[f64], estimate: &[f64]) -> f64 {
+    let (truth_norm, estimate_norm) = (norm(truth), norm(estimate));
+    if truth_norm <= 0.0 || estimate_norm <= 0.0 {
+        return 90.0 * pearson_distance(truth, estimate);
     }
-
-    /// Samples counted.
-    #[must_use]
-    pub fn samples(&self) -> usize {
-        self.samples
-    }
-
-    /// Samples with scores.
-    #[must_use]
-    pub fn scored(&self) -> usize {
-        self.scores[0].len()
-    }
-
-    /// Mean, median and worst of each score; none without a score.
-    #[must_use]
-    pub fn statistics(&self) -> Option<[Metrics; 3]> {
-        let count = self.scored();
-        if count == 0 {
-            return None;
-        }
-        let metrics = |[rmse, ciede2000, pd]: [f64; 3]| Metrics { rmse, ciede2000, pd };
-        let sorted = self.scores.each_ref().map(|scores| {
-            let mut scores = scores.clone();
-            scores.sort_by(f64::total_cmp);
-            scores
-        });
-        let mean = sorted.each_ref().map(|scores| scores.iter().sum::<f64>() / count as f64);
-        let median = sorted.each_ref().map(|scores| 0.5 * (scores[(count - 1) / 2] + scores[count / 2]));
-        let worst = sorted.each_ref().map(|scores| scores[count - 1]);
-        Some([mean, median, worst].map(metrics))
-    }
+    let directions = || truth.iter().zip(estimate).map(|(r, s)| (r / truth_norm, s / estimate_norm));
+    let difference: f64 = directions().map(|(r, s)| (r - s).powi(2)).sum();
+    let sum: f64 = directions().map(|(r, s)| (r + s).powi(2)).sum();
+    2.0 * difference.sqrt().atan2(sum.sqrt()).to_degrees()
 }
 
 #[cfg(test)]
@@ -127,6 +120,16 @@ mod tests {
     #[test]
     fn distance_is_uncentred() {
         assert!((pearson_distance(&[0.4, 0.6], &[0.6, 0.4]) - 1.0 / 13.0).abs() < 1e-15);
+    }
+
+    /// colour-science has no spectral angle; NumPy: `np.degrees(np.arccos(a @ b / np.linalg.norm(a) / np.linalg.norm(b)))`.
+    #[test]
+    fn angles_are_numpys() {
+        let (a, b) = ([0.1, 0.4, 0.8, 0.3], [0.2, 0.3, 0.7, 0.6]);
+        assert!((spectral_angle_deg(&a, &b) - 20.44319080842469).abs() < 1e-12);
+        assert!((goodness_of_fit(&a, &b) - 0.9370189619999117).abs() < 1e-15);
+        assert!((spectral_angle_deg(&[1.0, 0.0], &[1.0, 1e-9]) / 1e-9_f64.to_degrees() - 1.0).abs() < 1e-12);
+        assert!((spectral_angle_deg(&[0.0; 4], &b) - 90.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,6 +1,13 @@
 //! Colour against published numbers and against colour-science.
 
-use vfold::colorimetry::{Colorimeter, Observer, ciede2000};
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used)]
+
+use nalgebra::{DMatrix, DVector};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use vfold::colorimetry::{Colorimeter, Colour, ErrorBars, Observer, ciede2000};
 use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 
 /// Sharma, Wu and Dalal, "The CIEDE2000 color-difference formula" (2005), table 1.
@@ -116,6 +123,70 @@ fn swatches_are_the_srgb_of_colour_science() {
         let r = reflectances(patch).unwrap()[0].on(&grid, Outside::Refuse).unwrap();
         assert_near(&meter.srgb(&r), &want, 1e-3, &format!("{patch} under {light}"));
     }
+}
+
+/// From D65 to A and to FL11 between a patch and half of it mixed with another: NumPy for the trapezoid rule and the correction,
+/// colour-science 0.4.7 for tables, `XYZ_to_Lab` and `delta_E`.
+#[rustfmt::skip]
+const METAMERISM: [(&str, &str, [f64; 2]); 3] = [
+    ("cc24:red", "cc24:orange", [2.4941191873105497, 1.1576279587490024]),
+    ("cc24:green", "cc24:foliage", [1.0193763297438634, 0.2183652480226629]),
+    ("cc24:blue-sky", "cc24:neutral-5", [2.933480072722106, 1.098697075584154]),
+];
+
+fn meter(light: &str) -> Colorimeter {
+    Colorimeter::new(&WavelengthGrid::default(), &illuminant(light).unwrap(), Observer::Cie1964_10deg)
+        .unwrap()
+}
+
+fn patch(name: &str) -> Vec<f64> {
+    reflectances(name).unwrap()[0].on(&WavelengthGrid::default(), Outside::Refuse).unwrap()
+}
+
+#[test]
+fn metamerism_is_that_of_numpy_and_colour_science() {
+    let (d65, others) = (meter("D65"), ["A", "FL11"].map(meter));
+    for (one, other, want) in METAMERISM {
+        let (a, b) = (patch(one), patch(other));
+        let mixed: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect();
+        let got = others.each_ref().map(|light| light.metamerism_index(&d65, &a, &mixed));
+        assert_near(&got, &want, 2e-6, one);
+        assert!(d65.metamerism_index(&d65, &a, &mixed) < 1e-9, "no change of light, no index");
+        assert!(others[0].metamerism_index(&d65, &a, &a) < 1e-9);
+    }
+}
+
+/// Draws of reflectances with neighbouring wavebands off together, an independent way to the spread of their colours.
+#[test]
+fn error_bars_of_colours_are_those_of_a_simulation() {
+    const DRAWS: usize = 20_000;
+    let (d65, reflectance) = (meter("D65"), patch("cc24:orange"));
+    let bands = reflectance.len();
+    let covariance =
+        DMatrix::from_fn(bands, bands, |i, j| 0.004_f64.powi(2) * (-0.1 * i.abs_diff(j) as f64).exp());
+    let root = covariance.clone().cholesky().unwrap().l();
+    let mut noise = ChaCha8Rng::seed_from_u64(1);
+    let draw = |_| {
+        let normal = DVector::from_fn(bands, |_, _| StandardNormal.sample(&mut noise));
+        let off: DVector<f64> = &root * normal;
+        numbers(&d65.colour(&reflectance.iter().zip(&off).map(|(r, off)| r + off).collect::<Vec<_>>()))
+    };
+    let draws: Vec<[f64; 9]> = (0..DRAWS).map(draw).collect();
+    let rows: Vec<Vec<f64>> = covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let sd = numbers(&d65.colour_sd(&reflectance, ErrorBars::Covariance(&rows)));
+    let most = numbers(&d65.colour_sd(&reflectance, ErrorBars::Deviations(&vec![0.004; bands])));
+    for (k, (sd, most)) in sd.into_iter().zip(most).enumerate() {
+        let mean = draws.iter().map(|one| one[k]).sum::<f64>() / DRAWS as f64;
+        let variance = draws.iter().map(|one| (one[k] - mean).powi(2)).sum::<f64>() / DRAWS as f64;
+        assert!((sd / variance.sqrt() - 1.0).abs() < 0.02, "{k}: {sd} for {}", variance.sqrt());
+        assert!(sd <= most, "{k}: {sd} is more than {most}");
+    }
+}
+
+fn numbers(Colour { xyz, lab, srgb }: &Colour) -> [f64; 9] {
+    let mut all = [0.0; 9];
+    all.iter_mut().zip(xyz.iter().chain(lab).chain(srgb)).for_each(|(to, from)| *to = *from);
+    all
 }
 
 #[test]

@@ -55,6 +55,8 @@ vkernel --angle-deg 50 -o scene.json
 cp photo.exr 1.exr; cp photo.exr 2.exr
 echo '{"panel0": [[332,462],[345,77],[122,12],[104,442]], "panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
 vforward scene.json --reflectance cc24:red -o samples.ndjson
+vestimate samples.ndjson -o estimates.ndjson
+for angle in 30 60; do vkernel --angle-deg $angle | vforward --reflectance 0.5 | vestimate -o angle-$angle.ndjson; done
 printf 'nm,red\n380,0.05\n600,0.4\n780,0.6\n' > measured.csv
 "#
 );

@@ -2,6 +2,7 @@
 //!
 //! Paper section 3: the q wavebands of r(λ); section 5C takes 400..700 nm by 5 (q = 61), the default here.
 
+use super::interpolation::even_step_nm;
 use crate::error::{Error, Result};
 use std::fmt;
 
@@ -107,13 +108,6 @@ impl WavelengthGrid {
         }
         weights_nm
     }
-
-    fn uniform_step_nm(&self) -> Option<f64> {
-        let (first_nm, last_nm) = self.range_nm();
-        let step_nm = (last_nm - first_nm) / (self.len() - 1) as f64;
-        let even = |(i, nm): (usize, &f64)| (first_nm + i as f64 * step_nm - nm).abs() < 1e-6 * step_nm;
-        self.wavelengths_nm.iter().enumerate().all(even).then_some(step_nm)
-    }
 }
 
 fn bad(problem: String, remedy: &'static str) -> Error {
@@ -130,7 +124,7 @@ impl Default for WavelengthGrid {
 impl fmt::Display for WavelengthGrid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (first_nm, last_nm) = self.range_nm();
-        match self.uniform_step_nm() {
+        match even_step_nm(&self.wavelengths_nm) {
             Some(step_nm) => write!(f, "{first_nm}..{last_nm} nm by {step_nm}"),
             None => write!(f, "{} wavelengths in {first_nm}..{last_nm} nm", self.len()),
         }

@@ -1,7 +1,7 @@
 //! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
 
 use super::nearest::nearest;
-use super::{Spectrum, daylight, munsell, spec, table};
+use super::{Spectrum, daylight, formats, munsell, own, spec};
 use crate::error::{Error, Result};
 
 /// The kinds of spectra.
@@ -18,8 +18,14 @@ pub enum What {
 /// A table embedded in the program, with the file it was made from.
 macro_rules! shared {
     ($file:literal) => {
-        table::parse_csv(concat!("share/", $file), include_str!(concat!("../../share/", $file)))
+        builtin(concat!("share/", $file), include_str!(concat!("../../share/", $file)))
     };
+}
+
+/// The spectra of an embedded CSV text, joined by lines: CIE 15 has it so for its illuminants, and the published figures of this
+/// project for its cameras.
+pub(super) fn builtin(path: &str, text: &str) -> Result<Vec<Spectrum>> {
+    Ok(formats::parse_csv(path, text)?.spectra(path).into_iter().map(Spectrum::linear).collect())
 }
 
 struct Camera {
@@ -83,10 +89,10 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
     },
 ];
 
-/// Names and one-line descriptions of what is built in.
+/// Names and one-line descriptions of what is built in, and of the files in the directory `VFOLD_DATA`.
 ///
 /// # Errors
-/// Only if an embedded table is damaged.
+/// [`Error::File`] if that directory cannot be read.
 ///
 /// # Example
 /// ```
@@ -95,7 +101,19 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
 /// assert!(cameras.iter().any(|(name, _)| name == "nikon-d5100"));
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn list(what: What) -> Result<Vec<(String, &'static str)>> {
+pub fn list(what: What) -> Result<Vec<(String, String)>> {
+    let mut rows: Vec<(String, String)> =
+        listed(what)?.into_iter().map(|(name, about)| (name, about.to_owned())).collect();
+    for file in own::files()? {
+        let hidden = if find(what, &file.name)?.is_some() { "; the built-in one has the name" } else { "" };
+        let about = format!("own, {} in {}{hidden}", file.file_name(), own::VARIABLE);
+        rows.push((file.name, about));
+    }
+    Ok(rows)
+}
+
+/// What is built in.
+fn listed(what: What) -> Result<Vec<(String, &'static str)>> {
     Ok(match what {
         What::Cameras => CAMERAS.iter().map(|camera| (camera.name.to_owned(), camera.about)).collect(),
         What::Reflectances => REFLECTANCE_SETS.iter().map(|set| (set.name.to_owned(), set.about)).collect(),
@@ -130,7 +148,7 @@ fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
 }
 
 /// Upper and lower case are the same, and `5R 6/12` is `5R6/12`.
-fn same_name(a: &str, b: &str) -> bool {
+pub(super) fn same_name(a: &str, b: &str) -> bool {
     plain(a).eq(plain(b))
 }
 
@@ -218,7 +236,7 @@ mod tests {
     #[test]
     fn every_listed_name_is_found() {
         for (what, count) in [(What::Reflectances, 4), (What::Cameras, 3), (What::Illuminants, 47)] {
-            let names = list(what).unwrap();
+            let names = listed(what).unwrap();
             assert_eq!(names.len(), count);
             for (name, _) in names {
                 assert!(find(what, &name.replace("CCT", "5500")).unwrap().is_some(), "{name}");

@@ -4,21 +4,27 @@
 //! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
 
 mod daylight;
+pub mod formats;
 mod grid;
+mod interpolation;
+mod kinds;
 pub mod library;
 mod munsell;
 mod nearest;
+mod own;
 pub mod spec;
-mod table;
 
 pub use grid::WavelengthGrid;
+pub use interpolation::Interpolation;
+pub use kinds::Sensitivities;
 pub use library::{camera_by_exif, cameras_like};
-pub use spec::{Sensitivities, camera, illuminant, reflectances};
+pub use spec::{camera, illuminant, reflectances};
 
 use crate::error::{Error, Result};
+use interpolation::sprague;
 use std::sync::Arc;
 
-/// A quantity tabulated over wavelength, linear between its samples.
+/// A quantity tabulated over wavelength, with an [`Interpolation`] between its samples.
 ///
 /// Reflectance: 0..1. Illuminant: relative power. Sensitivity: relative, 0 or more.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +33,10 @@ pub struct Spectrum {
     /// Shared, because the columns of one table have the same wavelengths.
     wavelengths_nm: Arc<[f64]>,
     values: Vec<f64>,
+    interpolation: Interpolation,
+    /// What no value between the samples exceeds unless they do: 1 for reflectances.
+    ceiling: f64,
+    note: Option<Arc<str>>,
 }
 
 /// What a spectrum is where its table ends.
@@ -78,7 +88,23 @@ impl Spectrum {
 
     /// A column of a table whose wavelengths have been checked.
     fn from_table(name: String, wavelengths_nm: Arc<[f64]>, values: Vec<f64>) -> Self {
-        Self { name, wavelengths_nm, values }
+        let interpolation = Interpolation::for_samples(&wavelengths_nm);
+        Self { name, wavelengths_nm, values, interpolation, ceiling: f64::INFINITY, note: None }
+    }
+
+    /// The same samples joined by lines.
+    fn linear(self) -> Self {
+        Self { interpolation: Interpolation::Linear, ..self }
+    }
+
+    /// The same samples as those of a reflectance, which stays below 1 between them.
+    #[must_use]
+    pub fn as_reflectance(self) -> Self {
+        Self { ceiling: 1.0, ..self }
+    }
+
+    fn noted(self, note: Option<&Arc<str>>) -> Self {
+        Self { note: note.cloned(), ..self }
     }
 
     fn renamed(self, name: impl FnOnce(&str) -> String) -> Self {
@@ -103,17 +129,41 @@ impl Spectrum {
         &self.values
     }
 
+    /// What was done to the samples as they were read, such as `paint.csv: percent read as fractions`; for the user to see.
+    #[must_use]
+    pub fn note(&self) -> Option<&str> {
+        self.note.as_deref()
+    }
+
     /// First and last wavelength of the samples, nm.
     #[must_use]
     pub fn range_nm(&self) -> (f64, f64) {
         (self.wavelengths_nm[0], self.wavelengths_nm[self.wavelengths_nm.len() - 1])
     }
 
-    /// The values at the grid's wavelengths, by linear interpolation.
+    /// The values at the grid's wavelengths: the samples themselves where there are any, else interpolated.
+    ///
+    /// Between samples that are 0 or more no value is below 0, and a reflectance between two that are at most 1 is not above 1,
+    /// however far the polynomial may swing.
+    ///
+    /// # Source
+    /// CIE 167:2005 for even samples ([`Interpolation::Sprague`]).
     ///
     /// # Errors
     /// [`Error::Spectrum`] with both ranges if the grid reaches beyond the samples and `outside` is
     /// [`Outside::Refuse`].
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
+    /// let parabola = |nm: &f64| (nm / 700.0).powi(2);
+    /// let coarse_nm = WavelengthGrid::uniform(400.0, 700.0, 20.0)?.wavelengths_nm().to_vec();
+    /// let values = coarse_nm.iter().map(parabola).collect();
+    /// let grid = WavelengthGrid::uniform(500.0, 600.0, 5.0)?;
+    /// let fine = Spectrum::new("parabola", coarse_nm, values)?.on(&grid, Outside::Refuse)?;
+    /// assert!(grid.wavelengths_nm().iter().map(parabola).zip(fine).all(|(a, b)| (a - b).abs() < 1e-12));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
     pub fn on(&self, grid: &WavelengthGrid, outside: Outside) -> Result<Vec<f64>> {
         let ((first_nm, last_nm), (grid_first_nm, grid_last_nm)) = (self.range_nm(), grid.range_nm());
         if outside == Outside::Refuse && (grid_first_nm < first_nm || grid_last_nm > last_nm) {
@@ -134,14 +184,34 @@ impl Spectrum {
         Ok(grid.wavelengths_nm().iter().map(value_at).collect())
     }
 
-    /// The value at `nm` on the line through the samples `right - 1` and `right`, 0 beyond them.
+    /// How [`Spectrum::on`] finds values on the grid; none where every wavelength of the grid is that of a sample, or lies beyond them.
+    #[must_use]
+    pub fn interpolation(&self, grid: &WavelengthGrid) -> Option<Interpolation> {
+        let (first_nm, last_nm) = self.range_nm();
+        let between = |nm: &f64| {
+            (first_nm..last_nm).contains(nm)
+                && self.wavelengths_nm.binary_search_by(|at| at.total_cmp(nm)).is_err()
+        };
+        let is_flat = first_nm <= 0.0;
+        (!is_flat && grid.wavelengths_nm().iter().any(between)).then_some(self.interpolation)
+    }
+
+    /// The value at `nm` between the samples `right - 1` and `right`, 0 beyond them.
     fn between(&self, right: usize, nm: f64) -> f64 {
         let (a_nm, b_nm) = (self.wavelengths_nm[right - 1], self.wavelengths_nm[right]);
         if nm < a_nm || nm > b_nm {
             return 0.0;
         }
-        let share = (nm - a_nm) / (b_nm - a_nm);
-        self.values[right - 1] * (1.0 - share) + self.values[right] * share
+        let (a, b) = (self.values[right - 1], self.values[right]);
+        match (nm - a_nm) / (b_nm - a_nm) {
+            share if self.interpolation == Interpolation::Linear => a * (1.0 - share) + b * share,
+            0.0 => a,
+            1.0 => b,
+            share => {
+                let (floor, ceiling) = (a.min(b).min(0.0), a.max(b).max(self.ceiling));
+                sprague(&self.values, right - 1, share).clamp(floor, ceiling)
+            }
+        }
     }
 }
 
@@ -172,7 +242,7 @@ mod tests {
         }
 
         #[test]
-        fn interpolation_is_linear_between_the_samples(spectrum in samples(), share in 0.0_f64..1.0) {
+        fn interpolation_is_linear_between_uneven_samples(spectrum in samples(), share in 0.0_f64..1.0) {
             let within = |pair: &[f64]| pair[0] + share * (pair[1] - pair[0]);
             let grid_nm: Vec<f64> = spectrum.wavelengths_nm().windows(2).map(within).collect();
             prop_assume!(grid_nm.len() > 1);
@@ -181,6 +251,30 @@ mod tests {
                 prop_assert!((got - want).abs() < 1e-9);
             }
         }
+    }
+
+    /// Without bounds Sprague's polynomial goes from -0.06 to 1.06 here.
+    #[test]
+    fn a_reflectance_stays_between_0_and_1() {
+        let nm: Vec<f64> = (0..8).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+        let step = Spectrum::new("step", nm, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]).unwrap();
+        let grid = WavelengthGrid::uniform(400.0, 470.0, 1.0).unwrap();
+        let peak = |spectrum: &Spectrum| {
+            let values = spectrum.on(&grid, Outside::Refuse).unwrap();
+            assert!(values.iter().all(|value| *value >= 0.0), "{values:?}");
+            values.into_iter().fold(0.0, f64::max)
+        };
+        assert!(peak(&step) > 1.05);
+        assert!(peak(&step.as_reflectance()) <= 1.0);
+    }
+
+    #[test]
+    fn what_is_tabulated_is_not_interpolated() {
+        let nm: Vec<f64> = (0..31).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+        let red = Spectrum::new("red", nm, vec![0.5; 31]).unwrap();
+        let found = |step_nm| red.interpolation(&WavelengthGrid::uniform(400.0, 700.0, step_nm).unwrap());
+        assert_eq!((found(20.0), found(5.0)), (None, Some(Interpolation::Sprague)));
+        assert_eq!(Spectrum::flat("1", 1.0).interpolation(&WavelengthGrid::default()), None);
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub(super) fn chips() -> Result<Vec<Spectrum>> {
     let wavelengths_nm: Arc<[f64]> = WavelengthGrid::uniform(380.0, 780.0, 5.0)?.wavelengths_nm().into();
     let chip = |(name, units): (&str, &[u16])| {
         let reflectance = units.iter().map(|&unit| f64::from(unit) * UNIT).collect();
-        Spectrum::from_table(format!("munsell:{name}"), wavelengths_nm.clone(), reflectance)
+        Spectrum::from_table(format!("munsell:{name}"), wavelengths_nm.clone(), reflectance).linear()
     };
     Ok(NAMES.lines().zip(units.chunks_exact(wavelengths_nm.len())).map(chip).collect())
 }

@@ -1,55 +1,22 @@
 //! SPEC, the way the command line names spectra.
 //!
-//! In this order: a number (flat), a built-in name, `set:member` or `daylight:CCT`, a file, one column of a file as
-//! `file.csv:column`. A file called like a built-in name is reached as `./D65`.
+//! In this order: a number (flat), a built-in name, `set:member` or `daylight:CCT`, the same in the directory `VFOLD_DATA`, a file, one
+//! column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
 
+use super::Spectrum;
+use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
+use super::kinds::{Sensitivities, bad, check_power, check_reflectance};
 use super::library::{self, What};
 use super::nearest::nearest;
-use super::{Spectrum, table};
+use super::own::{self, OwnFile};
 use crate::error::{Error, Result};
 use std::path::Path;
-
-/// Negative sensitivities up to this fraction of the peak are measurement noise about zero.
-const NOISE_OF_PEAK: f64 = 1e-3;
-
-/// What the channels of a camera see of each wavelength.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivities {
-    /// The SPEC the camera was named by.
-    pub name: String,
-    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in ones.
-    pub channels: Vec<Spectrum>,
-}
-
-impl Sensitivities {
-    /// The camera of these channels.
-    ///
-    /// # Errors
-    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which is taken for
-    /// noise and set to 0, or zero throughout.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::spectrum::{Sensitivities, Spectrum};
-    /// let channel = Spectrum::new("Y", vec![400.0, 700.0], vec![1.0, -0.0005])?;
-    /// assert_eq!(Sensitivities::new("grey", vec![channel])?.channels[0].values(), [1.0, 0.0]);
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    pub fn new(name: &str, mut channels: Vec<Spectrum>) -> Result<Self> {
-        let peak = channels.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
-        for channel in &mut channels {
-            check_power(channel, -NOISE_OF_PEAK * peak)?;
-            channel.values.iter_mut().for_each(|value| *value = value.max(0.0));
-        }
-        Ok(Self { name: name.to_owned(), channels })
-    }
-}
+use std::sync::Arc;
 
 /// The reflectances that `spec` names: every member of a set, every column of a file.
 ///
 /// # Errors
-/// Nothing of that name ([`Error::UnknownName`]), a file that cannot be read ([`Error::File`], [`Error::Table`]), or
-/// values outside 0..1 ([`Error::Spectrum`]).
+/// As [`Specs::reflectances`]; JSON is not read.
 ///
 /// # Example
 /// ```
@@ -60,15 +27,13 @@ impl Sensitivities {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
-    let spectra = find(What::Reflectances, spec)?;
-    spectra.iter().try_for_each(check_reflectance)?;
-    Ok(spectra)
+    Specs::default().reflectances(spec)
 }
 
 /// The illuminant that `spec` names, relative power.
 ///
 /// # Errors
-/// As for [`reflectances`]; a file with several columns; a power below 0 or zero throughout.
+/// As [`Specs::illuminant`]; JSON is not read.
 ///
 /// # Example
 /// ```
@@ -78,20 +43,13 @@ pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn illuminant(spec: &str) -> Result<Spectrum> {
-    let mut columns = find(What::Illuminants, spec)?;
-    let illuminant = columns.swap_remove(0);
-    if !columns.is_empty() {
-        let problem = format!("{} columns, where one illuminant is wanted", columns.len() + 1);
-        return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
-    }
-    check_power(&illuminant, 0.0)?;
-    Ok(illuminant)
+    Specs::default().illuminant(spec)
 }
 
 /// The camera that `spec` names; a number is one channel that sees all wavelengths alike.
 ///
 /// # Errors
-/// As for [`reflectances`] and [`Sensitivities::new`].
+/// As [`Specs::camera`]; JSON is not read.
 ///
 /// # Example
 /// ```
@@ -100,26 +58,111 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn camera(spec: &str) -> Result<Sensitivities> {
-    Sensitivities::new(spec, find(What::Cameras, spec)?)
+    Specs::default().camera(spec)
 }
 
-/// The spectra that `spec` names, at least one, not checked for what they are used as.
-fn find(what: What, spec: &str) -> Result<Vec<Spectrum>> {
-    if let Some(value) = spec.parse().ok().filter(|value: &f64| value.is_finite()) {
-        return Ok(vec![Spectrum::flat(spec, value)]);
+/// Finds what a SPEC names.
+#[derive(Clone, Copy, Debug)]
+pub struct Specs {
+    json: JsonReader,
+}
+
+impl Default for Specs {
+    fn default() -> Self {
+        Self { json: no_json }
     }
-    if let Some(spectra) = library::find(what, spec)? {
-        return Ok(spectra);
+}
+
+impl Specs {
+    /// The same with a reader of JSON files.
+    #[must_use]
+    pub fn with_json(json: JsonReader) -> Self {
+        Self { json }
     }
-    let (path, column) = match spec.rsplit_once(':') {
-        Some((path, column)) if !Path::new(spec).exists() => (path, Some(column)),
+
+    /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in percent, in fractions.
+    ///
+    /// # Errors
+    /// Nothing of that name ([`Error::UnknownName`]), a file that cannot be read ([`Error::File`], [`Error::Table`]), or
+    /// values outside 0..1 ([`Error::Spectrum`]).
+    pub fn reflectances(self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = self.find(What::Reflectances, spec)?;
+        spectra.iter().try_for_each(check_reflectance)?;
+        Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
+    }
+
+    /// The illuminant that `spec` names, relative power.
+    ///
+    /// # Errors
+    /// As [`Specs::reflectances`]; a file with several columns; a power below 0 or zero throughout.
+    pub fn illuminant(self, spec: &str) -> Result<Spectrum> {
+        let mut columns = self.find(What::Illuminants, spec)?;
+        let illuminant = columns.swap_remove(0);
+        if !columns.is_empty() {
+            let problem = format!("{} columns, where one illuminant is wanted", columns.len() + 1);
+            return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
+        }
+        check_power(&illuminant, 0.0)?;
+        Ok(illuminant)
+    }
+
+    /// The camera that `spec` names.
+    ///
+    /// # Errors
+    /// As [`Specs::reflectances`] and [`Sensitivities::new`].
+    pub fn camera(self, spec: &str) -> Result<Sensitivities> {
+        Sensitivities::new(spec, self.find(What::Cameras, spec)?)
+    }
+
+    /// The spectra that `spec` names, at least one, not checked for what they are used as.
+    fn find(self, what: What, spec: &str) -> Result<Vec<Spectrum>> {
+        if let Some(value) = spec.parse().ok().filter(|value: &f64| value.is_finite()) {
+            return Ok(vec![Spectrum::flat(spec, value)]);
+        }
+        let own_files = own::files()?;
+        let own_file = own::find(&own_files, spec)?;
+        match (library::find(what, spec)?, own_file) {
+            (Some(spectra), None) => Ok(spectra),
+            (Some(spectra), Some((file, _))) => Ok(noted_as_built_in(spec, file, spectra)),
+            (None, Some((file, member))) => self.file(what, &file.path, member),
+            (None, None) => self.named_file(what, spec),
+        }
+    }
+
+    /// The spectra of the file, or the member of a file, that `spec` names.
+    fn named_file(self, what: What, spec: &str) -> Result<Vec<Spectrum>> {
+        let (path, member) = path_and_member(spec);
+        if !Path::new(path).exists() && !path.contains('/') && !has_ending(path, &ENDINGS) {
+            return Err(unknown(what, spec, library::list(what)?.iter().map(|(name, _)| name.as_str())));
+        }
+        self.file(what, path, member)
+    }
+
+    fn file(self, what: What, path: &str, member: Option<&str>) -> Result<Vec<Spectrum>> {
+        let mut table = formats::read(path, self.json)?;
+        if what == What::Reflectances {
+            table = table.in_fractions(path)?;
+        }
+        let spectra = column_called(path, member, table.spectra(path))?;
+        Ok(if what == What::Cameras { spectra } else { called_after_file(path, member, spectra) })
+    }
+}
+
+/// The file that `spec` begins with, and what follows its colon; a member's name may have colons as well.
+fn path_and_member(spec: &str) -> (&str, Option<&str>) {
+    let exists = |path: &str| Path::new(path).exists();
+    let mut splits = spec.match_indices(':').map(|(at, _)| (&spec[..at], &spec[at + 1..]));
+    match splits.find(|(path, _)| exists(path)).or_else(|| spec.rsplit_once(':')) {
+        Some((path, member)) if !exists(spec) => (path, Some(member)),
         _ => (spec, None),
-    };
-    if !Path::new(path).exists() && !path.contains('/') && !path.ends_with(".csv") {
-        return Err(unknown(what, spec, library::list(what)?.iter().map(|(name, _)| name.as_str())));
     }
-    let spectra = column_called(path, column, table::read_csv(path)?)?;
-    Ok(if what == What::Cameras { spectra } else { called_after_file(path, column, spectra) })
+}
+
+/// Says that a built-in name hides a file.
+fn noted_as_built_in(name: &str, file: &OwnFile, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
+    let (hidden, variable) = (file.file_name(), own::VARIABLE);
+    let note = Arc::from(format!("{name}: the built-in one; {hidden} of {variable} is reached by its path"));
+    spectra.into_iter().map(|spectrum| spectrum.noted(Some(&note))).collect()
 }
 
 /// The column asked for, or all of them.
@@ -141,46 +184,16 @@ fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -
     spectra.into_iter().map(|spectrum| spectrum.renamed(name)).collect()
 }
 
-fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
-    let Some(&value) = spectrum.values().iter().find(|value| !(0.0..=1.0).contains(*value)) else {
-        return Ok(());
-    };
-    let remedy = match value {
-        ..0.0 => "set negative noise to 0",
-        2.0.. => "write fractions, not percent",
-        _ => "leave out fluorescent samples, rescale wrongly scaled ones",
-    };
-    Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
-}
-
-fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
-    if let Some(value) = spectrum.values().iter().find(|value| **value < least) {
-        return Err(bad(spectrum.name(), format!("{value} is below 0"), "give values of 0 or more"));
-    }
-    if !spectrum.values().iter().any(|value| *value > 0.0) {
-        return Err(bad(
-            spectrum.name(),
-            "it is zero at every wavelength",
-            "give a positive value somewhere",
-        ));
-    }
-    Ok(())
-}
-
-fn bad(name: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
-    Error::Spectrum { name: name.to_owned(), problem: problem.into(), remedy: remedy.into() }
-}
-
 /// The error for a name that is not among `known`, with the nearest of those.
 pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let (kind, list, endings) = match what {
-        What::Cameras => ("camera", "cameras", ".csv or .json"),
-        What::Illuminants => ("illuminant", "illuminants", ".csv"),
-        What::Reflectances => ("reflectance", "reflectances", ".csv"),
+    let (kind, list) = match what {
+        What::Cameras => ("camera", "cameras"),
+        What::Illuminants => ("illuminant", "illuminants"),
+        What::Reflectances => ("reflectance", "reflectances"),
     };
     let near = nearest(name, known);
     let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
-    let hint = format!("{meant}--list {list} shows what is built in, a file needs its {endings}");
+    let hint = format!("{meant}--list {list} shows what there is, a file needs its ending, such as .csv");
     Error::UnknownName { kind, name: name.to_owned(), hint }
 }
 
@@ -229,7 +242,9 @@ mod tests {
 
     #[test]
     fn values_that_cannot_be_are_refused() {
-        for (value, want) in [(-0.1, "set negative"), (1.44, "fluorescent"), (44.0, "not percent")] {
+        for (value, want) in
+            [(-0.1, "set negative"), (1.44, "fluorescent"), (-44.0, "set negative"), (444.0, "rescale")]
+        {
             with_csv(&format!("nm,r\n400,0.1\n700,{value}\n"), |path| {
                 let message = message(reflectances(path));
                 assert!(message.contains(&format!("reflectance {value} is outside")), "{message}");
@@ -241,11 +256,17 @@ mod tests {
     }
 
     #[test]
-    fn sensor_noise_below_zero_is_cut() {
-        with_csv("nm,R\n400,-0.0009\n700,1\n", |path| {
-            assert_eq!(camera(path).unwrap().channels[0].values(), [0.0, 1.0]);
+    fn percent_is_judged_by_the_whole_file() {
+        with_csv("um,black,white\n0.4,0.5,90\n0.7,0.25,95\n", |path| {
+            let black = &reflectances(&format!("{path}:black")).unwrap()[0];
+            assert_eq!((black.values(), black.wavelengths_nm()), (&[0.005, 0.0025][..], &[400.0, 700.0][..]));
+            let note = format!("{path}: micrometres read as nm, percent read as fractions");
+            assert_eq!(black.note(), Some(note.as_str()));
+            assert_eq!(illuminant(&format!("{path}:white")).unwrap().values(), [90.0, 95.0]);
         });
-        with_csv("nm,R\n400,-0.0011\n700,1\n", |path| assert!(camera(path).is_err()));
+        with_csv("nm,r [%]\n400,0.5\n700,0.7\n", |path| {
+            assert!(message(reflectances(path)).contains("says percent, but no value is above 1"));
+        });
     }
 
     #[test]
@@ -253,7 +274,7 @@ mod tests {
         assert_eq!(
             message(illuminant("D56")),
             "no illuminant is called 'D56'; did you mean D50 or D55 or D60? \
-             --list illuminants shows what is built in, a file needs its .csv"
+             --list illuminants shows what there is, a file needs its ending, such as .csv"
         );
         assert!(message(reflectances("cc24:redd")).contains("did you mean cc24:red "));
         assert!(message(camera("leica")).starts_with("no camera is called 'leica'; --list cameras shows"));

@@ -134,6 +134,18 @@ impl Sample {
         Ok(self.fields.get::<Deviation>("estimate")?.and_then(|estimate| estimate.reflectance_sd))
     }
 
+    /// The covariance of the estimated spectrum, waveband by waveband, if the sample has it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if it is not a list of rows.
+    pub fn estimated_covariance(&self) -> Result<Option<Vec<Vec<f64>>>> {
+        #[derive(Deserialize)]
+        struct Spread {
+            covariance: Option<Vec<Vec<f64>>>,
+        }
+        Ok(self.fields.get::<Spread>("estimate")?.and_then(|estimate| estimate.covariance))
+    }
+
     /// Residuals of the estimate in units of their expected size, if there is an estimate.
     ///
     /// # Errors

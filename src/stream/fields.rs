@@ -44,6 +44,40 @@ impl Fields {
         self.get(name)?.ok_or_else(|| Error::field(name, format!("missing; {remedy}")))
     }
 
+    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere.
+    pub(super) fn at(&self, path: &str) -> Option<&Value> {
+        let mut parts = path.split('.');
+        let first = self.0.get(parts.next()?)?;
+        parts.try_fold(first, |value, part| match value {
+            Value::Array(items) => items.get(part.parse::<usize>().ok()?),
+            other => other.get(part),
+        })
+    }
+
+    /// The number, text or truth value at a dotted path, as text; none if there is none.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a list or an object is there.
+    ///
+    /// # Example
+    /// ```
+    /// let mut fields = vfold::stream::Fields::of_kind("scene");
+    /// fields.set("geometry", std::collections::HashMap::from([("angle_deg", 45.0)]))?;
+    /// assert_eq!(fields.text_at("geometry.angle_deg")?.as_deref(), Some("45.0"));
+    /// assert_eq!(fields.text_at("geometry.shape")?, None);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn text_at(&self, path: &str) -> Result<Option<String>> {
+        match self.at(path) {
+            None | Some(Value::Null) => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text.clone())),
+            Some(Value::Array(_) | Value::Object(_)) => {
+                Err(Error::field(path, "not one value; name a field within it"))
+            }
+            Some(value) => Ok(Some(value.to_string())),
+        }
+    }
+
     /// Sets a field; the caller has made sure with [`finite`] that its numbers are numbers.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ pub use npy::{ArrayStack, read_matrix, write_matrix};
 pub use photograph::ImageRecord;
 pub use pipe::{Transform, pipe};
 pub use plan::{ExpectedError, plan};
-pub use rawtoaces::camera;
+pub use rawtoaces::{camera, illuminant, reflectances};
 pub use reader::{Reader, Record};
 pub use regions::{Corners, Regions, RegionsFile};
 pub use resume::Kept;

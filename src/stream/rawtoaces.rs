@@ -1,7 +1,6 @@
-//! Cameras as the rawtoaces project of the Academy Software Foundation keeps them.
+//! Spectra as the rawtoaces project of the Academy Software Foundation keeps them: cameras, illuminants, training data.
 //!
-//! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the channels, `data.main` has their sensitivities at each
-//! wavelength in nm.
+//! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the spectra, `data.main` has their values at each wavelength in nm.
 
 use std::collections::HashMap;
 
@@ -9,10 +8,12 @@ use serde::Deserialize;
 
 use super::json_file;
 use crate::error::{Error, Result};
-use crate::spectrum::{self, Sensitivities, Spectrum};
+use crate::spectrum::formats::Table;
+use crate::spectrum::spec::Specs;
+use crate::spectrum::{Sensitivities, Spectrum};
 
 #[derive(Deserialize)]
-struct CameraFile {
+struct SpectraFile {
     spectral_data: SpectralData,
 }
 
@@ -29,11 +30,10 @@ struct Main<T> {
 
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
-/// The camera that `spec` names: as [`spectrum::camera`], or a rawtoaces file if the name ends in `.json`.
+/// The camera that `spec` names: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in `.json`.
 ///
 /// # Errors
-/// As [`spectrum::camera`]; [`Error::Record`] with the line if a file is not of rawtoaces' form, [`Error::Spectrum`] if
-/// its numbers are not sensitivities.
+/// As [`crate::spectrum::camera`]; [`Error::Record`] with the line if a file is not of rawtoaces' form.
 ///
 /// # Example
 /// ```
@@ -45,33 +45,48 @@ const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\",
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn camera(spec: &str) -> Result<Sensitivities> {
-    if !spec.to_ascii_lowercase().ends_with(".json") {
-        return spectrum::camera(spec);
-    }
-    let CameraFile { spectral_data: SpectralData { index, data } } = json_file::read(spec, EXAMPLE)?;
+    Specs::with_json(read).camera(spec)
+}
+
+/// The illuminant that `spec` names: as [`crate::spectrum::illuminant`], or a rawtoaces file.
+///
+/// # Errors
+/// As [`camera`].
+pub fn illuminant(spec: &str) -> Result<Spectrum> {
+    Specs::with_json(read).illuminant(spec)
+}
+
+/// The reflectances that `spec` names: as [`crate::spectrum::reflectances`], or a rawtoaces file.
+///
+/// # Errors
+/// As [`camera`].
+pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
+    Specs::with_json(read).reflectances(spec)
+}
+
+/// The spectra of a rawtoaces file.
+fn read(path: &str) -> Result<Table> {
+    let SpectraFile { spectral_data: SpectralData { index, data } } = json_file::read(path, EXAMPLE)?;
     let refused = |problem: String| {
-        let remedy = "give every wavelength, in nm, a number a channel".to_owned();
-        Error::Spectrum { name: spec.to_owned(), problem, remedy }
+        let remedy = "give every wavelength, in nm, a number a spectrum".to_owned();
+        Error::Spectrum { name: path.to_owned(), problem, remedy }
     };
+    let count = index.main.len();
     let mut rows = Vec::new();
     for (key, row) in data.main {
         let nm: f64 = key.parse().map_err(|_| refused(format!("'{key}' is not a wavelength")))?;
-        if row.len() != index.main.len() {
-            return Err(refused(format!(
-                "{} numbers at {nm} nm for {} channels",
-                row.len(),
-                index.main.len()
-            )));
+        if row.len() != count {
+            return Err(refused(format!("{} numbers at {nm} nm for {count} spectra", row.len())));
         }
         rows.push((nm, row));
     }
-    if rows.is_empty() || index.main.is_empty() {
-        return Err(refused("it has no wavelengths or no channels".to_owned()));
+    if rows.is_empty() || count == 0 {
+        return Err(refused("it has no wavelengths or no spectra".to_owned()));
     }
     rows.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let wavelengths_nm: Vec<f64> = rows.iter().map(|(nm, _)| *nm).collect();
-    let channel = |(k, name): (usize, &String)| {
+    let spectrum = |(k, name): (usize, &String)| {
         Spectrum::new(name, wavelengths_nm.clone(), rows.iter().map(|(_, row)| row[k]).collect())
     };
-    Sensitivities::new(spec, index.main.iter().enumerate().map(channel).collect::<Result<_>>()?)
+    Table::new(index.main.iter().enumerate().map(spectrum).collect::<Result<_>>()?)
 }

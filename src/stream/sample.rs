@@ -1,13 +1,16 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use super::fields::{Fields, finite};
+use crate::colorimetry::Colour;
 use crate::error::{Error, Result};
 use crate::forward::bounces::Truncation;
 use crate::plot::spectra::Curve;
-use crate::score::{Metrics, Summary};
+use crate::score::{Group, Score, Statistics, Summary};
+use crate::spectrum::formats::Measured;
+use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 
 /// Largest value of a exposure that is read: products and squares of such numbers stay finite.
 const LARGEST: f64 = 1e30;
@@ -26,6 +29,23 @@ pub struct ReflectanceRecord {
     pub wavelengths_nm: Vec<f64>,
     /// Reflectance a wavelength.
     pub reflectance: Vec<f64>,
+    /// How it was found between samples, where it was: `sprague` or `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<String>,
+}
+
+impl ReflectanceRecord {
+    /// A spectrum on the wavelengths of `grid`.
+    ///
+    /// # Errors
+    /// As [`Spectrum::on`].
+    pub fn on(spectrum: &Spectrum, grid: &WavelengthGrid) -> Result<Self> {
+        Ok(Self {
+            wavelengths_nm: grid.wavelengths_nm().to_vec(),
+            reflectance: spectrum.on(grid, Outside::Refuse)?,
+            interpolation: spectrum.interpolation(grid).map(|found| found.name().to_owned()),
+        })
+    }
 }
 
 impl Sample {
@@ -82,6 +102,24 @@ impl Sample {
         }))
     }
 
+    /// The estimate as a file of spectra has it; none if there is none.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not a spectrum.
+    pub fn measured(&self) -> Result<Option<Measured>> {
+        let Some(estimate) = self.estimated()? else { return Ok(None) };
+        let (wavelengths_nm, reflectance) = (estimate.wavelengths_nm, estimate.reflectance);
+        let reflectance_sd = self.estimated_sd()?;
+        let lengths = reflectance_sd.iter().map(Vec::len).chain([wavelengths_nm.len()]);
+        if wavelengths_nm.len() < 2 || lengths.into_iter().any(|length| length != reflectance.len()) {
+            return Err(Error::field(
+                "estimate",
+                "not as many values as wavelengths, two or more; estimate it again",
+            ));
+        }
+        Ok(Some(Measured { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd }))
+    }
+
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
@@ -132,45 +170,80 @@ impl Sample {
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_metrics(&mut self, metrics: &Metrics) -> Result<()> {
-        finite("metrics", [&metrics.rmse, &metrics.ciede2000, &metrics.pd])?;
-        self.fields
-            .set("metrics", json!({ "rmse": metrics.rmse, "ciede2000": metrics.ciede2000, "pd": metrics.pd }))
+    pub fn set_scores(&mut self, scores: &[Score]) -> Result<()> {
+        finite("metrics", scores.iter().map(|score| &score.value))?;
+        let record = scores.iter().map(|score| (score.name.clone(), json!(score.value)));
+        self.fields.set("metrics", record.collect::<Map<String, Value>>())
     }
 
     /// The sample's scores, if it has any.
     ///
     /// # Errors
     /// [`Error::Field`] if they are not numbers.
-    pub fn metrics(&self) -> Result<Option<Metrics>> {
-        #[derive(Deserialize)]
-        struct MetricsRecord {
-            rmse: f64,
-            ciede2000: f64,
-            pd: f64,
+    pub fn scores(&self) -> Result<Option<Vec<Score>>> {
+        let record: Option<Map<String, Value>> = self.fields.get("metrics")?;
+        let score = |(name, value): (String, Value)| {
+            let number =
+                value.as_f64().ok_or_else(|| Error::field(format!("metrics.{name}"), "not a number"));
+            number.map(|value| Score { name, value })
+        };
+        record.map(|record| record.into_iter().map(score).collect()).transpose()
+    }
+
+    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations; `exact` if they come from a
+    /// covariance, else they are the largest possible.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub fn set_colour(
+        &mut self,
+        (illuminant, observer): (&str, &str),
+        colour: &Colour,
+        sd: Option<&Colour>,
+        exact: bool,
+    ) -> Result<()> {
+        let mut record = json!({ "illuminant": illuminant, "observer": observer });
+        for (ending, Colour { xyz, lab, srgb }) in
+            std::iter::once(("", colour)).chain(sd.map(|sd| ("_sd", sd)))
+        {
+            finite("colour", xyz.iter().chain(lab).chain(srgb))?;
+            for (name, value) in [("xyz", xyz), ("lab", lab), ("srgb", srgb)] {
+                record[format!("{name}{ending}")] = json!(value);
+            }
         }
-        let record: Option<MetricsRecord> = self.fields.get("metrics")?;
-        Ok(record.map(|MetricsRecord { rmse, ciede2000, pd }| Metrics { rmse, ciede2000, pd }))
+        if sd.is_some() {
+            record["sd_from"] = json!(if exact { "covariance" } else { "reflectance_sd, at most" });
+        }
+        self.fields.set("colour", record)
     }
 }
 
-/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score.
+/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the same of each group of
+/// samples that share the value of a field, if they are grouped `by` one.
 ///
 /// # Errors
 /// As [`Fields::set`].
-pub fn summary(summary: &Summary) -> Result<Fields> {
+pub fn summary(all: &Summary, by: Option<(&str, &[Group])>) -> Result<Fields> {
     let mut fields = Fields::of_kind("summary");
-    fields.set("samples", summary.samples())?;
-    fields.set("scored", summary.scored())?;
-    if let Some(statistics) = summary.statistics() {
-        for (name, pick) in [
-            ("rmse", (|m: &Metrics| m.rmse) as fn(&Metrics) -> f64),
-            ("ciede2000", |m| m.ciede2000),
-            ("pd", |m| m.pd),
-        ] {
-            let [mean, median, worst] = statistics.each_ref().map(pick);
-            fields.set(name, json!({ "mean": mean, "median": median, "worst": worst }))?;
-        }
+    fields.0.extend(summarised(all));
+    if let Some((field, groups)) = by {
+        fields.set("by", field)?;
+        let group = |Group { value, summary }: &Group| {
+            let mut record = Map::new();
+            record.insert("value".to_owned(), json!(value));
+            record.extend(summarised(summary));
+            record
+        };
+        fields.set("groups", groups.iter().map(group).collect::<Vec<_>>())?;
     }
     Ok(fields)
+}
+
+fn summarised(summary: &Summary) -> Map<String, Value> {
+    let counts = [("samples", summary.samples()), ("scored", summary.scored())];
+    let counts = counts.into_iter().map(|(name, count)| (name.to_owned(), json!(count)));
+    let statistics = summary.statistics().into_iter().map(|Statistics { name, mean, median, worst }| {
+        (name, json!({ "mean": mean, "median": median, "worst": worst }))
+    });
+    counts.chain(statistics).collect()
 }

@@ -61,11 +61,7 @@ fn open<'a>(stack: &'a mut Option<ArrayStack>, path: &Path) -> Result<&'a mut Ar
 }
 
 fn find<'a>(fields: &'a Fields, name: &str) -> Option<&'a Value> {
-    let mut parts = name.split('.');
-    let first = parts.next()?;
-    let own =
-        fields.0.get(first).or_else(|| GROUPS.iter().find_map(|group| fields.0.get(*group)?.get(first)))?;
-    parts.try_fold(own, |value, part| value.get(part))
+    fields.at(name).or_else(|| GROUPS.iter().find_map(|group| fields.at(&format!("{group}.{name}"))))
 }
 
 /// Shape and values of a number or of nested lists of one shape, null as NaN; none for anything else.

@@ -32,6 +32,9 @@ pub struct SpectrumRecord {
     pub name: String,
     /// Relative power a waveband.
     pub power: Vec<f64>,
+    /// How it was found between samples, where it was: `sprague` or `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<String>,
 }
 
 /// A camera on the scene's wavelengths.
@@ -43,6 +46,9 @@ pub struct CameraRecord {
     pub channels: Vec<String>,
     /// Sensitivity, channel by waveband.
     pub sensitivities: Vec<Vec<f64>>,
+    /// How they were found between samples, where they were: `sprague` or `linear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<String>,
 }
 
 /// What looks at a fold and in which light, all on one grid of wavelengths.

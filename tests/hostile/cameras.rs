@@ -31,7 +31,7 @@ fn camera_files() {
 END
         "#,
         &[
-            case("sh forward ragged.json", 1, &["ragged.json", "1 numbers at 500 nm for 2 channels"]),
+            case("sh forward ragged.json", 1, &["ragged.json", "1 numbers at 500 nm for 2 spectra"]),
             case("sh forward colour.json", 1, &["colour.json", "'blue' is not a wavelength"]),
             case("sh forward twice.json", 1, &["wavelength", "400"]),
             case("sh forward single.json", 1, &["wavelength"]),
@@ -40,7 +40,7 @@ END
             case("sh forward dark.json", 1, &["zero at every wavelength"]),
             case("sh forward infinite.json", 1, &["infinite.json:1", "number out of range"]),
             case("sh forward empty.json", 1, &["empty.json", "no wavelengths"]),
-            case("sh forward blind.json", 1, &["blind.json", "no channels"]),
+            case("sh forward blind.json", 1, &["blind.json", "no spectra"]),
             case(
                 "sh forward dataless.json",
                 1,

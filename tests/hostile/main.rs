@@ -8,6 +8,7 @@ mod cameras;
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;
+mod formats;
 mod methods;
 mod photographs;
 mod resume;

@@ -13,7 +13,10 @@ fn tables_of_spectra() {
         printf 'nm,r\n400,0.1\n500\n700,0.3\n' > ragged.csv
         printf '400,0.1\n700,0.3\n' > headless.csv
         printf 'nm,r\n450,0.1\n700,0.3\n' > narrow.csv
-        printf 'nm,r\n400,10\n700,90\n' > percent.csv
+        printf 'nm,r\n400,10\n700,900\n' > large.csv
+        printf 'nm,r [%%]\n400,0.1\n700,0.9\n' > ambiguous.csv
+        printf 'wavelength (um),r\n0.4,0.1\n700,0.3\n' > mixed.csv
+        printf 'nm,r\n400,0.1\n700,1e308\n' > huge.csv
         printf 'nm,r\n400,-0.1\n700,0.3\n' > negative.csv
         printf 'nm;r\n400;0,1\n700;0,3\n' > semicolons.csv
         printf 'nm,r\n0.4,0.1\n0.7,0.3\n' > micrometres.csv
@@ -36,10 +39,17 @@ fn tables_of_spectra() {
                 1,
                 &["narrow", "450..700 nm", "400..700 nm"],
             ),
-            case("vforward scene.json --reflectance percent.csv", 1, &["percent", "fractions"]),
+            case("vforward scene.json --reflectance large.csv", 1, &["large", "10 is outside", "percent"]),
+            case(
+                "vforward scene.json --reflectance ambiguous.csv",
+                1,
+                &["ambiguous.csv:1", "r [%]", "fractions"],
+            ),
+            case("vforward scene.json --reflectance mixed.csv", 1, &["mixed.csv:3", "micrometres"]),
+            case("vforward scene.json --reflectance huge.csv", 1, &["'r'", "no measured number"]),
             case("vforward scene.json --reflectance negative.csv", 1, &["negative", "-0.1"]),
             case("vforward scene.json --reflectance semicolons.csv", 1, &["semicolons.csv:1", "','"]),
-            case("vforward scene.json --reflectance micrometres.csv", 1, &["micrometres.csv:2", "1000"]),
+            case("vforward scene.json --reflectance micrometres.csv", 1, &["micrometres.csv:2", "um"]),
             case("vforward scene.json --reflectance rowless.csv", 1, &["rowless.csv", "two wavelengths"]),
             case("vforward scene.json --reflectance empty.csv", 1, &["empty.csv:1", "header"]),
             case("vforward scene.json --reflectance binary.csv", 1, &["binary.csv"]),

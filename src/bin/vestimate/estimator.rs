@@ -1,13 +1,12 @@
 //! Estimates of the samples of a stream.
 
-use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::{FacetData, Measured};
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{Quantity, SceneModel};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
-use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
@@ -84,7 +83,7 @@ fn method(args: &Args) -> Result<Method> {
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
         spec => {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
-            let spectra = spectrum::reflectances(spec)?;
+            let spectra = args.common.reflectances(spec)?;
             if spectra.len() < 2 {
                 let problem = format!("'{spec}' is one spectrum, which tells nothing of others");
                 return Err(Error::usage("--prior", problem, "give a set or a file of two or more"));
@@ -100,7 +99,7 @@ impl Transform for Estimator<'_> {
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         let grid = scene.grid()?;
         if let Some(spec) = &self.args.reference_panel {
-            let card = cli::one_reflectance("--reference-panel", spec)?;
+            let card = self.args.common.one_reflectance("--reference-panel", spec)?;
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
@@ -117,7 +116,9 @@ impl Transform for Estimator<'_> {
             scene.fields.add_history("vestimate")?;
         }
         let start = match &self.args.start {
-            Some(spec) => Some(cli::one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?),
+            Some(spec) => {
+                Some(self.args.common.one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?)
+            }
             None => None,
         };
         let scene = if self.fit.is_empty() {

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use vfold::estimate::components::{FlatSheet, autocorrelation};
 use vfold::estimate::{Estimate, khan, park};
 use vfold::forward::FacetModel;
-use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::{Error, Result};
 
 use super::settings::{NoiseSd, Smoothness};
@@ -86,7 +86,7 @@ impl FlatEstimator {
             _ => method.smoothness,
         };
         let basis_name = basis.clone().unwrap_or_else(|| super::estimator::MUNSELL.to_owned());
-        let basis = spectrum::reflectances(&basis_name)?;
+        let basis = args.common.reflectances(&basis_name)?;
         Ok(Some(Self { method, components: components.map(usize::from), basis, basis_name, smoothness }))
     }
 

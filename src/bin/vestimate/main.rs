@@ -17,6 +17,7 @@ use vfold::Result;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::plot::spectra::{CURVES_MAX, draw};
+use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
 
 /// Residuals, in units of their expected size, beyond which the scene cannot be right.
@@ -36,7 +37,7 @@ struct Args {
     /// Scenes and samples from vforward or vextract [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper's estimator) or none [default: munsell]
+    /// What is known of reflectances beforehand: spectra (set or file), smooth (the paper's estimator) or none [default: munsell]
     #[arg(long, value_name = "SPEC|smooth|none")]
     prior: Option<String>,
     /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the
@@ -65,6 +66,9 @@ struct Args {
     /// Draw estimates, their error bands and true spectra
     #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
+    /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
+    #[arg(long, value_name = "FILE.csv|.sp|.spdx")]
+    spectra: Option<PathBuf>,
     /// Write the iterations of every estimate, one JSON record a line
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     trace: Option<PathBuf>,
@@ -99,12 +103,13 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }
-    let mut curves = Vec::new();
+    let (mut curves, mut measured) = (Vec::new(), Vec::new());
     let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     pipe(&mut reader, &estimator, out.kept()?, |mut record| {
         if let Record::Sample(sample) = &mut record {
@@ -115,11 +120,15 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             if args.plot.is_some() && curves.len() < CURVES_MAX {
                 curves.extend(sample.curve()?);
             }
+            if args.spectra.is_some() {
+                measured.extend(sample.measured()?);
+            }
         }
         out.record(&record)
     })?;
     trace.map_or(Ok(0), Output::finish)?;
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))
+    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))?;
+    args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }
 
 /// Says when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing, and when they say nothing

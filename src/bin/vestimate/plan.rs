@@ -3,7 +3,7 @@
 use clap::Args;
 use vfold::cli::OpticsArgs;
 use vfold::estimate::Exposure;
-use vfold::spectrum::{self, Outside, WavelengthGrid};
+use vfold::spectrum::{Outside, WavelengthGrid};
 use vfold::stream::{ExpectedError, Output, Reader, Record, Scene, Transform, plan};
 use vfold::{Error, Result};
 
@@ -39,7 +39,7 @@ impl PlanArgs {
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
         while let Some(record) = reader.read()? {
             if let Record::Scene(mut scene) = record {
-                self.complete(&mut scene).map_err(|e| reader.at(e))?;
+                self.complete(estimator, &mut scene).map_err(|e| reader.at(e))?;
                 let plan = self.of_scene(estimator, &mut scene).map_err(|e| reader.at(e))?;
                 out.fields(&plan)?;
             }
@@ -48,7 +48,7 @@ impl PlanArgs {
     }
 
     /// Gives camera and light to a scene that has none.
-    fn complete(&self, scene: &mut Scene) -> Result<()> {
+    fn complete(&self, estimator: &Estimator, scene: &mut Scene) -> Result<()> {
         if scene.has_camera() {
             let flags = [&self.camera, &self.sky_illuminant];
             if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {
@@ -67,7 +67,8 @@ impl PlanArgs {
             sky_illuminant: self.sky_illuminant.clone(),
             wavelengths_nm: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
         };
-        scene.set_optics(&optics.resolve(self.camera.as_deref().unwrap_or("canon-5d-mark-ii"))?)
+        let camera = self.camera.as_deref().unwrap_or("canon-5d-mark-ii");
+        scene.set_optics(&optics.resolve(camera, &estimator.args().common)?)
     }
 
     /// Estimates from facets without noise, taken to have it: their error bars are what to expect.
@@ -80,7 +81,7 @@ impl PlanArgs {
         };
         let set = self.reflectance.as_deref().unwrap_or("cc24");
         let mut expected = ExpectedError::default();
-        for spectrum in spectrum::reflectances(set)? {
+        for spectrum in estimator.args().common.reflectances(set)? {
             let facets = model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
             let rgb: Vec<_> = facets.row_iter().map(|row| Some(row.iter().copied().collect())).collect();
             let exposure = estimator.exposure_or(Exposure::Known(1.0));

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use clap::Args;
 use vfold::calibrate::Calibration;
+use vfold::cli::Common;
 use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
-use vfold::spectrum::{WavelengthGrid, reflectances};
+use vfold::spectrum::WavelengthGrid;
 use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
 use vfold::{Error, Result, cli};
 
@@ -50,8 +51,8 @@ impl CalibrationArgs {
     /// What the flags say, spectra on the scene's wavelengths.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference; as [`reflectances`].
-    pub fn given(&self, grid: &WavelengthGrid) -> Result<GivenCalibration> {
+    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference; as [`Common::reflectances`].
+    pub fn given(&self, grid: &WavelengthGrid, common: &Common) -> Result<GivenCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
             return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
         }
@@ -61,7 +62,7 @@ impl CalibrationArgs {
                 return Err(Error::usage(flag, problem, "give a number above 0, at most 1"));
             }
         }
-        let chart = reflectances(&self.chart_reference)?;
+        let chart = common.reflectances(&self.chart_reference)?;
         let (rows, cols) = self.chart_grid;
         if rows.checked_mul(cols) != Some(chart.len()) {
             let (reference, count) = (&self.chart_reference, chart.len());
@@ -72,7 +73,7 @@ impl CalibrationArgs {
                 "give its rows x columns, or --chart-reference",
             ));
         }
-        let white = cli::one_reflectance("--white-reflectance", &self.white_reflectance)?;
+        let white = common.one_reflectance("--white-reflectance", &self.white_reflectance)?;
         Ok(GivenCalibration {
             exposure: self.exposure,
             chart: Target::new(("chart", "--chart"), (rows, cols), self.chart_cos, &chart, grid)?,

@@ -72,7 +72,7 @@ struct Args {
     /// Scene from vkernel [default: standard input]
     #[arg(long, value_name = "FILE", default_value = "-", hide_default_value = true)]
     scene: String,
-    /// Camera: built-in name, CSV file or rawtoaces JSON [default: by the photograph's EXIF]
+    /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph's EXIF]
     #[arg(long, value_name = "SPEC")]
     camera: Option<String>,
     #[command(flatten)]
@@ -110,13 +110,13 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     args.placing.check()?;
     let regions = args.regions.given()?;
-    let calibration = args.calibration.given(&args.optics.wavelengths_nm)?;
+    let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
     let mut scene = read_scene(&args.scene)?;
     let first = Photograph::open(&images[0], &options);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        scene.set_optics(&args.optics.resolve(camera)?)?;
+        scene.set_optics(&args.optics.resolve(camera, &args.common)?)?;
     }
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;

@@ -28,7 +28,7 @@ struct Args {
     /// Scene from vkernel [default: standard input]
     #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true)]
     scene: String,
-    /// Reflectances: set, set:member, number, or CSV file
+    /// Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)
     #[arg(long, value_name = "SPEC", num_args = 1..,
         required_unless_present_any = ["panel_reflectance", "facet_reflectance", "generate", "list"])]
     reflectance: Vec<String>,
@@ -40,7 +40,7 @@ struct Args {
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "bounces", "render"])]
     facet_reflectance: Vec<PathBuf>,
-    /// Camera: built-in name, CSV file or rawtoaces JSON
+    /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
     camera: String,
     #[command(flatten)]
@@ -93,7 +93,7 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
-    let optics = args.optics.resolve(&args.camera)?;
+    let optics = args.optics.resolve(&args.camera, &args.common)?;
     let subject = Subject::of(args, &optics.grid)?;
     let mut reader = Reader::open(&args.scene)?;
     while let Some(record) = reader.read()? {

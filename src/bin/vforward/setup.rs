@@ -12,8 +12,7 @@ use vfold::forward::render::{Picture, View};
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
 use vfold::parallel::{Item, in_order};
-use vfold::spectrum;
-use vfold::stream::{Output, ReflectanceRecord, Sample, Scene, read_matrix};
+use vfold::stream::{Output, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -59,11 +58,10 @@ impl<'a> Setup<'a> {
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64) -> Result<Sample> {
-        let (rgb, truncation) = self.bounces.facet_rgb(&self.model, &sheet.reflectance);
+        let (rgb, truncation) = self.bounces.facet_rgb(&self.model, &sheet.spectrum.reflectance);
         let mut sample = self.sample(&sheet.id, rgb, stream)?;
         truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
-        let wavelengths_nm = self.args.optics.wavelengths_nm.wavelengths_nm().to_vec();
-        sample.set_truth(&ReflectanceRecord { wavelengths_nm, reflectance: sheet.reflectance.clone() })?;
+        sample.set_truth(&sheet.spectrum)?;
         Ok(sample)
     }
 
@@ -118,7 +116,7 @@ impl<'a> Setup<'a> {
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
         let model = self.scene.fine_model(view.grid(), &lighting)?;
-        let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].reflectance).0;
+        let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].spectrum.reflectance).0;
         let mut picture = Picture::take(&view, &light);
         self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
         if for_screen {
@@ -138,7 +136,7 @@ impl<'a> Setup<'a> {
 
     /// The scene as an eye sees it that is adapted to the light.
     fn screen(&self) -> Result<Lighting> {
-        let illuminant = spectrum::illuminant(self.one_illuminant()?)?;
+        let illuminant = self.args.common.illuminant(self.one_illuminant()?)?;
         let eye = Colorimeter::new(&self.args.optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
         let response = CameraResponse::from_weights(eye.screen_weights());
         Ok(Lighting { light: self.scene.light()?, sun: response.clone(), sky: response })

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use vfold::cli;
-use vfold::spectrum::{self, Outside, Spectrum, WavelengthGrid};
-use vfold::stream::ReferencePanel;
+use vfold::spectrum::{Spectrum, WavelengthGrid};
+use vfold::stream::{ReferencePanel, ReflectanceRecord};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -24,7 +23,7 @@ pub enum Subject {
 /// A reflectance on the scene's wavelengths.
 pub struct Sheet {
     pub id: String,
-    pub reflectance: Vec<f64>,
+    pub spectrum: ReflectanceRecord,
 }
 
 impl Subject {
@@ -49,7 +48,7 @@ impl Subject {
 fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
     let mut sheets = Vec::new();
     for spec in &args.reflectance {
-        for spectrum in spectrum::reflectances(spec)? {
+        for spectrum in args.common.reflectances(spec)? {
             sheets.push(sheet(&spectrum, grid)?);
         }
     }
@@ -70,7 +69,7 @@ fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
         let problem = "missing, and --panel-reflectance gives one panel only";
         return Err(Error::usage("--reflectance", problem, "give it or the other panel's"));
     }
-    let card = card.map(|(panel, card)| ReferencePanel::new(panel, &card.id, card.reflectance));
+    let card = card.map(|(panel, card)| ReferencePanel::new(panel, &card.id, card.spectrum.reflectance));
     Ok(Subject::Sheets { sheets, card })
 }
 
@@ -80,7 +79,7 @@ fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
     let others = args.panel_reflectance.iter().map(|(panel, spec)| ("--panel-reflectance", *panel, spec));
     let mut panels = [None, None];
     for (flag, panel, spec) in card.chain(others) {
-        let known = panels[panel].replace(sheet(&cli::one_reflectance(flag, spec)?, grid)?);
+        let known = panels[panel].replace(sheet(&args.common.one_reflectance(flag, spec)?, grid)?);
         if known.is_some() {
             return Err(Error::usage(flag, format!("panel {panel} has two reflectances"), "give one"));
         }
@@ -89,7 +88,7 @@ fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
 }
 
 fn sheet(spectrum: &Spectrum, grid: &WavelengthGrid) -> Result<Sheet> {
-    Ok(Sheet { id: spectrum.name().to_owned(), reflectance: spectrum.on(grid, Outside::Refuse)? })
+    Ok(Sheet { id: spectrum.name().to_owned(), spectrum: ReflectanceRecord::on(spectrum, grid)? })
 }
 
 /// Parses `0=SPEC` or `1=SPEC`.

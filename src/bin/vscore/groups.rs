@@ -1,0 +1,72 @@
+//! `--by FIELD`: samples that share the value of a field.
+
+use std::collections::HashMap;
+
+use vfold::score::{Group, Summary};
+use vfold::stream::{Fields, Sample, Scene};
+use vfold::{Error, Result};
+
+/// What samples without the field are grouped as.
+const NONE: &str = "(none)";
+
+/// All samples, and those of each value of a field.
+pub struct Groups<'a> {
+    field: Option<&'a str>,
+    scene: Fields,
+    all: Summary,
+    /// By value, in the order in which they came.
+    groups: Vec<Group>,
+    places: HashMap<String, usize>,
+    found: bool,
+}
+
+impl<'a> Groups<'a> {
+    pub fn new(field: Option<&'a str>) -> Self {
+        let (scene, all) = (Fields::default(), Summary::default());
+        Self { field, scene, all, groups: Vec::new(), places: HashMap::new(), found: false }
+    }
+
+    /// The samples that follow are of this scene.
+    pub fn enter(&mut self, scene: &Scene) {
+        if self.field.is_some() {
+            self.scene = scene.fields.clone();
+        }
+    }
+
+    /// Counts a sample and its scores.
+    pub fn add(&mut self, sample: &Sample) -> Result<()> {
+        let scores = sample.scores()?;
+        self.all.add(scores.as_deref());
+        let Some(field) = self.field else { return Ok(()) };
+        let value = match sample.fields.text_at(field)? {
+            Some(value) => Some(value),
+            None => self.scene.text_at(field)?,
+        };
+        self.found |= value.is_some();
+        let value = value.unwrap_or_else(|| NONE.to_owned());
+        let place = *self.places.entry(value.clone()).or_insert(self.groups.len());
+        if place == self.groups.len() {
+            self.groups.push(Group { value, summary: Summary::default() });
+        }
+        self.groups[place].summary.add(scores.as_deref());
+        Ok(())
+    }
+
+    /// All samples.
+    pub fn all(&self) -> &Summary {
+        &self.all
+    }
+
+    /// The field and its groups, if samples are grouped.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if no sample has the field, nor its scene.
+    pub fn found(&self) -> Result<Option<(&str, &[Group])>> {
+        match self.field {
+            Some(field) if !self.found => {
+                Err(Error::field(field, "no sample has it, nor its scene; --by takes a field of theirs"))
+            }
+            field => Ok(field.map(|field| (field, self.groups.as_slice()))),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Scores of the samples of a stream.
+
+use vfold::colorimetry::{Colorimeter, ErrorBars, Observer};
+use vfold::score::{Score, goodness_of_fit, pearson_distance, rmse, spectral_angle_deg};
+use vfold::spectrum::{Spectrum, WavelengthGrid};
+use vfold::stream::{ReflectanceRecord, Sample, Scene, Transform};
+use vfold::{Error, Result};
+
+use super::Args;
+use super::metric::Metric;
+
+/// Scores as the flags ask for.
+pub struct Scorer<'a> {
+    args: &'a Args,
+    illuminants: Vec<Spectrum>,
+    metrics: Vec<Metric>,
+    truth: Option<Vec<Spectrum>>,
+}
+
+/// What the samples of one scene share.
+pub struct Context {
+    grid: WavelengthGrid,
+    /// One an illuminant.
+    colorimeters: Vec<Colorimeter>,
+}
+
+impl<'a> Scorer<'a> {
+    pub fn new(args: &'a Args) -> Result<Self> {
+        let truth = args.truth.as_deref().map(|spec| args.common.reflectances(spec)).transpose()?;
+        let illuminants: Vec<_> =
+            args.illuminant.iter().map(|spec| args.common.illuminant(spec)).collect::<Result<_>>()?;
+        let scorer = Self { args, metrics: metrics(args)?, illuminants, truth };
+        let mut names = scorer.score_names();
+        names.sort_unstable();
+        if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            let problem = format!("'{}' is asked for twice", twice[0]);
+            return Err(Error::usage("--illuminant, --metrics", problem, "give each once"));
+        }
+        Ok(scorer)
+    }
+
+    /// The names of the scores that every sample gets, in their order.
+    pub fn score_names(&self) -> Vec<String> {
+        let others = || self.illuminants[1..].iter().map(Spectrum::name);
+        let names = self.metrics.iter().map(|metric| match metric {
+            Metric::Ciede2000 => {
+                let first = metric.name().to_owned();
+                std::iter::once(first)
+                    .chain(others().map(|light| format!("{}_{light}", metric.name())))
+                    .collect()
+            }
+            Metric::Metamerism => others().map(|light| format!("{}_{light}", metric.name())).collect(),
+            _ => vec![metric.name().to_owned()],
+        });
+        names.collect::<Vec<Vec<String>>>().concat()
+    }
+
+    fn scores(&self, context: &Context, truth: &[f64], estimate: &[f64]) -> Vec<Score> {
+        let Context { colorimeters, .. } = context;
+        let values = self.metrics.iter().flat_map(|metric| match metric {
+            Metric::Rmse => vec![rmse(truth, estimate)],
+            Metric::Pd => vec![pearson_distance(truth, estimate)],
+            Metric::Gfc => vec![goodness_of_fit(truth, estimate)],
+            Metric::Angle => vec![spectral_angle_deg(truth, estimate)],
+            Metric::Ciede2000 => {
+                colorimeters.iter().map(|meter| meter.delta_e_2000(truth, estimate)).collect()
+            }
+            Metric::Metamerism => {
+                let index = |meter: &Colorimeter| meter.metamerism_index(&colorimeters[0], truth, estimate);
+                colorimeters[1..].iter().map(index).collect()
+            }
+        });
+        self.score_names().into_iter().zip(values).map(|(name, value)| Score { name, value }).collect()
+    }
+
+    fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<ReflectanceRecord> {
+        match (self.truth.as_deref(), sample.truth()?) {
+            (Some([one]), _) => ReflectanceRecord::on(one, grid),
+            (Some(spectra), _) => {
+                let id = sample.id()?;
+                // A column of a file is called after both: `truth:photo`.
+                let named = |spectrum: &&Spectrum| {
+                    spectrum.name() == id
+                        || spectrum.name().split_once(':').is_some_and(|(_, member)| member == id)
+                };
+                let found = spectra.iter().find(named).ok_or_else(|| {
+                    Error::field("id", format!("--truth has no member '{id}' among its {}", spectra.len()))
+                })?;
+                ReflectanceRecord::on(found, grid)
+            }
+            (None, Some(truth)) => {
+                let ReflectanceRecord { wavelengths_nm, reflectance, interpolation } = truth;
+                let spectrum = Spectrum::new("truth", wavelengths_nm, reflectance)?.as_reflectance();
+                let on_grid = ReflectanceRecord::on(&spectrum, grid)?;
+                Ok(ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid })
+            }
+            (None, None) => Err(Error::field("truth", "missing; give --truth SPEC")),
+        }
+    }
+
+    fn add_colour(&self, context: &Context, reflectance: &[f64], sample: &mut Sample) -> Result<()> {
+        let meter = &context.colorimeters[0];
+        let (covariance, sd) = (sample.estimated_covariance()?, sample.estimated_sd()?);
+        let bands = context.grid.len();
+        if covariance
+            .iter()
+            .flatten()
+            .map(Vec::len)
+            .chain(covariance.iter().map(Vec::len))
+            .any(|n| n != bands)
+        {
+            return Err(Error::field("estimate.covariance", "not on the wavelengths of its scene"));
+        }
+        let errors = match (&covariance, &sd) {
+            (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
+            (None, Some(sd)) if sd.len() == bands => Some(ErrorBars::Deviations(sd)),
+            (None, Some(_)) => {
+                return Err(Error::field("estimate.reflectance_sd", "not on the wavelengths of its scene"));
+            }
+            (None, None) => None,
+        };
+        let observer = match self.args.observer {
+            Observer::Cie1931_2deg => "2 degrees",
+            Observer::Cie1964_10deg => "10 degrees",
+        };
+        let sd = errors.map(|errors| meter.colour_sd(reflectance, errors));
+        let seen = (self.illuminants[0].name(), observer);
+        sample.set_colour(seen, &meter.colour(reflectance), sd.as_ref(), covariance.is_some())
+    }
+}
+
+impl Transform for Scorer<'_> {
+    type Context = Context;
+
+    fn scene(&self, scene: &mut Scene) -> Result<Context> {
+        if !self.args.common.no_history {
+            scene.fields.add_history("vscore")?;
+        }
+        let grid = scene.grid()?;
+        let meter = |illuminant| Colorimeter::new(&grid, illuminant, self.args.observer);
+        Ok(Context { colorimeters: self.illuminants.iter().map(meter).collect::<Result<_>>()?, grid })
+    }
+
+    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
+        let Some(estimate) = sample.estimated()? else {
+            return Err(Error::field("estimate", "missing; run the samples through vestimate first"));
+        };
+        if estimate.reflectance.len() != context.grid.len()
+            || estimate.wavelengths_nm != context.grid.wavelengths_nm()
+        {
+            return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
+        }
+        let truth = self.truth_of(sample, &context.grid)?;
+        sample.set_truth(&truth)?;
+        sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
+        if self.args.colour { self.add_colour(context, &estimate.reflectance, sample) } else { Ok(()) }
+    }
+}
+
+/// What is to be scored.
+fn metrics(args: &Args) -> Result<Vec<Metric>> {
+    let several = args.illuminant.len() > 1;
+    if args.metrics.is_empty() {
+        let always = [Metric::Rmse, Metric::Ciede2000, Metric::Pd];
+        return Ok(always.into_iter().chain(several.then_some(Metric::Metamerism)).collect());
+    }
+    if args.metrics.contains(&Metric::Metamerism) && !several {
+        let problem = "metamerism needs a change of illuminant";
+        return Err(Error::usage("--metrics", problem, "give two, as in --illuminant D65 --illuminant A"));
+    }
+    Ok(args.metrics.clone())
+}

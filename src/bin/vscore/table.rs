@@ -1,0 +1,82 @@
+//! Scores as a table for the eye.
+
+use vfold::Result;
+use vfold::score::{Group, Statistics, Summary};
+use vfold::stream::{Output, Sample};
+
+use super::metric::width_and_decimals;
+
+/// A column a score.
+pub struct Table {
+    columns: Vec<Column>,
+}
+
+struct Column {
+    name: String,
+    width: usize,
+    decimals: usize,
+}
+
+impl Table {
+    pub fn new(score_names: Vec<String>) -> Self {
+        let column = |name: String| {
+            let (width, decimals) = width_and_decimals(&name);
+            Column { width: width.max(name.chars().count() + 1), decimals, name }
+        };
+        Self { columns: score_names.into_iter().map(column).collect() }
+    }
+
+    pub fn header(&self, out: &mut Output) -> Result<()> {
+        let heading = |column: &Column| {
+            let (metric, light) = column.name.split_once('_').unwrap_or((&column.name, ""));
+            let heading = format!("{} {light}", metric.to_uppercase());
+            format!(" {:>1$}", heading.trim_end(), column.width)
+        };
+        out.text(&format!("{:<28}{}", "sample", self.columns.iter().map(heading).collect::<String>()))
+    }
+
+    pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
+        let id = sample.id()?;
+        match (sample.scores()?, sample.error()?) {
+            (Some(scores), None) => {
+                let value =
+                    |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
+                out.text(&self.line(&id, value))
+            }
+            (_, error) => out.failed_text(&format!("{id:<28} {}", error.unwrap_or_default())),
+        }
+    }
+
+    /// Mean, median and worst of each group and of all.
+    pub fn footer(&self, out: &mut Output, all: &Summary, by: Option<(&str, &[Group])>) -> Result<()> {
+        if let Some((field, groups)) = by {
+            for Group { value, summary } in groups {
+                out.text(&format!("{field} {value}: {} of {} scored", summary.scored(), summary.samples()))?;
+                self.statistics(out, summary)?;
+            }
+            out.text("all")?;
+        }
+        self.statistics(out, all)
+    }
+
+    fn statistics(&self, out: &mut Output, summary: &Summary) -> Result<()> {
+        let statistics = summary.statistics();
+        if statistics.is_empty() {
+            return out.text("no sample was scored");
+        }
+        let line = |name: &str, pick: fn(&Statistics) -> f64| {
+            self.line(name, |score| statistics.iter().find(|one| one.name == score).map(pick))
+        };
+        out.text(&line("mean", |one| one.mean))?;
+        out.text(&line("median", |one| one.median))?;
+        out.text(&line("worst", |one| one.worst))
+    }
+
+    fn line(&self, name: &str, value: impl Fn(&str) -> Option<f64>) -> String {
+        let cell = |column: &Column| match value(&column.name) {
+            Some(value) => format!(" {value:>0$.1$}", column.width, column.decimals),
+            None => format!(" {:>1$}", "-", column.width),
+        };
+        format!("{name:<28}{}", self.columns.iter().map(cell).collect::<String>())
+    }
+}

@@ -1,0 +1,73 @@
+//! Spectra that flags name; what had to be done to them is said once.
+
+use std::collections::HashSet;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+use super::{Common, say};
+use crate::error::{Error, Result};
+use crate::spectrum::{Sensitivities, Spectrum};
+use crate::stream;
+
+/// Notes that have been said.
+pub(super) type Said = Arc<Mutex<HashSet<String>>>;
+
+impl Common {
+    /// The reflectances that `spec` names.
+    ///
+    /// # Errors
+    /// As [`stream::reflectances`].
+    pub fn reflectances(&self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = stream::reflectances(spec)?;
+        self.say_notes(&spectra);
+        Ok(spectra)
+    }
+
+    /// The one reflectance that a flag names.
+    ///
+    /// # Errors
+    /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set.
+    pub fn one_reflectance(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
+        let mut spectra = self.reflectances(spec)?;
+        match (spectra.pop(), spectra.is_empty()) {
+            (Some(spectrum), true) => Ok(spectrum),
+            _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
+        }
+    }
+
+    /// The illuminant that `spec` names.
+    ///
+    /// # Errors
+    /// As [`stream::illuminant`].
+    pub fn illuminant(&self, spec: &str) -> Result<Spectrum> {
+        let spectrum = stream::illuminant(spec)?;
+        self.say_notes([&spectrum]);
+        Ok(spectrum)
+    }
+
+    /// The camera that `spec` names.
+    ///
+    /// # Errors
+    /// As [`stream::camera`].
+    pub fn camera(&self, spec: &str) -> Result<Sensitivities> {
+        let camera = stream::camera(spec)?;
+        self.say_notes(&camera.channels);
+        Ok(camera)
+    }
+
+    /// Says what was done to spectra as they were read, each thing once.
+    fn say_notes<'a>(&self, spectra: impl IntoIterator<Item = &'a Spectrum>) {
+        let Ok(mut said) = self.said.lock() else { return };
+        for note in spectra.into_iter().filter_map(Spectrum::note).filter(|_| !self.quiet) {
+            if said.insert(note.to_owned()) {
+                say(&called(), note);
+            }
+        }
+    }
+}
+
+/// The name by which the tool was called.
+fn called() -> String {
+    let path = std::env::args_os().next().unwrap_or_default();
+    Path::new(&path).file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

@@ -1,0 +1,188 @@
+//! Files of spectra: one format a file, chosen here by ending and content.
+//!
+//! Readers give a [`Table`]: spectra in nm, with what had to be converted. JSON is the stream's affair: its reader is handed in.
+
+mod cgats;
+mod csv;
+mod tm27;
+mod units;
+mod write;
+
+pub(super) use csv::parse as parse_csv;
+pub use write::{Measured, check_ending, write};
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Spectrum;
+use crate::error::{Error, Result};
+
+/// Endings of the files that are read.
+pub(super) const ENDINGS: [&str; 6] = ["csv", "sp", "ti3", "txt", "spdx", "json"];
+/// No measured set is near it: a larger file is not a table of spectra.
+const MAX_BYTES: u64 = 64 << 20;
+/// The largest set known here has 1269 spectra.
+const MAX_SPECTRA: usize = 10_000;
+/// Sums and products of numbers up to this one stay finite.
+const LARGEST: f64 = 1e30;
+
+/// Reads a JSON file of spectra.
+pub type JsonReader = fn(path: &str) -> Result<Table>;
+
+/// The spectra of a file.
+#[derive(Debug)]
+pub struct Table {
+    spectra: Vec<Spectrum>,
+    /// Which of them are in percent if they are reflectances; none if the file does not say.
+    percent: Option<Vec<bool>>,
+    /// What was converted.
+    notes: Vec<&'static str>,
+}
+
+impl Table {
+    /// A table of spectra in nm, which does not say whether reflectances would be in percent.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if a number is larger than any measured one.
+    pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
+        for spectrum in &spectra {
+            if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
+                let (name, problem) = (spectrum.name().to_owned(), format!("{value} is no measured number"));
+                return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
+            }
+        }
+        Ok(Self { spectra, percent: None, notes: Vec::new() })
+    }
+
+    /// The same table with the spectra as reflectances in fractions.
+    pub(super) fn in_fractions(mut self, path: &str) -> Result<Self> {
+        let percent = units::percent(path, &self.spectra, self.percent.as_deref())?;
+        for (spectrum, _) in self.spectra.iter_mut().zip(&percent).filter(|(_, percent)| **percent) {
+            spectrum.values.iter_mut().for_each(|value| *value /= 100.0);
+        }
+        if percent.contains(&true) {
+            self.notes.push("percent read as fractions");
+        }
+        Ok(self)
+    }
+
+    /// The spectra, each with a note of what was converted.
+    pub(super) fn spectra(self, path: &str) -> Vec<Spectrum> {
+        let note = (!self.notes.is_empty()).then(|| Arc::from(format!("{path}: {}", self.notes.join(", "))));
+        self.spectra.into_iter().map(|spectrum| spectrum.noted(note.as_ref())).collect()
+    }
+}
+
+/// Reads the spectra of a file: CSV, CGATS, IES TM-27 or, by `json`, JSON.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read, [`Error::Table`] with the line that is wrong, or as `json`.
+pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
+    if has_ending(path, &["json"]) {
+        return json(path);
+    }
+    let bytes = read_bytes(path)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let table = if has_ending(path, &["spdx"]) || text.trim_start_matches('\u{feff}').starts_with('<') {
+        tm27::parse(path, &text)
+    } else if has_ending(path, &["sp", "ti3"]) || text.lines().any(|line| line.trim() == cgats::BEGIN_FORMAT)
+    {
+        // names may be in any encoding, numbers are in all of them the same
+        cgats::parse(path, &text)
+    } else if std::str::from_utf8(&bytes).is_ok() {
+        csv::parse(path, &text)
+    } else {
+        Err(Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8"))
+    }?;
+    if table.spectra.len() > MAX_SPECTRA {
+        let problem = format!("{} spectra, more than {MAX_SPECTRA}", table.spectra.len());
+        return Err(Place { path, line: 1 }.fails(problem, "split it into smaller tables"));
+    }
+    Ok(table)
+}
+
+fn read_bytes(path: &str) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|e| Error::file(path, e))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| Error::file(path, e))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let at = Place { path, line: 1 };
+        return Err(at.fails("the file is larger than 64 MiB", "split it into smaller tables"));
+    }
+    Ok(bytes)
+}
+
+/// Whether a file's name ends in one of these, in any case.
+pub(super) fn has_ending(path: &str, endings: &[&str]) -> bool {
+    let found = Path::new(path).extension();
+    found.is_some_and(|found| endings.iter().any(|ending| found.eq_ignore_ascii_case(ending)))
+}
+
+/// A line of a file.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    path: &'a str,
+    line: usize,
+}
+
+impl Place<'_> {
+    fn fails(&self, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
+        let (path, line) = (self.path.to_owned(), self.line);
+        Error::Table { path, line, problem: problem.into(), remedy: remedy.into() }
+    }
+
+    /// A finite number.
+    fn number(&self, column: &str, text: &str) -> Result<f64> {
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => {
+                let problem = format!("column '{column}': '{text}' is not a number");
+                Err(self.fails(problem, "write a finite number with '.' for decimals"))
+            }
+        }
+    }
+}
+
+/// Says that JSON is not read here.
+///
+/// # Errors
+/// Always.
+pub(super) fn no_json(path: &str) -> Result<Table> {
+    Err(Place { path, line: 1 }.fails("JSON is not read here", "write the spectra as CSV"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_bounded_and_must_be_text() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("big.csv");
+        let message = || read(path.to_str().unwrap(), no_json).unwrap_err().to_string();
+        File::create(&path).unwrap().set_len(MAX_BYTES + 1).unwrap();
+        assert!(message().contains("larger than 64 MiB"), "{}", message());
+        std::fs::write(&path, b"wavelength,\xff\n").unwrap();
+        assert!(message().contains("save it as CSV in UTF-8"), "{}", message());
+        assert!(matches!(read("no/such.csv", no_json), Err(Error::File { .. })));
+    }
+
+    #[test]
+    fn content_says_what_the_ending_does_not() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("paint.txt");
+        for text in [
+            "nm,r\n400,0.1\n700,0.2\n",
+            "CGATS.17\nBEGIN_DATA_FORMAT\nSPECTRAL_NM400 SPECTRAL_NM700\nEND_DATA_FORMAT\nBEGIN_DATA\n0.1 0.2\nEND_DATA\n",
+            "<IESTM2714><SpectralDistribution><SpectralData wavelength='400'>0.1</SpectralData>\
+             <SpectralData wavelength='700'>0.2</SpectralData></SpectralDistribution></IESTM2714>",
+        ] {
+            std::fs::write(&path, text).unwrap();
+            let table = read(path.to_str().unwrap(), no_json).unwrap();
+            assert_eq!(table.spectra[0].values(), [0.1, 0.2], "{text}");
+            assert_eq!(table.spectra[0].wavelengths_nm(), [400.0, 700.0]);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! IES TM-27: one spectrum as XML (`.spdx`).
+//!
+//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". Entities and document types
+//! are refused, so that no small file becomes a large one.
+
+use std::fmt::Write;
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::{Place, Spectrum, Table, units};
+use crate::error::Result;
+
+/// More nodes than any spectrum has: a tree takes many times the memory of its text.
+const MAX_NODES: u32 = 1_000_000;
+/// Elements within elements: the standard has three, and a parser that calls itself must not run out of stack.
+const MAX_DEPTH: usize = 64;
+
+/// The spectrum of a TM-27 text.
+///
+/// # Errors
+/// [`crate::Error::Table`] with the line that is wrong.
+pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
+    let at = |line| Place { path, line };
+    if let Some(line) = too_deep(text) {
+        return Err(
+            at(line).fails(format!("elements within more than {MAX_DEPTH} others"), "export the file again")
+        );
+    }
+    let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|e| {
+        at(e.pos().row as usize).fails(format!("not XML that is read here ({e})"), "export the file again")
+    })?;
+    let place = |node: Node| at(document.text_pos_at(node.range().start).row as usize);
+    let root = document.root_element();
+    if !root.tag_name().name().starts_with("IESTM27") {
+        let problem = format!("<{}> where <IESTM2714> should be", root.tag_name().name());
+        return Err(place(root).fails(problem, "export the spectrum as IES TM-27"));
+    }
+    let mut blocks = children(root, "SpectralDistribution");
+    let (Some(block), None) = (blocks.next(), blocks.next()) else {
+        return Err(place(root).fails("not one <SpectralDistribution>", "give each spectrum its own file"));
+    };
+    let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
+    for data in children(block, "SpectralData") {
+        let at = place(data);
+        wavelengths.push(at.number("wavelength", data.attribute("wavelength").unwrap_or("").trim())?);
+        values.push(at.number("SpectralData", data.text().unwrap_or("").trim())?);
+    }
+    if values.len() < 2 {
+        let problem = format!("{} elements <SpectralData>", values.len());
+        return Err(place(block).fails(problem, "a spectrum needs at least two wavelengths"));
+    }
+    let (wavelengths_nm, note) = units::to_nm(place(block), "nm", &wavelengths, place(block).line)?;
+    let spectrum = Spectrum::from_table("spectrum".to_owned(), wavelengths_nm.into(), values);
+    Ok(Table { notes: note.into_iter().collect(), ..Table::new(vec![spectrum])? })
+}
+
+fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(move |child| child.tag_name().name() == name)
+}
+
+/// The line, if any, on which elements lie within too many others.
+fn too_deep(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    let opens = |tag: &str| {
+        !tag.starts_with(['/', '!', '?']) && !tag.split('>').next().is_some_and(|tag| tag.ends_with('/'))
+    };
+    let mut line = 1;
+    for (n, tag) in text.split('<').enumerate() {
+        match tag {
+            _ if n == 0 => {}
+            tag if tag.starts_with('/') => depth = depth.saturating_sub(1),
+            tag if opens(tag) => depth += 1,
+            _ => {}
+        }
+        if depth > MAX_DEPTH {
+            return Some(line);
+        }
+        line += tag.matches('\n').count();
+    }
+    None
+}
+
+/// A reflectance as TM-27-14; `created` is the date, as `2026-01-31T12:00:00Z`.
+pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectance: &[f64]) -> String {
+    let mut data = String::new();
+    for (nm, value) in wavelengths_nm.iter().zip(reflectance) {
+        // writing to a String cannot fail
+        let _ = writeln!(data, "    <SpectralData wavelength=\"{nm}\">{value}</SpectralData>");
+    }
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <IESTM2714 xmlns=\"http://www.ies.org/iestm2714\" version=\"1.0\">\n\
+         \x20 <Header>\n\
+         \x20   <Description>{}</Description>\n\
+         \x20   <DocumentCreator>vfold</DocumentCreator>\n\
+         \x20   <DocumentCreationDate>{created}</DocumentCreationDate>\n\
+         \x20 </Header>\n\
+         \x20 <SpectralDistribution>\n\
+         \x20   <SpectralQuantity>reflectance</SpectralQuantity>\n\
+         {data}\x20 </SpectralDistribution>\n\
+         </IESTM2714>\n",
+        escaped(name)
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(data: &str) -> String {
+        format!(
+            "<?xml version=\"1.0\"?>\n<IESTM2714 xmlns=\"http://www.ies.org/iestm2714\">\n<SpectralDistribution>{data}</SpectralDistribution></IESTM2714>"
+        )
+    }
+
+    fn datum(nm: &str, value: &str) -> String {
+        format!("<SpectralData wavelength=\"{nm}\">{value}</SpectralData>\n")
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let (nm, reflectance) = ([400.0, 402.5, 700.0], [0.1, 1.0 / 3.0, 0.9]);
+        let text = text("red <& dark>", "2026-01-31T12:00:00Z", &nm, &reflectance);
+        let spectrum = parse("x.spdx", &text).unwrap().spectra.remove(0);
+        assert_eq!((spectrum.wavelengths_nm(), spectrum.values()), (&nm[..], &reflectance[..]));
+        assert!(text.contains("<Description>red &lt;&amp; dark&gt;</Description>"));
+    }
+
+    #[test]
+    fn files_that_are_no_spectrum_are_refused() {
+        let two = datum("400", "0.1") + &datum("500", "0.2");
+        for (text, want) in [
+            (String::new(), "x.spdx:1: not XML"),
+            ("<a></b>".to_owned(), "x.spdx:1: not XML"),
+            ("<item/>".to_owned(), "<item> where <IESTM2714>"),
+            (file(""), "x.spdx:3: 0 elements <SpectralData>"),
+            (file(&datum("400", "0.1")), "1 elements"),
+            (file(&(two.clone() + &datum("450", "0.1"))), "450 nm follows 500 nm"),
+            (
+                file(&(two.clone() + &datum("600", "NaN"))),
+                "x.spdx:5: column 'SpectralData': 'NaN' is not a number",
+            ),
+            (file(&(two.clone() + &datum("", "1"))), "column 'wavelength': '' is not a number"),
+            (file(&(two.clone() + &datum("600", "1e308"))), "no measured number"),
+            (
+                file(&two).replace("</IESTM", "<SpectralDistribution/></IESTM"),
+                "not one <SpectralDistribution>",
+            ),
+            (format!("<!DOCTYPE a [<!ENTITY b \"c\">]>{}", file(&two)), "not XML that is read here"),
+            (
+                format!("<!DOCTYPE a SYSTEM \"file:///etc/passwd\">{}", file(&two)),
+                "not XML that is read here",
+            ),
+            (file(&"<a>".repeat(1_000_000)), "within more than 64 others"),
+            (file(&"<a/>".repeat(1_100_000)), "not XML that is read here"),
+        ] {
+            let message = parse("x.spdx", &text).unwrap_err().to_string();
+            assert!(message.contains(want), "{want}: {}", &message[..message.len().min(300)]);
+        }
+    }
+}

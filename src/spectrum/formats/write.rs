@@ -1,0 +1,209 @@
+//! Writing estimated spectra: CSV with standard deviations, CGATS and IES TM-27 without.
+
+use std::collections::HashSet;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::csv::SD_ENDING;
+use super::{cgats, has_ending, tm27};
+use crate::error::{Error, Result};
+use crate::files::Saved;
+
+/// A reflectance as it was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// What it is called.
+    pub name: String,
+    /// Wavelengths, nm.
+    pub wavelengths_nm: Vec<f64>,
+    /// Reflectance a wavelength, 0..1.
+    pub reflectance: Vec<f64>,
+    /// Standard deviation of each, where it is known.
+    pub reflectance_sd: Option<Vec<f64>>,
+}
+
+/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, a column a sample and beside it that of its standard
+/// deviation (`red`, `red_sd`); CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
+///
+/// # Errors
+/// [`Error::Usage`] if the ending is another or `.spdx` should hold several; [`Error::Spectrum`] if there is none, or if wavelengths differ
+/// or are uneven in a format that has one step for all; [`Error::File`] if it cannot be written.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::formats::{Measured, write};
+/// let grey = Measured {
+///     name: "grey".to_owned(),
+///     wavelengths_nm: vec![400.0, 700.0],
+///     reflectance: vec![0.5, 0.25],
+///     reflectance_sd: Some(vec![0.125, 0.0625]),
+/// };
+/// let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+/// write(file.path(), &[grey])?;
+/// assert_eq!(std::fs::read_to_string(file.path()).unwrap(), "wavelength_nm,grey,grey_sd\n400,0.5,0.125\n700,0.25,0.0625\n");
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn write(path: &Path, samples: &[Measured]) -> Result<()> {
+    let text = match (format(path)?, samples) {
+        (_, []) => return Err(unfit(path, "there is no estimate to write", "check the samples' errors")),
+        (Format::Csv, _) => csv(path, samples)?,
+        (Format::Cgats, _) => cgats(path, samples)?,
+        (Format::Tm27, [one]) => tm27::text(&one.name, &now(), &one.wavelengths_nm, &one.reflectance),
+        (Format::Tm27, _) => {
+            let problem = format!("{} samples, but a TM-27 file holds one", samples.len());
+            return Err(unfit(path, problem, "write .csv or .sp"));
+        }
+    };
+    Saved::write(path, text.as_bytes())
+}
+
+enum Format {
+    Csv,
+    Cgats,
+    Tm27,
+}
+
+/// The format that a file's ending asks for.
+fn format(path: &Path) -> Result<Format> {
+    let path = path.to_string_lossy();
+    let known = [("csv", Format::Csv), ("sp", Format::Cgats), ("spdx", Format::Tm27)];
+    known.into_iter().find(|(ending, _)| has_ending(&path, &[ending])).map(|(_, format)| format).ok_or_else(
+        || Error::usage("--spectra", format!("'{path}' names no format"), "end it in .csv, .sp or .spdx"),
+    )
+}
+
+/// Checks a file's ending before there is anything to write.
+///
+/// # Errors
+/// [`Error::Usage`] as [`write`].
+pub fn check_ending(path: &Path) -> Result<()> {
+    format(path).map(drop)
+}
+
+fn unfit(path: &Path, problem: impl Into<String>, remedy: &str) -> Error {
+    let name = path.display().to_string();
+    Error::Spectrum { name, problem: problem.into(), remedy: remedy.to_owned() }
+}
+
+/// Wavelengths that all samples share.
+fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
+    let nm = &samples[0].wavelengths_nm;
+    match samples.iter().find(|sample| sample.wavelengths_nm != *nm) {
+        Some(other) => {
+            let problem = format!("'{}' and '{}' are on different wavelengths", samples[0].name, other.name);
+            Err(unfit(path, problem, "write each scene's samples to its own file"))
+        }
+        None => Ok(nm),
+    }
+}
+
+/// Names that no other sample has and that no cell or quoted word is broken by.
+fn names(samples: &[Measured]) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let mut unique = |sample: &Measured| {
+        let plain = sample.name.replace([',', '"', '\n', '\r'], "_");
+        let numbered = (2..).map(|n| format!("{plain} ({n})"));
+        let name = std::iter::once(plain.clone()).chain(numbered).find(|name| taken.insert(name.clone()));
+        name.unwrap_or(plain)
+    };
+    samples.iter().map(&mut unique).collect()
+}
+
+fn csv(path: &Path, samples: &[Measured]) -> Result<String> {
+    let (nm, names) = (common_nm(path, samples)?, names(samples));
+    let mut text = "wavelength_nm".to_owned();
+    for (name, sample) in names.iter().zip(samples) {
+        let sd = sample.reflectance_sd.as_ref().map_or(String::new(), |_| format!(",{name}{SD_ENDING}"));
+        text += &format!(",{name}{sd}");
+    }
+    for (band, nm) in nm.iter().enumerate() {
+        text += &format!("\n{nm}");
+        for sample in samples {
+            text += &format!(",{}", sample.reflectance[band]);
+            if let Some(sd) = &sample.reflectance_sd {
+                text += &format!(",{}", sd[band]);
+            }
+        }
+    }
+    Ok(text + "\n")
+}
+
+fn cgats(path: &Path, samples: &[Measured]) -> Result<String> {
+    let nm = common_nm(path, samples)?;
+    if super::super::interpolation::even_step_nm(nm).is_none() {
+        return Err(unfit(path, "CGATS spectra are evenly spaced, these are not", "write .csv"));
+    }
+    let rows: Vec<_> =
+        names(samples).into_iter().zip(samples.iter().map(|sample| sample.reflectance.as_slice())).collect();
+    Ok(cgats::text(nm, &rows))
+}
+
+/// The date and time now, as `2026-01-31T12:00:00Z`.
+fn now() -> String {
+    iso_8601(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()))
+}
+
+/// Seconds since 1970 as a date and time, UTC. (H. Hinnant, "chrono-compatible low-level date algorithms".)
+fn iso_8601(seconds: u64) -> String {
+    let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    // months from March on, so that the leap day is the year's last
+    let month = (5 * day_of_year + 2) / 153;
+    let (day, month, next) = (day_of_year - (153 * month + 2) / 5 + 1, (month + 2) % 12 + 1, month >= 10);
+    let year = 400 * era + year_of_era + u64::from(next);
+    format!("{year:04}-{month:02}-{day:02}T{:02}:{:02}:{:02}Z", second / 3600, second / 60 % 60, second % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::slice::from_ref;
+
+    use super::*;
+
+    fn sample(name: &str, nm: [f64; 3]) -> Measured {
+        let (wavelengths_nm, reflectance) = (nm.to_vec(), vec![0.1, 1.0 / 3.0, 0.9]);
+        Measured { name: name.to_owned(), wavelengths_nm, reflectance, reflectance_sd: None }
+    }
+
+    fn refusal(ending: &str, samples: &[Measured]) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let message = write(&folder.path().join(ending), samples).unwrap_err().to_string();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        message
+    }
+
+    #[test]
+    fn what_a_format_cannot_hold_is_refused() {
+        let even = sample("a", [400.0, 500.0, 600.0]);
+        let uneven = sample("b", [400.0, 500.0, 601.0]);
+        assert!(refusal("x.txt", from_ref(&even)).contains("end it in .csv, .sp or .spdx"));
+        assert!(refusal("x.csv", &[]).contains("no estimate"));
+        assert!(refusal("x.spdx", &[even.clone(), even.clone()]).contains("2 samples"));
+        assert!(refusal("x.sp", from_ref(&uneven)).contains("evenly spaced"));
+        assert!(refusal("x.csv", &[even, uneven]).contains("'a' and 'b' are on different wavelengths"));
+    }
+
+    #[test]
+    fn names_are_unique_and_break_no_line() {
+        let nm = [400.0, 500.0, 600.0];
+        let samples = ["a,\"b\"", "c", "c", "c (2)"].map(|name| sample(name, nm));
+        assert_eq!(names(&samples), ["a__b_", "c", "c (2)", "c (2) (2)"]);
+    }
+
+    /// `date -u -d @SECONDS +%FT%TZ`, GNU coreutils.
+    #[test]
+    fn dates_are_those_of_coreutils() {
+        for (seconds, want) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_399, "2000-02-28T23:59:59Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (1_709_251_200, "2024-03-01T00:00:00Z"),
+            (4_107_542_399, "2100-02-28T23:59:59Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+        ] {
+            assert_eq!(iso_8601(seconds), want);
+        }
+    }
+}
