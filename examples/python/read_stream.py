@@ -15,8 +15,8 @@ import warnings
 import numpy as np
 
 warnings.filterwarnings("ignore")  # colour-science speaks of optional packages
+import matplotlib  # before colour-science, which puts a stand-in where it is missing
 import colour
-import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt

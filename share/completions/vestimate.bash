@@ -23,7 +23,7 @@ _vestimate() {
 
     case "${cmd}" in
         vestimate)
-            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --reference-panel --start --plot --trace --method --components --basis --plan --reflectance --camera --illuminant --sky-illuminant --output --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --reference-panel --start --plot --spectra --trace --method --components --basis --plan --reflectance --camera --illuminant --sky-illuminant --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -65,6 +65,10 @@ _vestimate() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --spectra)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --trace)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -102,6 +106,10 @@ _vestimate() {
                     return 0
                     ;;
                 -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --resume)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,4 +1,4 @@
-complete -c vestimate -l prior -d 'What is known of reflectances beforehand: spectra (set or CSV), smooth (the paper\'s estimator) or none [default: munsell]' -r
+complete -c vestimate -l prior -d 'What is known of reflectances beforehand: spectra (set or file), smooth (the paper\'s estimator) or none [default: munsell]' -r
 complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
 complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
@@ -10,6 +10,7 @@ angle\t'Angle between the panels'"
 complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
 complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
 park\t'Flat sheet: combination of principal components, smooth'
@@ -21,6 +22,7 @@ complete -c vestimate -l camera -d 'Camera of a scene that has none [default: ca
 complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each [default: D65]' -r
 complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r
 complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vestimate -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r
 complete -c vestimate -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
@@ -30,7 +32,7 @@ complete -c vestimate -l generate -d 'Print the man page or a shell\'s completio
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"
-complete -c vestimate -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+complete -c vestimate -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record a scene, for --noise-sd [default: 1e-3]'

@@ -1,6 +1,7 @@
+complete -c vextract -l files-from -d 'More photographs: a file with a name a line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
-complete -c vextract -l camera -d 'Camera: built-in name, CSV file or rawtoaces JSON [default: by the photograph\'s EXIF]' -r
-complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each' -r
+complete -c vextract -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph\'s EXIF]' -r
+complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each' -r
 complete -c vextract -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
 complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vextract -l panel0 -d 'Corners of panel 0' -r
@@ -25,6 +26,7 @@ complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and th
 complete -c vextract -l white-reflectance -d 'Reflectance of the white card' -r
 complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and the white card\'s normal' -r
 complete -c vextract -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vextract -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vextract -s j -l threads -d 'Threads to use [default: all cores]' -r
 complete -c vextract -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
@@ -34,7 +36,7 @@ complete -c vextract -l generate -d 'Print the man page or a shell\'s completion
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"
-complete -c vextract -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+complete -c vextract -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vextract -s q -l quiet -d 'Say nothing but errors'

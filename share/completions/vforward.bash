@@ -23,7 +23,7 @@ _vforward() {
 
     case "${cmd}" in
         vforward)
-            opts="-o -j -q -v -h -V --reflectance --panel-reflectance --facet-reflectance --camera --illuminant --sky-illuminant --wavelengths-nm --reference-panel --bounces --exposure --noise-sd --photon-noise --seed --render --render-size --output --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --reflectance --panel-reflectance --facet-reflectance --camera --illuminant --sky-illuminant --wavelengths-nm --reference-panel --bounces --exposure --noise-sd --photon-noise --seed --render --render-size --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -94,6 +94,10 @@ _vforward() {
                     return 0
                     ;;
                 -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --resume)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,8 +1,8 @@
-complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, or CSV file' -r
+complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)' -r
 complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
 complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a facet, no truth in the samples' -r -F
-complete -c vforward -l camera -d 'Camera: built-in name, CSV file or rawtoaces JSON' -r
-complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each' -r
+complete -c vforward -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)' -r
+complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each' -r
 complete -c vforward -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
 complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vforward -l reference-panel -d 'Panel 1 is a card of this reflectance: --panel-reflectance 1=SPEC' -r
@@ -14,6 +14,7 @@ complete -c vforward -l seed -d 'Seed of the noise' -r
 complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
 complete -c vforward -l render-size -d 'Size of the photograph' -r
 complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vforward -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vforward -s j -l threads -d 'Threads to use [default: all cores]' -r
 complete -c vforward -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
@@ -23,7 +24,7 @@ complete -c vforward -l generate -d 'Print the man page or a shell\'s completion
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"
-complete -c vforward -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+complete -c vforward -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vforward -s q -l quiet -d 'Say nothing but errors'

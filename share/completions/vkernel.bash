@@ -23,7 +23,7 @@ _vkernel() {
 
     case "${cmd}" in
         vkernel)
-            opts="-o -j -q -v -h -V --angle-deg --panel --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --output --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --angle-deg --panel --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -94,6 +94,10 @@ _vkernel() {
                     return 0
                     ;;
                 -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --resume)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

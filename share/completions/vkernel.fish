@@ -18,6 +18,7 @@ complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees'
 complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
 complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vkernel -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r
 complete -c vkernel -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
@@ -27,7 +28,7 @@ complete -c vkernel -l generate -d 'Print the man page or a shell\'s completions
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"
-complete -c vkernel -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+complete -c vkernel -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vkernel -l check -d 'Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit status 1 if one is broken'

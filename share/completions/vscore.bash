@@ -23,7 +23,7 @@ _vscore() {
 
     case "${cmd}" in
         vscore)
-            opts="-o -j -q -v -h -V --truth --illuminant --observer --plot --table --output --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --truth --illuminant --observer --metrics --colour --by --plot --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -41,7 +41,19 @@ _vscore() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --metrics)
+                    COMPREPLY=($(compgen -W "rmse ciede2000 pd gfc angle metamerism" -- "${cur}"))
+                    return 0
+                    ;;
+                --by)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --plot)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --spectra)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -50,6 +62,10 @@ _vscore() {
                     return 0
                     ;;
                 -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --resume)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,8 +1,17 @@
 complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set with a member of each sample\'s name [default: what the samples say]' -r
-complete -c vscore -l illuminant -d 'Illuminant of the colour difference' -r
+complete -c vscore -l illuminant -d 'Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others' -r
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
+complete -c vscore -l metrics -d 'What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
+ciede2000\t'Colour difference under each illuminant'
+pd\t'The paper\'s "Pearson distance"'
+gfc\t'Goodness of fit coefficient'
+angle\t'Spectral angle'
+metamerism\t'From the first illuminant to each other one'"
+complete -c vscore -l by -d 'Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`' -r
 complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
+complete -c vscore -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vscore -s j -l threads -d 'Threads to use [default: all cores]' -r
 complete -c vscore -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
@@ -12,9 +21,10 @@ complete -c vscore -l generate -d 'Print the man page or a shell\'s completions'
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"
-complete -c vscore -l list -d 'Print the built-in spectra of a kind' -r -f -a "cameras\t'Camera sensitivities'
+complete -c vscore -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
+complete -c vscore -l colour -d 'Add the estimate\'s XYZ, CIELAB and sRGB under the first illuminant to the records, with standard deviations'
 complete -c vscore -l table -d 'Print a table instead of records'
 complete -c vscore -s q -l quiet -d 'Say nothing but errors'
 complete -c vscore -s v -l verbose -d 'Say what was decided, measured and skipped'
