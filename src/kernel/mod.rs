@@ -20,6 +20,7 @@ pub mod quadrature;
 pub mod refinement;
 pub mod skipped;
 pub mod spectra;
+pub mod surface;
 
 pub use fold_kernel::FoldKernel;
 pub use method::Method;
