@@ -6,9 +6,11 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
+use vfold::camera::CameraResponse;
+use vfold::forward::FacetModel;
 use vfold::kernel::dense::DenseExchange;
 use vfold::kernel::exchange::Exchange;
-use vfold::response::SurfaceResponse;
+use vfold::response::{ReducedExchange, SurfaceResponse};
 
 /// Patches that exchange light, two of them lit.
 #[derive(Clone, Debug)]
@@ -126,4 +128,58 @@ fn a_closed_surface_is_refused() {
     let exchange = DenseExchange::new(&kernel, &[1.0, 1.0], vec![0, 1]);
     let error = SurfaceResponse::solve(&exchange, &[1.0, 1.0], 1e-6).unwrap_err();
     assert!(error.to_string().contains("open it"));
+}
+
+/// One channel that sees each of some wavebands alike.
+fn eye(bands: usize) -> CameraResponse {
+    CameraResponse::from_weights(vec![vec![1.0 / bands as f64; bands]])
+}
+
+proptest! {
+    /// Two lights of different colour on a surface of one reflectance.
+    #[test]
+    fn the_facet_model_adds_its_lights(surface in surfaces(), r in prop::array::uniform2(0.0..=1.0)) {
+        let cameras = [vec![vec![0.7, 0.3]], vec![vec![0.2, 0.9]]].map(CameraResponse::from_weights);
+        let lit = surface.lights.iter().map(|light| surface.response(light));
+        let model = FacetModel::of_surface(&lit.zip(cameras.clone()).collect::<Vec<_>>());
+        let mut dense = DVector::zeros(surface.areas.len());
+        for (light, camera) in surface.lights.iter().zip(&cameras) {
+            for (band, r) in r.iter().enumerate() {
+                let all = surface.dense(light, &DVector::from_element(light.len(), *r));
+                dense += camera.channel(0)[band] * *r * all;
+            }
+        }
+        let ours = model.facet_rgb(&r).column(0).into_owned();
+        prop_assert!((ours - &dense).amax() < 1e-10 * dense.amax().max(1e-6));
+    }
+
+    /// Parts of known reflectance beside an unknown one, by the dense solution of every waveband; derivatives by differences.
+    #[test]
+    fn known_parts_drop_out(
+        surface in surfaces(),
+        known in prop::array::uniform4(0.0..=1.0),
+        sheet in prop::array::uniform2(0.01..=0.99),
+    ) {
+        let count = surface.areas.len();
+        let part_of: Vec<usize> = (0..count).map(|facet| facet % 3).collect();
+        let lights = surface.lights.clone().map(|light| light.as_slice().to_vec());
+        let reduced = ReducedExchange::new(&surface.exchange(), &part_of, &lights, 1e-12).unwrap();
+        let parts = [Some(known[..2].to_vec()), None, Some(known[2..].to_vec())];
+        let model = FacetModel::beside_known(&reduced, &parts, &[eye(2), eye(2)]).unwrap();
+        let mut dense = DVector::zeros(count);
+        for band in 0..2 {
+            let of = |facet: usize| parts[part_of[facet]].as_ref().map_or(sheet[band], |r| r[band]);
+            let r = DVector::from_fn(count, |facet, _| of(facet));
+            let all = surface.lights.iter().map(|light| surface.dense(light, &r)).sum::<DVector<f64>>();
+            dense += 0.5 * r.component_mul(&all);
+        }
+        let ours = model.facet_rgb(&sheet).column(0).into_owned();
+        prop_assert!((&ours - &dense).amax() < 1e-9 * dense.amax().max(1e-6), "{ours} {dense}");
+        let [terms, slopes, curvatures] = model.derivatives_of(&sheet);
+        let at = |change: f64| model.terms_of(&[sheet[0] + change, sheet[1] + change]);
+        let step = 1e-5;
+        let (below, above) = (at(-step), at(step));
+        prop_assert!(((&above - &below) / (2.0 * step) - slopes).amax() < 1e-5 * terms.amax());
+        prop_assert!(((above + below - 2.0 * &terms) / (step * step) - curvatures).amax() < 1e-3);
+    }
 }

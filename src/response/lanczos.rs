@@ -59,7 +59,7 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
 }
 
 /// Removes from `x` its parts along the basis, twice: once leaves rounding behind.
-fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
+pub fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
     for direction in basis.iter().chain(basis) {
         let along = dot(x, direction);
         x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);

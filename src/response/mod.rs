@@ -3,13 +3,17 @@
 //! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
 //! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
 //! light does not excite. [`SurfaceResponse`] holds those of one light on any surface; a fold's [`Response`] holds those of
-//! any light on it.
+//! any light on it. Surfaces with parts of several reflectances have other ones in every waveband: [`ReducedExchange`].
 
 mod fold;
+mod known;
 mod lanczos;
+mod reduced;
 mod surface;
 
 pub use fold::{Excitation, ModeLight, Modes, Response};
+pub use known::BesideKnown;
+pub use reduced::ReducedExchange;
 pub use surface::SurfaceResponse;
 
 use crate::error::{Error, Result};

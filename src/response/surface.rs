@@ -60,7 +60,7 @@ impl SurfaceResponse {
     /// [`Error::Field`] if the shapes disagree or a pole is not inside (−1, 1).
     pub fn new(modes: ModeSet) -> Result<Self> {
         let poles = modes.poles.len();
-        if poles == 0 || modes.residues.is_empty() || modes.residues.len() % poles != 0 {
+        if poles == 0 || modes.residues.is_empty() || !modes.residues.len().is_multiple_of(poles) {
             return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
         }
         modes.check_poles()?;
