@@ -9,8 +9,10 @@ pub mod light;
 pub mod obj;
 pub mod polygon;
 pub mod shape;
+pub mod source;
 
 pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;
 pub use polygon::{Polygon, Vec3};
 pub use shape::{Group, Shape};
+pub use source::LightSource;

@@ -11,6 +11,7 @@ pub mod exact;
 pub mod exchange;
 pub mod facets;
 pub mod fold_kernel;
+pub mod given;
 pub mod mesh;
 pub mod method;
 pub mod midpoint;
