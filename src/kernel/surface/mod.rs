@@ -6,10 +6,12 @@
 
 pub mod casters;
 pub mod contour;
+pub mod direct;
 pub mod far;
 pub mod partial;
 pub mod patches;
 pub mod shadow;
+pub mod skylight;
 pub mod sunlight;
 pub mod symmetric;
 
