@@ -69,7 +69,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::shape`] and [`Scene::sources`].
     pub fn lit_surface(&self) -> Result<LitSurface> {
-        LitSurface::new(&self.shape()?, &self.sources()?, self.division()?)
+        LitSurface::again(&self.shape()?, &self.sources()?, self.unknowns()?, self.tolerance()?)
     }
 }
 

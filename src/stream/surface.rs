@@ -6,10 +6,6 @@ use super::Scene;
 use super::geometry::GeometryRecord;
 use crate::error::{Error, Result};
 use crate::geometry::{Group, Shape};
-use crate::kernel::surface::patches::Division;
-
-/// Finest division: of one facet, it takes all the patches that there may be.
-const CELLS_MAX: usize = 150;
 
 /// A surface that is no fold.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +35,6 @@ struct FacetsRecord {
     count: usize,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     groups: Vec<GroupRecord>,
-}
-
-/// How finely the bounces were solved on a mesh.
-#[derive(Serialize, Deserialize)]
-struct DivisionRecord {
-    cells: usize,
-    strips: usize,
 }
 
 /// So many facets from `first` on.
@@ -102,31 +91,6 @@ impl Scene {
 
     fn facets_record(&self) -> Result<FacetsRecord> {
         self.fields.require("facets", "make the scene with vkernel")
-    }
-
-    /// Says into which patches the facets of a mesh were divided.
-    ///
-    /// # Errors
-    /// As [`super::Fields::set`].
-    pub fn set_division(&mut self, division: Division) -> Result<()> {
-        let Division { cells, strips } = division;
-        self.fields.set("division", DivisionRecord { cells, strips })
-    }
-
-    /// The patches into which the facets of a mesh were divided: one a facet if nothing is said.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if they are too many.
-    pub fn division(&self) -> Result<Division> {
-        match self.fields.get("division")? {
-            None => Ok(Division::NONE),
-            Some(DivisionRecord { cells: cells @ 1..=CELLS_MAX, strips: strips @ 0..=CELLS_MAX }) => {
-                Ok(Division { cells, strips })
-            }
-            Some(_) => {
-                Err(Error::field("division", format!("needs 1 to {CELLS_MAX} cells and fewer strips")))
-            }
-        }
     }
 
     /// The surface in space.
