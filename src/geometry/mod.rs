@@ -8,6 +8,7 @@ pub mod fold;
 pub mod light;
 pub mod merged;
 pub mod obj;
+pub mod ply;
 pub mod polygon;
 pub mod shape;
 pub mod source;

@@ -26,6 +26,7 @@ mod response;
 mod sample;
 mod saves;
 mod scene;
+mod shape_file;
 mod surface;
 mod unknowns;
 mod writer;
@@ -47,6 +48,7 @@ pub use reader::{Reader, Record, Transform, pipe};
 pub use regions::{Corners, Regions, RegionsFile};
 pub use sample::{ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
+pub use shape_file::read_shape;
 
 pub use scene::Scene;
 pub use surface::Surface;

@@ -14,7 +14,7 @@ with open("corner.obj", "w") as obj:
                 print("v", *corner, file=obj)
             print("f -4 -3 -2 -1", file=obj)
 END
-vkernel --shape corner.obj --mesh facets --light 1,2,2 --light 3,1,1:0.5 --tolerance 1e-9 --save kernel=K.npy -o scene.json
+vkernel --shape corner.obj --mesh facets --light 1,2,2 --light 3,1,1:0.5 --tolerance 1e-6 --save kernel=K.npy -o scene.json
 bands="--wavelengths-nm 400:700:100 --camera 1 --no-history"
 python3 - <<'END'
 import numpy as np

@@ -50,6 +50,6 @@ impl LitSurface {
     /// As [`ReducedExchange::new`].
     pub fn reduce(&self, part_of_facet: &[usize], tolerance: f64) -> Result<ReducedExchange> {
         let lights: Vec<_> = self.lights.iter().map(|light| light.irradiance.clone()).collect();
-        ReducedExchange::new(&self.kernel, part_of_facet, &lights, tolerance)
+        ReducedExchange::new(&self.kernel, part_of_facet, &lights, 0.1 * tolerance)
     }
 }
