@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod nonuniform;
 mod setup;
 mod subject;
 
