@@ -1,6 +1,8 @@
 //! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
 
 mod generate;
+mod kernel;
+mod materials;
 mod spectra;
 
 use std::io::{self, Write};
@@ -8,6 +10,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, ValueEnum};
+
+pub use kernel::KernelArgs;
+pub use materials::MaterialArgs;
 
 use crate::error::{Error, Result};
 use crate::progress::{Progress, When};
@@ -183,7 +188,8 @@ pub fn pair<T: std::str::FromStr>(text: &str) -> std::result::Result<(T, T), Str
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each
+    /// Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one
+    /// picture with these in the order of the lights, skies aside
     #[arg(long, value_name = "SPEC", default_value = "D65")]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky [default: that of the sun]

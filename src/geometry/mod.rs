@@ -1,7 +1,20 @@
 //! Shapes and the light that falls on them; nothing here knows about reflectance or colour.
+//!
+//! A [`Fold`] is two panels and has formulas of its own; a [`Shape`] is any surface of flat facets, read from a file ([`obj`])
+//! or built here ([`accordion`]).
 
+pub mod accordion;
 pub mod fold;
 pub mod light;
+pub mod merged;
+pub mod obj;
+pub mod ply;
+pub mod polygon;
+pub mod shape;
+pub mod source;
 
 pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;
+pub use polygon::{Polygon, Vec3};
+pub use shape::{Group, Shape};
+pub use source::LightSource;

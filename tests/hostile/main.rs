@@ -9,6 +9,8 @@ mod cameras;
 mod common;
 mod flags;
 mod formats;
+mod kernels;
+mod lights;
 mod methods;
 mod photographs;
 mod resume;

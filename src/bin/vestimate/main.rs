@@ -8,13 +8,13 @@ mod settings;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{ArgGroup, Parser};
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
-use vfold::cli::{self, Common, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::spectrum::formats::{check_ending, write};
@@ -28,6 +28,7 @@ const MISFIT: f64 = 5.0;
 #[command(
     name = "vestimate",
     version,
+    group(ArgGroup::new("scene without a camera").args(["plan", "kernel"]).multiple(true)),
     after_help = "Examples:\n  vestimate samples.ndjson --plot spectrum.svg > estimates.ndjson\n  \
                   vestimate samples.ndjson --fit exposure,tilt,sky --save estimate.reflectance=spectra.npy\n  \
                   vestimate samples.ndjson --prior smooth --smoothness 1e-4\n  \
@@ -77,6 +78,10 @@ struct Args {
     #[command(flatten)]
     planning: PlanArgs,
     #[command(flatten)]
+    materials: MaterialArgs,
+    #[command(flatten)]
+    kernel: KernelArgs,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -106,6 +111,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
+    if let Some(kernel) = args.kernel.given()? {
+        let mut scene = kernel.scene()?;
+        args.planning.complete(&mut scene, &args.common)?;
+        reader = reader.after(scene);
+    }
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }

@@ -1,7 +1,7 @@
 //! `--plan`: what estimates will be worth, before any photograph.
 
 use clap::Args;
-use vfold::cli::OpticsArgs;
+use vfold::cli::{Common, OpticsArgs};
 use vfold::estimate::Exposure;
 use vfold::spectrum::{Outside, WavelengthGrid};
 use vfold::stream::{ExpectedError, Output, Reader, Record, Scene, Transform, plan};
@@ -24,13 +24,13 @@ pub struct PlanArgs {
     #[arg(long, value_name = "SPEC", requires = "plan")]
     pub reflectance: Option<String>,
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none; repeated: a picture under each [default: D65]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    /// Illuminant of a scene that has none; repeated: a picture under each, or one a light as for vforward [default: D65]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub sky_illuminant: Option<String>,
 }
 
@@ -39,7 +39,7 @@ impl PlanArgs {
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
         while let Some(record) = reader.read()? {
             if let Record::Scene(mut scene) = record {
-                self.complete(estimator, &mut scene).map_err(|e| reader.at(e))?;
+                self.complete(&mut scene, &estimator.args().common).map_err(|e| reader.at(e))?;
                 let plan = self.of_scene(estimator, &mut scene).map_err(|e| reader.at(e))?;
                 out.fields(&plan)?;
             }
@@ -48,7 +48,7 @@ impl PlanArgs {
     }
 
     /// Gives camera and light to a scene that has none.
-    fn complete(&self, estimator: &Estimator, scene: &mut Scene) -> Result<()> {
+    pub fn complete(&self, scene: &mut Scene, common: &Common) -> Result<()> {
         if scene.has_camera() {
             let flags = [&self.camera, &self.sky_illuminant];
             if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {
@@ -68,7 +68,7 @@ impl PlanArgs {
             wavelengths_nm: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
         };
         let camera = self.camera.as_deref().unwrap_or("canon-5d-mark-ii");
-        scene.set_optics(&optics.resolve(camera, &estimator.args().common)?)
+        scene.set_optics(&optics.resolve(camera, common)?)
     }
 
     /// Estimates from facets without noise, taken to have it: their error bars are what to expect.

@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod nonuniform;
 mod setup;
 mod subject;
 
@@ -9,7 +10,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use setup::Setup;
 use subject::Subject;
-use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::stream::{Output, Reader, Record, Scene};
@@ -26,7 +27,7 @@ use vfold::{Error, Result};
 )]
 struct Args {
     /// Scene from vkernel [default: standard input]
-    #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true)]
+    #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true, conflicts_with = "kernel")]
     scene: String,
     /// Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)
     #[arg(long, value_name = "SPEC", num_args = 1..,
@@ -38,7 +39,7 @@ struct Args {
     /// Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a
     /// facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
-        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "bounces", "render"])]
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render"])]
     facet_reflectance: Vec<PathBuf>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
@@ -49,7 +50,7 @@ struct Args {
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
     /// Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene's tolerance asks for
-    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces)]
+    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with = "material")]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
@@ -69,6 +70,10 @@ struct Args {
     /// Size of the photograph
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
+    #[command(flatten)]
+    materials: MaterialArgs,
+    #[command(flatten)]
+    kernel: KernelArgs,
     #[command(flatten)]
     common: Common,
 }
@@ -95,7 +100,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     let optics = args.optics.resolve(&args.camera, &args.common)?;
     let subject = Subject::of(args, &optics.grid)?;
-    let mut reader = Reader::open(&args.scene)?;
+    let materials = args.materials.on(&optics.grid, &args.common)?;
+    let given = args.kernel.given()?;
+    let mut reader = match &given {
+        Some(kernel) => Reader::of(kernel.scene()?),
+        None => Reader::open(&args.scene)?,
+    };
     while let Some(record) = reader.read()? {
         match record {
             Record::Scene(mut scene) => {
@@ -105,7 +115,10 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 }
                 skip_unseen(args, &mut scene).map_err(|e| reader.at(e))?;
                 subject.card().map_or(Ok(()), |card| scene.set_reference_panel(card))?;
-                let setup = Setup::new(args, noise, &scene).map_err(|e| reader.at(e))?;
+                if !materials.is_empty() {
+                    scene.set_materials(&materials)?;
+                }
+                let setup = Setup::new(args, noise, &scene, given.as_ref()).map_err(|e| reader.at(e))?;
                 setup.photograph(&subject)?;
                 out.scene(&scene)?;
                 setup.samples(&subject, out)?;
@@ -138,7 +151,7 @@ impl BouncesArg {
 /// Records the wavebands that no sensor sees: the models leave them out.
 fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
     let bands = scene.grid()?.len();
-    let unseen = bands - scene.lighting()?.seen_bands().len();
+    let unseen = bands - scene.open_light()?.seen_bands().len();
     if unseen > 0 && args.common.verbose {
         cli::say("vforward", &format!("{unseen} of {bands} wavebands are seen by no channel: skipped"));
     }

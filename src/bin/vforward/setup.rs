@@ -9,13 +9,13 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::forward::render::{Picture, View};
-use vfold::forward::{FacetModel, Lighting, nonuniform};
-use vfold::kernel::exact::form_factors;
+use vfold::forward::{FacetModel, Lighting};
 use vfold::parallel::{Item, in_order};
-use vfold::stream::{Output, Sample, Scene, read_matrix};
+use vfold::stream::{GivenKernel, Output, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::nonuniform::Nonuniform;
 use super::subject::{Sheet, Subject};
 
 /// Samples a thread that are computed before the first of them is written.
@@ -25,22 +25,20 @@ const AHEAD: usize = 16;
 pub struct Setup<'a> {
     args: &'a Args,
     scene: &'a Scene,
+    given: Option<&'a GivenKernel>,
     noise: Noise,
     bounces: Bounces,
-    lighting: Lighting,
     model: FacetModel,
 }
 
 impl<'a> Setup<'a> {
-    pub fn new(args: &'a Args, noise: Noise, scene: &'a Scene) -> Result<Self> {
-        Ok(Self {
-            args,
-            scene,
-            noise,
-            bounces: args.bounces.of(scene)?,
-            lighting: scene.lighting()?,
-            model: scene.model()?,
-        })
+    pub fn new(
+        args: &'a Args,
+        noise: Noise,
+        scene: &'a Scene,
+        given: Option<&'a GivenKernel>,
+    ) -> Result<Self> {
+        Ok(Self { args, scene, given, noise, bounces: args.bounces.of(scene)?, model: scene.model()? })
     }
 
     /// Writes a sample a sheet or file.
@@ -67,10 +65,9 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let kernel = form_factors(&self.scene.fold()?);
+        let surface = Nonuniform::of(self.scene, self.given)?;
         for (n, path) in files.iter().enumerate() {
-            let reflectance = self.facet_reflectance(path)?;
-            let rgb = nonuniform::facet_rgb(&kernel, &self.lighting, &reflectance)?;
+            let rgb = surface.facet_rgb(&self.facet_reflectance(path)?)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();
             out.sample(&self.sample(&id, rgb, n as u64)?)?;
         }
@@ -78,8 +75,7 @@ impl<'a> Setup<'a> {
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
-        let shape =
-            [(2 * self.scene.fold()?.facets().len(), "facets"), (self.scene.grid()?.len(), "wavebands")];
+        let shape = [(self.scene.facets()?, "facets"), (self.scene.grid()?.len(), "wavebands")];
         let reflectance = read_matrix(path, shape)?;
         match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
             Some(r) => Err(Error::Array {
@@ -100,8 +96,8 @@ impl<'a> Setup<'a> {
         let rows = |values: &[f64]| values.chunks(clean.nrows()).map(|rgb| Some(rgb.to_vec())).collect();
         let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
         let mut sample = Sample::new(&self.scene.id()?, id)?;
-        let pictures = self.args.optics.illuminant.len();
-        sample.set_facets(&rows(&values), (!noise.is_none()).then(|| rows(&sd)).as_ref(), pictures)?;
+        let sd = (!noise.is_none()).then(|| rows(&sd));
+        sample.set_facets(&rows(&values), sd.as_ref(), self.scene.pictures()?)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
     }
@@ -114,7 +110,7 @@ impl<'a> Setup<'a> {
         self.one_illuminant()?;
         let view = View::of(&self.scene.fold()?, self.args.render_size.0, self.args.render_size.1)?;
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
+        let lighting = if for_screen { self.screen()? } else { self.scene.lighting()? };
         let model = self.scene.fine_model(view.grid(), &lighting)?;
         let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].spectrum.reflectance).0;
         let mut picture = Picture::take(&view, &light);

@@ -1,0 +1,47 @@
+//! The lights of a fold, each with the camera's response to it.
+
+use crate::camera::CameraResponse;
+use crate::geometry::Light;
+use crate::response::ModeLight;
+
+/// The lights of a scene as the camera responds to them.
+#[derive(Clone, Debug)]
+pub struct Lighting {
+    /// Where the sun stands and how much sky there is.
+    pub light: Light,
+    /// Response of the camera to the sun.
+    pub sun: CameraResponse,
+    /// Response to the sky, scaled to 1 in the sun's reference channel; needed only where the light has a sky.
+    pub sky: CameraResponse,
+}
+
+impl Lighting {
+    /// The lights of the scene: the sun, and the sky if there is one, each with the camera's response to it.
+    pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> + Clone {
+        let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
+        let sky = (ModeLight::Sky(self.light.sky()), &self.sky);
+        std::iter::once(sun).chain((self.light.sky() > 0.0).then_some(sky))
+    }
+
+    /// The wavebands in which at least one channel sees one of the lights.
+    #[must_use]
+    pub fn seen_bands(&self) -> Vec<usize> {
+        seen_bands(self.sources().map(|(_, camera)| camera))
+    }
+}
+
+/// The wavebands in which at least one channel of `cameras` sees anything.
+pub fn seen_bands<'a>(cameras: impl Iterator<Item = &'a CameraResponse> + Clone) -> Vec<usize> {
+    let bands = cameras.clone().next().map_or(0, CameraResponse::bands);
+    (0..bands).filter(|band| cameras.clone().any(|camera| camera.sees(*band))).collect()
+}
+
+/// A light on a fold of known response, and how the camera sees it.
+pub struct Lit<'a> {
+    /// Which of the responses.
+    pub response: usize,
+    /// The light.
+    pub light: ModeLight,
+    /// The camera's response to it.
+    pub camera: &'a CameraResponse,
+}
