@@ -12,6 +12,8 @@ if { [ -x "$target/pyviewfactor/bin/python" ] || python3 -m venv "$target/pyview
     "$target/pyviewfactor/bin/python" -m pip install --quiet --disable-pip-version-check pyviewfactor==1.1.0 2>/dev/null; then
     echo pyviewfactor >&2
     "$target/pyviewfactor/bin/python" benches/pyviewfactor_kernel.py "$kernel" benches/results/pyviewfactor.csv
+    "$target/pyviewfactor/bin/python" benches/pyviewfactor_shapes.py "$target/release/vkernel" tests/data/shapes/*.obj \
+        >benches/results/pyviewfactor_shapes.csv
 else
     echo 'pyviewfactor: pip cannot install it here; left out' >&2
     rm -f benches/results/pyviewfactor.csv
