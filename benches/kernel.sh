@@ -12,6 +12,8 @@ trap 'rm -f "$kernel"' EXIT
 if python=$(peer pyviewfactor pyviewfactor==1.1.0); then
     echo pyviewfactor >&2
     "$python" benches/pyviewfactor_kernel.py "$kernel" benches/results/pyviewfactor.csv
+    "$python" benches/pyviewfactor_shapes.py "$target/release/vkernel" tests/data/shapes/*.obj \
+        >benches/results/pyviewfactor_shapes.csv
 else
     echo 'pyviewfactor: pip cannot install it here; left out' >&2
     rm -f benches/results/pyviewfactor.csv

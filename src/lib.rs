@@ -12,6 +12,7 @@
 //! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
 //! | eq. (2) | geometrical kernel of two points | [`kernel::exact::form_factors`], averaged over facets |
 //! | eq. (2) | the same as printed, at facet centres | [`kernel::midpoint::form_factors`] |
+//! | eq. (2) | the same on any surface, hidden parts left out | [`kernel::surface::SurfaceKernel`] |
 //! | eqs. (5) to (7) and (11) to (14) | light bounce by bounce | [`forward::bounces`], [`forward::FacetModel::facet_rgb_after`] |
 //! | eq. (10) | kernel matrix of the facets | [`kernel::fold_kernel::FoldKernel::matrix_row`] |
 //! | eq. (16) | radiance after all bounces | [`response::Response::solve`], [`response::SurfaceResponse::solve`] |

@@ -2,6 +2,8 @@
 //!
 //! `tests/data/shapes` has the surfaces of `/work/shared/mesh`; what its JSON files say of them is compared where they are.
 
+#![allow(clippy::unwrap_used)]
+
 use std::path::Path;
 
 use proptest::prelude::*;

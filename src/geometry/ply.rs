@@ -25,7 +25,8 @@ pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
 fn surface(file: &mut BufReader<File>) -> Result<(Shape, Vec<String>)> {
     let broken = |problem: String| Error::shape(problem, "export the surface again");
     let parsed = Parser::<DefaultElement>::new().read_ply(file);
-    let ply = parsed.map_err(|e| broken(format!("it is no PLY file: {e}")))?;
+    let first_line = |text: String| text.lines().next().unwrap_or_default().trim_end_matches('.').to_owned();
+    let ply = parsed.map_err(|e| broken(format!("it is no PLY file: {}", first_line(e.to_string()))))?;
     let elements = |name: &str| ply.payload.get(name).map(Vec::as_slice).unwrap_or_default();
     let vertex = |element: &DefaultElement| {
         let [x, y, z] = ["x", "y", "z"].map(|axis| element.get(axis).and_then(number));

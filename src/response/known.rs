@@ -50,10 +50,14 @@ impl ReducedExchange {
         let r: DVector<f64> = DVector::from_iterator(known.len(), known.iter().filter_map(of));
         let reflect = |of_known: DMatrix<f64>| DMatrix::from_diagonal(&r) * of_known;
         let [from_known, from_unknown] = [&known, &unknown].map(|from| self.exchange.select_columns(from));
-        let system =
-            DMatrix::identity(r.len(), r.len()) - from_known.select_rows(&known) * DMatrix::from_diagonal(&r);
-        let system = system.lu();
+        let system = || {
+            let returned = from_known.select_rows(&known) * DMatrix::from_diagonal(&r);
+            (DMatrix::identity(r.len(), r.len()) - returned).lu()
+        };
+        // Where no light comes to known parts there is nothing to solve: a decomposition needs a row.
+        let system = (!known.is_empty()).then(system);
         let solve = |right: DMatrix<f64>| {
+            let Some(system) = &system else { return Ok(right) };
             system.solve(&right).map(reflect).ok_or_else(|| {
                 Error::Numeric("the known parts keep all light that they receive: open them".to_owned())
             })

@@ -1,6 +1,6 @@
 //! Any surface: read from a file, or a fold of several creases or with curved panels.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
 use vfold::cli;
@@ -65,12 +65,11 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     let (tolerance, mesh) = (args.tolerance.unwrap_or(TOLERANCE), args.mesh.unwrap_or(Mesh::Auto));
     let solved = solve(&shape, &sources, mesh, tolerance)?;
     say_accuracy(args, &solved)?;
-    let skipped = solved.census.skipped();
+    let skipped = solved.kernel.census().skipped();
     let poles = solved.responses.iter().map(|response| response.modes().poles.len()).sum();
     say_work(args, &solved.accuracy, poles, &skipped);
     if let Some(path) = out.saves.take("kernel") {
-        let kernel = SurfaceKernel::new(&shape, &patches(&shape, Division::NONE), 0.1 * tolerance)?;
-        write_matrix(&path, shape.len(), shape.len(), |facet| kernel.matrix_row(facet))?;
+        save(&path, &shape, &solved, mesh, tolerance)?;
     }
     let mut scene = Scene::of_surface(&args.id, &Surface::Mesh(shape), &sources, &solved.responses)?;
     scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
@@ -79,6 +78,16 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
         scene.fields.add_history("vkernel")?;
     }
     out.scene(&scene)
+}
+
+/// Writes the form factors between the facets, those of the solution if that is on facets.
+fn save(path: &Path, shape: &Shape, solved: &Solved, mesh: Mesh, tolerance: f64) -> Result<()> {
+    let made = match mesh {
+        Mesh::Facets => None,
+        _ => Some(SurfaceKernel::new(shape, &patches(shape, Division::NONE), tolerance)?),
+    };
+    let kernel = made.as_ref().unwrap_or(&solved.kernel);
+    write_matrix(path, shape.len(), shape.len(), |facet| kernel.matrix_row(facet))
 }
 
 /// Refuses flags that only a V of flat panels knows.

@@ -1,8 +1,8 @@
 //! The bounces on any surface, on patches that are divided until the facet means are right.
 
+use super::SurfaceKernel;
 use super::direct::DirectLight;
 use super::patches::{Division, Patch, patches, patches_by};
-use super::{Census, SurfaceKernel};
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
 use crate::geometry::shape::Shape;
@@ -39,8 +39,8 @@ pub struct Solved {
     pub responses: Vec<SurfaceResponse>,
     /// What they are worth.
     pub accuracy: Accuracy,
-    /// How pairs of patches were dealt with.
-    pub census: Census,
+    /// The form factors between the patches of the last mesh.
+    pub kernel: SurfaceKernel,
     /// Largest standard error of direct light that is sampled, 0 if none is.
     pub direct_error: f64,
 }
@@ -154,14 +154,10 @@ impl Scene<'_> {
             responses.push(response);
             (residual, direct_error) = (residual.max(left), direct_error.max(direct.standard_error));
         }
-        let kernel_source = KernelSource { method: Method::Exact, entry_sd: None, entries: kernel.entries() };
-        let accuracy = Accuracy {
-            unknowns: kernel.unknowns(),
-            facet_mean_error: None,
-            residual,
-            kernel: Some(kernel_source),
-        };
-        Ok(Solved { responses, accuracy, census: kernel.census(), direct_error })
+        let source = KernelSource { method: Method::Exact, entry_sd: None, entries: kernel.entries() };
+        let (unknowns, kernel_source) = (kernel.unknowns(), Some(source));
+        let accuracy = Accuracy { unknowns, facet_mean_error: None, residual, kernel: kernel_source };
+        Ok(Solved { responses, accuracy, kernel, direct_error })
     }
 }
 
