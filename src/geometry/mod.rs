@@ -2,6 +2,8 @@
 
 pub mod fold;
 pub mod light;
+pub mod panel;
 
 pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;
+pub use panel::{Panel, joints};

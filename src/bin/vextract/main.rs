@@ -3,6 +3,7 @@
 mod batch;
 mod calibration;
 mod camera;
+mod panels;
 mod pictures;
 mod placing;
 mod reading;
@@ -45,7 +46,7 @@ patches, coefficients and residuals.
 
 --regions FILE has the corners for every IMAGE:
   {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
-or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
+or is what vforward printed when it rendered the IMAGE, or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
 without its ending. Corners found in a picture of another size, such as a preview, are scaled
 if \"width\" and \"height\" say its pixels.
 
@@ -114,8 +115,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let (id, fold) = (scene.id()?, scene.fold()?);
-    let setup = Setup { args, options, scene: &scene, id, fold, regions, calibration, flat_field };
+    let (id, panels, facet_count) = (scene.id()?, scene.panels()?, scene.facet_count()?);
+    let setup =
+        Setup { args, options, scene: &scene, id, panels, facet_count, regions, calibration, flat_field };
     if let [only] = args.images.as_slice() {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;

@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod render;
 mod setup;
 mod subject;
 
@@ -7,6 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use render::RenderArgs;
 use setup::Setup;
 use subject::Subject;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
@@ -63,12 +65,8 @@ struct Args {
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
-    #[arg(long, value_name = "FILE")]
-    render: Option<PathBuf>,
-    /// Size of the photograph
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
-    render_size: (usize, usize),
+    #[command(flatten)]
+    render: RenderArgs,
     #[command(flatten)]
     common: Common,
 }
@@ -106,9 +104,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 skip_unseen(args, &mut scene).map_err(|e| reader.at(e))?;
                 subject.card().map_or(Ok(()), |card| scene.set_reference_panel(card))?;
                 let setup = Setup::new(args, noise, &scene).map_err(|e| reader.at(e))?;
-                setup.photograph(&subject)?;
+                let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
-                setup.samples(&subject, out)?;
+                setup.samples(&subject, &seen, out)?;
             }
             other => out.record(&other)?,
         }

@@ -5,18 +5,18 @@ use std::path::{Path, PathBuf};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use vfold::camera::CameraResponse;
-use vfold::cli;
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
-use vfold::forward::render::{Picture, View};
+use vfold::forward::render::FoldView;
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
 use vfold::spectrum;
-use vfold::stream::{Output, ReflectanceRecord, Sample, Scene, read_matrix};
+use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::render::say_corners;
 use super::subject::{Sheet, Subject};
 
 /// Samples computed before any is written.
@@ -44,31 +44,34 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// Writes a sample a sheet or file.
-    pub fn samples(&self, subject: &Subject, out: &mut Output) -> Result<()> {
+    /// Writes a sample a sheet or file; the first says where its panels are `seen`.
+    pub fn samples(&self, subject: &Subject, seen: &[(usize, Corners)], out: &mut Output) -> Result<()> {
         match subject {
-            Subject::Sheets { sheets, .. } => self.sheets(sheets, out),
+            Subject::Sheets { sheets, .. } => self.sheets(sheets, seen, out),
             Subject::Facets(files) => self.facets(files, out),
         }
     }
 
     /// Some at a time on all threads.
-    fn sheets(&self, sheets: &[Sheet], out: &mut Output) -> Result<()> {
+    fn sheets(&self, sheets: &[Sheet], seen: &[(usize, Corners)], out: &mut Output) -> Result<()> {
         let numbered: Vec<_> = sheets.iter().enumerate().collect();
         for batch in numbered.chunks(BATCH) {
             let made: Vec<Result<Sample>> =
-                batch.par_iter().map(|(n, sheet)| self.of_sheet(sheet, *n as u64)).collect();
+                batch.par_iter().map(|(n, sheet)| self.of_sheet(sheet, *n as u64, seen)).collect();
             made.into_iter().try_for_each(|sample| out.sample(&sample?))?;
         }
         Ok(())
     }
 
-    fn of_sheet(&self, sheet: &Sheet, stream: u64) -> Result<Sample> {
+    fn of_sheet(&self, sheet: &Sheet, stream: u64, seen: &[(usize, Corners)]) -> Result<Sample> {
         let (rgb, truncation) = self.bounces.facet_rgb(&self.model, &sheet.reflectance);
         let mut sample = self.sample(&sheet.id, rgb, stream)?;
         truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
         let wavelengths_nm = self.args.optics.wavelengths_nm.wavelengths_nm().to_vec();
         sample.set_truth(&ReflectanceRecord { wavelengths_nm, reflectance: sheet.reflectance.clone() })?;
+        if let (0, Some(path)) = (stream, &self.args.render.render) {
+            sample.set_panel_regions(path, self.args.render.size(), seen)?;
+        }
         Ok(sample)
     }
 
@@ -100,7 +103,7 @@ impl<'a> Setup<'a> {
     /// A sample of what the camera sees, noise included, from facet RGB at exposure 1.
     fn sample(&self, id: &str, rgb: DMatrix<f64>, stream: u64) -> Result<Sample> {
         // A photograph has its own noise, pixel by pixel.
-        let noise = if self.args.render.is_some() { Noise::default() } else { self.noise };
+        let noise = if self.args.render.render.is_some() { Noise::default() } else { self.noise };
         let clean = (self.args.exposure * rgb).transpose();
         let mut values = clean.as_slice().to_vec();
         noise.add(&mut values, self.args.seed, stream);
@@ -113,18 +116,19 @@ impl<'a> Setup<'a> {
         Ok(sample)
     }
 
-    /// Takes the photograph that `--render` asks for, of the first sheet, and says where the panels are in it.
-    pub fn photograph(&self, subject: &Subject) -> Result<()> {
-        let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render, subject) else {
-            return Ok(());
+    /// Takes the photograph that `--render` asks for, of the first sheet; where the panels are in it.
+    pub fn photograph(&self, subject: &Subject) -> Result<Vec<(usize, Corners)>> {
+        let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render.render, subject) else {
+            return Ok(Vec::new());
         };
         self.one_illuminant()?;
-        let view = View::of(&self.scene.fold()?, self.args.render_size.0, self.args.render_size.1)?;
+        let view =
+            FoldView::new(&self.scene.fold()?, &self.args.render.viewpoint(), self.args.render.frame()?)?;
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
         let model = self.scene.fine_model(view.grid(), &lighting)?;
         let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].reflectance).0;
-        let mut picture = Picture::take(&view, &light);
+        let mut picture = view.take(&light);
         self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
         if for_screen {
             picture.save_for_screen(path)?;
@@ -132,9 +136,9 @@ impl<'a> Setup<'a> {
             picture.save(path)?;
         }
         if !self.args.common.quiet {
-            say_corners(path, &view);
+            say_corners(path, &view.corners());
         }
-        Ok(())
+        Ok(view.corners())
     }
 
     fn one_illuminant(&self) -> Result<&str> {
@@ -148,14 +152,4 @@ impl<'a> Setup<'a> {
         let response = CameraResponse::from_weights(eye.screen_weights());
         Ok(Lighting { light: self.scene.light()?, sun: response.clone(), sky: response })
     }
-}
-
-fn say_corners(path: &Path, view: &View) {
-    let [panel0, panel1] = view
-        .corners()
-        .map(|corners| corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" "));
-    cli::say(
-        "vforward",
-        &format!("{} has its corners at --panel0 \"{panel0}\" --panel1 \"{panel1}\"", path.display()),
-    );
 }
