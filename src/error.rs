@@ -143,6 +143,18 @@ pub enum Error {
         remedy: String,
     },
 
+    // ---- shapes ----
+    /// A surface cannot be used.
+    #[error("{name}: {problem}; {remedy}")]
+    Shape {
+        /// Its file, or just `shape`.
+        name: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+
     // ---- numbers ----
     /// A check ran and found a law broken.
     #[error("the kernel breaks a law: {0}")]
@@ -196,6 +208,22 @@ impl Error {
     /// A file of regions with what is wrong with it and what to do.
     pub fn regions(path: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Regions { path: path.to_owned(), problem: problem.into(), remedy: remedy.into() }
+    }
+
+    /// A surface with what is wrong with it.
+    pub fn shape(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Shape { name: "shape".to_owned(), problem: problem.into(), remedy: remedy.into() }
+    }
+
+    /// The same error with a surface called by its file.
+    #[must_use]
+    pub fn of_file(self, path: &std::path::Path) -> Self {
+        match self {
+            Self::Shape { problem, remedy, .. } => {
+                Self::Shape { name: path.display().to_string(), problem, remedy }
+            }
+            other => other,
+        }
     }
 
     /// A record's field with what is wrong with it.

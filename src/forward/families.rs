@@ -6,30 +6,20 @@ pub const EVEN: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [1.0, 0.0]
 /// `r/(1 + rg)`.
 pub const ODD: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [-1.0, 0.0], bounces: SHEET };
 
+/// 1, for the light that parts of known reflectance send without the sheet: none of it is counted in bounces.
+pub const BESIDE_KNOWN: Family = Family { offset: 1.0, a: [0.0, 0.0, 0.0], b: [0.0, 0.0], bounces: SHEET };
+
 /// `r/d`, `rcg/d` and `c/d`, `d = 1 − rcg²`, beside a card of reflectance `c`.
-pub fn beside_card(c: f64) -> Families {
+pub fn beside_card(c: f64) -> [Family; 3] {
     let family = |offset, a, first| Family { offset, a, b: [0.0, c], bounces: Series { first, step: 2 } };
     // The last is c/d = c + c²g²·r/d.
-    let all =
-        [family(0.0, [1.0, 0.0, 0.0], 0), family(0.0, [0.0, c, 0.0], 1), family(c, [0.0, 0.0, c * c], 2)];
-    Families { all, count: 3 }
-}
-
-/// Up to three families of terms.
-pub struct Families {
-    pub all: [Family; 3],
-    pub count: usize,
-}
-
-impl Families {
-    pub fn iter(&self) -> impl Iterator<Item = &Family> {
-        self.all[..self.count].iter()
-    }
+    [family(0.0, [1.0, 0.0, 0.0], 0), family(0.0, [0.0, c, 0.0], 1), family(c, [0.0, 0.0, c * c], 2)]
 }
 
 /// `offset + a·r/(1 − b·r)`, with a and b polynomials of the pole g: `a₀ + a₁g + a₂g²` and `b₁g + b₂g²`.
 ///
 /// The offset is direct light; the fraction is a geometric series.
+#[derive(Clone, Copy)]
 pub struct Family {
     offset: f64,
     a: [f64; 3],
@@ -38,6 +28,7 @@ pub struct Family {
 }
 
 /// Term n of a series is light of bounce `first + step·n`.
+#[derive(Clone, Copy)]
 pub struct Series {
     first: u32,
     step: u32,

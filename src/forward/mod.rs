@@ -1,10 +1,17 @@
-//! From reflectance to what a camera sees of a folded sheet.
+//! From reflectance to what a camera sees of a folded sheet, or of any other surface.
 
 pub mod bounces;
 mod families;
+mod fold;
+mod known;
+mod lighting;
 pub mod model;
 pub mod noise;
 pub mod nonuniform;
 pub mod render;
+mod surface;
+mod terms;
 
-pub use model::{Card, FacetModel, Lighting, Lit};
+pub use lighting::{Lighting, Lit};
+pub use model::FacetModel;
+pub use terms::Card;

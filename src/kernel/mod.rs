@@ -6,7 +6,9 @@
 
 pub mod check;
 pub mod continuum;
+pub mod dense;
 pub mod exact;
+pub mod exchange;
 pub mod facets;
 pub mod fold_kernel;
 pub mod mesh;

@@ -1,18 +1,13 @@
-//! Light on a fold, bounced for every reflectance at once.
+//! Light on a fold, bounced for every reflectance at once: eqs. (26) to (28) with what a fold's symmetry saves.
 //!
-//! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
-//! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
-//! light does not excite. Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on
-//! one panel give everything: panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
+//! Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on one panel give everything:
+//! panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
 
-use nalgebra::DMatrix;
-
+use super::ModeSet;
+use super::lanczos::Excited;
 use crate::error::{Error, Result};
 use crate::kernel::panel::PanelOperator;
-use crate::solve::{Eigen, dot};
 
-/// Most Lanczos steps: an undivided fold of 1° takes about 600.
-const STEPS_MAX: usize = 1000;
 /// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near poles, and only
 /// the sum of the two is right to all digits.
 const NEAR_TWIN: f64 = 1e-3;
@@ -26,31 +21,15 @@ pub struct Response {
 }
 
 /// Modes that even light excites.
+///
+/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on that panel, and
+/// the same with `r·pole_k·residue_k` on the other.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Modes {
     /// Of a fold whose panels are alike: on any panel, whichever panel the light falls on.
     Shared(ModeSet),
     /// Light on panel 0, light on panel 1: each set has the facets of panel 0, then those of panel 1.
     Separate([ModeSet; 2]),
-}
-
-/// Poles, and residues facet by pole.
-///
-/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on that panel, and
-/// the same with `r·pole_k·residue_k` on the other.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ModeSet {
-    /// Poles g, in (−1, 1): shares of its light that a mode hands on.
-    pub poles: Vec<f64>,
-    /// Facet by pole.
-    pub residues: Vec<f64>,
-}
-
-impl ModeSet {
-    fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let count = self.poles.len();
-        self.poles.iter().copied().zip(self.residues[facet * count..][..count].iter().copied())
-    }
 }
 
 /// What a light gives to one mode at one facet: unit reflectances aside, `irradiance = (own + r_other·pole·other) /
@@ -113,12 +92,7 @@ impl Response {
                     "needs one row a facet with one number a pole",
                 ));
             }
-            if !set.poles.iter().all(|g| g.abs() < 1.0) {
-                return Err(Error::field(
-                    "response.poles",
-                    "a pole outside (-1, 1): the bounces would not end",
-                ));
-            }
+            set.check_poles()?;
             // Without a bounce, even light is even.
             let lit = &set.residues[source * facets * poles..][..facets * poles];
             if !lit.chunks_exact(poles).all(|facet| (facet.iter().sum::<f64>() - 1.0).abs() < 1e-3) {
@@ -220,13 +194,6 @@ impl ModeLight {
     }
 }
 
-/// A symmetric operator, the light it starts from, and how its vectors are read.
-struct Excited<A, M> {
-    start: Vec<f64>,
-    apply: A,
-    means: M,
-}
-
 /// Modes of even light on panel `source`, seen on both panels.
 fn both_panels(operator: &impl PanelOperator, source: usize, tolerance: f64) -> Result<(ModeSet, f64)> {
     let lengths = [0, 1].map(|panel| operator.uniform(panel).len());
@@ -261,67 +228,4 @@ fn fold_pairs(set: &ModeSet) -> ModeSet {
         poles: (0..count).filter(kept).map(|k| set.poles[k]).collect(),
         residues: set.residues.chunks_exact(count).flat_map(row).collect(),
     }
-}
-
-impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
-    /// Steps until the residual at r = 1 is within `tolerance`; the modes and the residual reached.
-    fn lanczos(&self, tolerance: f64) -> Result<(ModeSet, f64)> {
-        let norm = dot(&self.start, &self.start).sqrt();
-        let mut basis: Vec<Vec<f64>> = vec![self.start.iter().map(|x| x / norm).collect()];
-        let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-        loop {
-            let mut next = vec![0.0; self.start.len()];
-            let last = &basis[basis.len() - 1];
-            (self.apply)(last, &mut next);
-            diagonal.push(dot(last, &next));
-            orthogonalise(&mut next, &basis);
-            let length = dot(&next, &next).sqrt();
-            let Some(residual) = residual_at_one(&diagonal, &beside, length) else {
-                return Err(Error::Numeric(
-                    "the fold hands on more light than it receives: refine the mesh".to_owned(),
-                ));
-            };
-            if residual <= tolerance || basis.len() == self.start.len() || basis.len() == STEPS_MAX {
-                return Ok((self.modes(norm, &basis, &diagonal, &beside), residual));
-            }
-            next.iter_mut().for_each(|x| *x /= length);
-            beside.push(length);
-            basis.push(next);
-        }
-    }
-
-    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
-    fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
-        let Eigen { values: poles, vectors } = Eigen::of_tridiagonal(diagonal, beside);
-        let steps = diagonal.len();
-        let means: Vec<f64> = basis.iter().flat_map(|x| (self.means)(x)).collect();
-        let facets = means.len() / steps;
-        let seen = DMatrix::from_vec(facets, steps, means) * &vectors;
-        let excited = vectors.row(0) * norm;
-        let residues = (0..facets * steps).map(|n| seen[(n / steps, n % steps)] * excited[n % steps]);
-        ModeSet { residues: residues.collect(), poles }
-    }
-}
-
-/// Removes from `x` its parts along the basis, twice: once leaves rounding behind.
-fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
-    for direction in basis.iter().chain(basis) {
-        let along = dot(x, direction);
-        x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
-    }
-}
-
-/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.
-fn residual_at_one(diagonal: &[f64], beside: &[f64], next: f64) -> Option<f64> {
-    // LDLᵀ of I − T, carrying the last component of the solution.
-    let mut pivot = 1.0 - diagonal[0];
-    let mut last = 1.0 / pivot;
-    let mut positive = pivot > 0.0;
-    for (a, b) in diagonal[1..].iter().zip(beside) {
-        let coupling = b / pivot;
-        pivot = 1.0 - a - b * coupling;
-        last *= b / pivot;
-        positive &= pivot > 0.0;
-    }
-    positive.then_some(next * last.abs())
 }

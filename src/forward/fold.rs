@@ -1,0 +1,71 @@
+//! The facet model of a fold: every mode of a panel's response gives one or two terms, three beside a card.
+
+use nalgebra::DMatrix;
+
+use super::lighting::{Lighting, Lit};
+use super::model::{FacetModel, Source};
+use super::terms::{Card, Terms};
+use crate::response::{Modes, Response};
+
+impl FacetModel {
+    /// A fold of one sheet.
+    #[must_use]
+    pub fn one_sheet(response: &Response, lighting: &Lighting) -> Self {
+        Self::under(response, lighting, None)
+    }
+
+    /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other one the sheet.
+    #[must_use]
+    pub fn with_card(response: &Response, lighting: &Lighting, panel: usize, reflectance: Vec<f64>) -> Self {
+        Self::under(response, lighting, Some(Card { panel, reflectance }))
+    }
+
+    fn under(response: &Response, lighting: &Lighting, card: Option<Card>) -> Self {
+        let lights: Vec<Lit> =
+            lighting.sources().map(|(light, camera)| Lit { response: 0, light, camera }).collect();
+        Self::new(std::slice::from_ref(response), &lights, card)
+    }
+
+    /// A fold of one sheet, or of a sheet and a card, with a source for each of `lights`. Several `responses`, of as many
+    /// facets each, are the fold at several angles.
+    #[must_use]
+    pub fn new(responses: &[Response], lights: &[Lit], card: Option<Card>) -> Self {
+        let poles = responses.iter().flat_map(Response::poles).collect();
+        let odd = responses.iter().any(|response| matches!(response.modes(), Modes::Separate(_)))
+            || lights.iter().any(|lit| lit.light.is_uneven());
+        let terms = match card {
+            None => Terms::One { poles, odd },
+            Some(card) => Terms::Card { poles, card },
+        };
+        let first = |n: usize| responses[..n].iter().map(|response| response.poles().len()).sum();
+        let sources = lights
+            .iter()
+            .map(|lit| source(&terms, &responses[lit.response], first(lit.response), lit))
+            .collect();
+        Self::of(terms, sources)
+    }
+}
+
+/// A light on a fold whose poles begin at `first`.
+fn source(terms: &Terms, response: &Response, first: usize, lit: &Lit) -> Source {
+    let count = response.facets();
+    let mut facets = DMatrix::zeros(2 * count, terms.count());
+    for facet in 0..2 * count {
+        let panel = facet / count;
+        for (k, mode) in (first..).zip(response.excitations(panel, facet % count, lit.light)) {
+            match terms {
+                Terms::Card { poles, card } => {
+                    let own = if panel == card.panel { 2 } else { 0 };
+                    facets[(facet, own * poles.len() + k)] = mode.own;
+                    facets[(facet, poles.len() + k)] = mode.other;
+                }
+                Terms::One { poles, odd: true } => {
+                    facets[(facet, k)] = 0.5 * (mode.own + mode.other);
+                    facets[(facet, poles.len() + k)] = 0.5 * (mode.own - mode.other);
+                }
+                _ => facets[(facet, k)] = 0.5 * (mode.own + mode.other),
+            }
+        }
+    }
+    Source { facets, camera: lit.camera.clone() }
+}

@@ -1,0 +1,118 @@
+//! The terms of the facet model, functions of reflectance at a pole, and the wavebands in which they count.
+
+use nalgebra::DMatrix;
+
+use super::families::{BESIDE_KNOWN, EVEN, Family, ODD, beside_card};
+
+/// A card of known reflectance in the place of one panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// Its panel, 0 or 1; the other is the sheet.
+    pub panel: usize,
+    /// Reflectance a waveband.
+    pub reflectance: Vec<f64>,
+}
+
+/// What the facets' radiances are combined of.
+#[derive(Clone, Debug)]
+pub enum Terms {
+    /// A surface of one reflectance: `r/(1 − rg)` and, where a fold is lit unevenly (`odd`), then `r/(1 + rg)`.
+    One { poles: Vec<f64>, odd: bool },
+    /// A fold of a sheet and a card c: `r/d`, `rcg/d`, `c/d`, `d = 1 − rcg²`.
+    Card { poles: Vec<f64>, card: Card },
+    /// A surface with parts of known reflectance has other poles in every waveband: 1, then `r/(1 − rg)`, in that waveband alone.
+    BesideKnown(Vec<Vec<f64>>),
+}
+
+/// Terms that are one function of reflectance, a pole each, from row `first` of all on.
+pub struct Block<'a> {
+    pub first: usize,
+    pub family: Family,
+    pub poles: &'a [f64],
+}
+
+impl Terms {
+    /// Number of terms.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::One { poles, odd } => poles.len() * (1 + usize::from(*odd)),
+            Self::Card { poles, .. } => 3 * poles.len(),
+            Self::BesideKnown(bands) => bands.iter().map(|poles| 1 + poles.len()).sum(),
+        }
+    }
+
+    /// Whether light that leaves the surface never comes back, and no part of it is known.
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))
+    }
+
+    /// The first term of a waveband.
+    pub fn first(&self, band: usize) -> usize {
+        match self {
+            Self::BesideKnown(bands) => bands[..band].iter().map(|poles| 1 + poles.len()).sum(),
+            _ => 0,
+        }
+    }
+
+    /// The terms that count in a waveband; others are zero there.
+    fn blocks(&self, band: usize) -> impl Iterator<Item = Block<'_>> {
+        let blocks = match self {
+            Self::One { poles, odd } => {
+                [Some(Block::nth(0, EVEN, poles)), odd.then(|| Block::nth(1, ODD, poles)), None]
+            }
+            Self::Card { poles, card } => {
+                let families = beside_card(card.reflectance[band]);
+                std::array::from_fn(|n| Some(Block::nth(n, families[n], poles)))
+            }
+            Self::BesideKnown(bands) => {
+                let first = self.first(band);
+                let known = Block { first, family: BESIDE_KNOWN, poles: &[0.0] };
+                [Some(known), Some(Block { first: first + 1, family: EVEN, poles: &bands[band] }), None]
+            }
+        };
+        blocks.into_iter().flatten()
+    }
+
+    /// What `of` makes of every family, pole and waveband of `bands`: term by waveband.
+    pub fn in_bands(
+        &self,
+        bands: impl ExactSizeIterator<Item = usize>,
+        reflectance: &[f64],
+        of: impl Fn(&Family, f64, f64) -> f64,
+    ) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.count(), bands.len());
+        for (mut column, band) in all.column_iter_mut().zip(bands) {
+            for Block { first, family, poles } in self.blocks(band) {
+                for (value, g) in column.as_mut_slice()[first..].iter_mut().zip(poles) {
+                    *value = of(&family, reflectance[band], *g);
+                }
+            }
+        }
+        all
+    }
+
+    /// The terms with their first and second derivatives by reflectance.
+    pub fn derivatives(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
+        let count = self.count();
+        let mut all = [(); 3].map(|()| DMatrix::zeros(count, reflectance.len()));
+        for (band, r) in reflectance.iter().enumerate() {
+            for Block { first, family, poles } in self.blocks(band) {
+                let rows = band * count + first;
+                let [values, slopes, curvatures] =
+                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[rows..rows + poles.len()]);
+                let targets = values.iter_mut().zip(slopes).zip(curvatures);
+                for (((value, slope), curvature), g) in targets.zip(poles) {
+                    [*value, *slope, *curvature] = family.at(*r, *g);
+                }
+            }
+        }
+        all
+    }
+}
+
+impl<'a> Block<'a> {
+    /// The `n`th of several blocks with the same poles.
+    fn nth(n: usize, family: Family, poles: &'a [f64]) -> Self {
+        Self { first: n * poles.len(), family, poles }
+    }
+}

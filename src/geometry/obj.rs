@@ -1,0 +1,98 @@
+//! Wavefront OBJ files: vertices, faces in order, objects and groups.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use tobj::{LoadOptions, Model};
+
+use super::{Group, Shape};
+use crate::error::{Error, Result};
+
+/// Faces of fewer corners are lines and points, which a file may hold beside its surface.
+const CORNERS_MIN: usize = 3;
+
+/// Reads a surface; normals, textures, materials, lines and points are passed over.
+///
+/// # Returns
+/// As [`Shape::new`].
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be read, else [`Error::Shape`] with its name.
+///
+/// # Example
+/// ```
+/// use vfold::geometry::obj;
+/// let path = tempfile::tempdir().unwrap().path().join("v.obj");
+/// # std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+/// std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nf 1 2 3 4\n").unwrap();
+/// let (shape, _) = obj::read(&path)?;
+/// assert_eq!(shape.groups()[0].name, "left");
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
+    let file = File::open(path).map_err(|e| Error::file(path.display(), e))?;
+    let no_materials = |_: &Path| Ok(Default::default());
+    let models = tobj::load_obj_buf(&mut BufReader::new(file), &LoadOptions::default(), no_materials);
+    let models = models
+        .map_err(|e| Error::shape(format!("it is no OBJ file: {e}"), "export the surface again"))
+        .and_then(|(models, _)| surface(&models));
+    models.map_err(|e| e.of_file(path))
+}
+
+fn surface(models: &[Model]) -> Result<(Shape, Vec<String>)> {
+    let (mut vertices, mut faces, mut groups) = (Vec::new(), Vec::new(), Vec::<Group>::new());
+    for Model { name, mesh } in models {
+        let (first, first_face) = (vertices.len(), faces.len());
+        vertices.extend(mesh.positions.chunks_exact(3).map(|point| [point[0], point[1], point[2]]));
+        let mut indices = mesh.indices.iter().map(|index| first + *index as usize);
+        let triangles = mesh.indices.len() / 3 * usize::from(mesh.face_arities.is_empty());
+        let sides = mesh.face_arities.iter().copied().chain(std::iter::repeat_n(3, triangles));
+        let all = sides.map(|sides| indices.by_ref().take(sides as usize).collect::<Vec<_>>());
+        faces.extend(all.filter(|corners| corners.len() >= CORNERS_MIN));
+        match groups.last_mut() {
+            // A change of material within a group is no new one.
+            Some(last) if last.name == *name => last.facets.end = faces.len(),
+            _ => groups.push(Group { name: name.clone(), facets: first_face..faces.len() }),
+        }
+    }
+    Shape::new(vertices, faces, groups)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_text(text: &str) -> Result<(Shape, Vec<String>)> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        std::fs::write(&path, text).unwrap();
+        read(&path)
+    }
+
+    #[test]
+    fn quads_and_triangles_of_several_groups_keep_their_order() {
+        let vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+        let faces = "g a\nf 1 2 3 4\nusemtl red\nf 4/1/1 3/1/1 2/1/1\nl 1 2\ng b c\nf -4 -2 -3\nf -4//1 -1//1 -2//1\n";
+        let (shape, _) = read_text(&format!("{vertices}{faces}")).unwrap();
+        let sides: Vec<_> = (0..4).map(|n| shape.corners(n).len()).collect();
+        assert_eq!(sides, [4, 3, 3, 3]);
+        let groups: Vec<_> = shape.groups().iter().map(|g| (g.name.as_str(), g.facets.clone())).collect();
+        assert_eq!(groups[0], ("a", 0..2));
+        assert_eq!(groups[1].1, 2..4);
+    }
+
+    #[test]
+    fn broken_files_are_one_line() {
+        for text in [
+            "",
+            "v 0 0\n",
+            "v 0 0 0\nf 1 2 3\n",
+            "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+            "f 1 99999999999 3\n",
+        ] {
+            let error = read_text(text).unwrap_err().to_string();
+            assert!(error.contains("a.obj: ") && !error.contains('\n'), "{error}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Light bounced for every reflectance at once.
+//!
+//! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
+//! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
+//! light does not excite. [`SurfaceResponse`] holds those of one light on any surface; a fold's [`Response`] holds those of
+//! any light on it. Surfaces with parts of several reflectances have other ones in every waveband: [`ReducedExchange`].
+
+mod fold;
+mod known;
+mod lanczos;
+mod reduced;
+mod surface;
+
+pub use fold::{Excitation, ModeLight, Modes, Response};
+pub use known::BesideKnown;
+pub use reduced::ReducedExchange;
+pub use surface::SurfaceResponse;
+
+use crate::error::{Error, Result};
+
+/// Poles, and residues facet by pole.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModeSet {
+    /// Poles g, in (−1, 1): shares of its light that a mode hands on.
+    pub poles: Vec<f64>,
+    /// Facet by pole.
+    pub residues: Vec<f64>,
+}
+
+impl ModeSet {
+    /// Refuses poles with which the bounces would not end.
+    fn check_poles(&self) -> Result<()> {
+        if self.poles.iter().all(|pole| pole.abs() < 1.0) {
+            Ok(())
+        } else {
+            Err(Error::field("response.poles", "a pole outside (-1, 1): the bounces would not end"))
+        }
+    }
+
+    /// Poles of a facet, with its residues.
+    fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let count = self.poles.len();
+        self.poles.iter().copied().zip(self.residues[facet * count..][..count].iter().copied())
+    }
+}
