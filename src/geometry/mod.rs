@@ -10,6 +10,7 @@ pub mod obj;
 pub mod panel;
 pub mod polygon;
 pub mod shape;
+pub mod sight;
 
 pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;

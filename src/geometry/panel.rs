@@ -1,15 +1,12 @@
 //! Panels: flat quadrilaterals divided into rows and columns of facets, as photographs show them.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::Vector3;
-
-use super::Fold;
+use super::{Fold, Shape, Vec3};
 
 /// Places that differ by less than this part of a panel count as one.
 const SAME: f64 = 1e-6;
-
-type Vec3 = Vector3<f64>;
 
 /// A flat quadrilateral divided into rows and columns of facets, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,27 +42,36 @@ impl Fold {
     }
 }
 
+impl Shape {
+    /// The groups of facets that are panels, by their numbers.
+    #[must_use]
+    pub fn panels(&self) -> BTreeMap<usize, Panel> {
+        let panel = |facets: &Range<usize>| {
+            let quads = facets.clone().map(|facet| <[Vec3; 4]>::try_from(self.facet(facet).corners()).ok());
+            Panel::of_facets(&quads.collect::<Option<Vec<_>>>()?, facets.start)
+        };
+        let groups = self.groups().iter().enumerate();
+        groups.filter_map(|(number, group)| Some((number, panel(&group.facets)?))).collect()
+    }
+}
+
 impl Panel {
-    /// The panel that these facets make up row by row, from `first` on, if they do: `cols` to a row, or as many as are side by side; a strip of
-    /// facets is taken for a column.
+    /// The panel that these facets make up row by row, from number `first` on, if they do.
     ///
-    /// Rows count in the order of the facets, and columns too.
+    /// Rows count in the order of the facets, and columns too. A strip of facets is a row if neighbours share the side that follows the first
+    /// one's second corner, else a column; that is how accordions have them.
     ///
     /// # Example
     /// ```
-    /// use nalgebra::Vector3;
-    /// use vfold::geometry::Panel;
-    /// let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
-    /// let panel = Panel::of_facets(&[square(0.0), square(1.0)], 0, Some(2)).unwrap();
+    /// use vfold::geometry::{Panel, Vec3};
+    /// let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    /// let panel = Panel::of_facets(&[square(0.0), square(1.0)], 0).unwrap();
     /// assert_eq!((panel.row_edges, panel.col_edges), (vec![0.0, 1.0], vec![0.0, 0.5, 1.0]));
-    /// assert_eq!(Panel::of_facets(&[square(0.0), square(1.0), square(3.0)], 0, None), None);
+    /// assert_eq!(Panel::of_facets(&[square(0.0), square(1.0), square(3.0)], 0), None);
     /// ```
     #[must_use]
-    pub fn of_facets(quads: &[[Vec3; 4]], first: usize, cols: Option<usize>) -> Option<Self> {
-        let cols = cols.unwrap_or_else(|| side_by_side(quads));
-        if quads.is_empty() || cols == 0 || !quads.len().is_multiple_of(cols) {
-            return None;
-        }
+    pub fn of_facets(quads: &[[Vec3; 4]], first: usize) -> Option<Self> {
+        let cols = columns(quads)?;
         let (last, directions) = (quads.len() - 1, directions(quads, cols)?);
         let at = |facet: usize, ends: [f64; 2]| corner(&quads[facet], directions, ends);
         let corners = [
@@ -97,13 +103,18 @@ impl Panel {
     }
 }
 
-/// How many facets from the first on have a side in common with the next; of a strip, one.
-fn side_by_side(quads: &[[Vec3; 4]]) -> usize {
-    let size = quads.first().map_or(0.0, |quad| (quad[2] - quad[0]).norm());
-    let shared = |a: &[Vec3; 4], b: &[Vec3; 4]| {
-        a.iter().filter(|p| b.iter().any(|q| (*p - q).norm() < SAME * size)).count()
+/// Facets in a row: as many as are side by side from the first on.
+fn columns(quads: &[[Vec3; 4]]) -> Option<usize> {
+    let first = quads.first()?;
+    let size = (first[2] - first[0]).norm();
+    let is_in = |p: &Vec3, quad: &[Vec3; 4]| quad.iter().any(|q| (p - q).norm() < SAME * size);
+    let apart = |pair: &[[Vec3; 4]]| pair[0].iter().filter(|p| is_in(p, &pair[1])).count() < 2;
+    let cols = match (quads.windows(2).position(apart), quads.get(1)) {
+        (Some(last), _) => last + 1,
+        (None, Some(second)) if !(is_in(&first[1], second) && is_in(&first[2], second)) => 1,
+        (None, _) => quads.len(),
     };
-    quads.windows(2).position(|pair| shared(&pair[0], &pair[1]) < 2).map_or(1, |last| last + 1)
+    quads.len().is_multiple_of(cols).then_some(cols)
 }
 
 /// From the first facet to the next in its row and to the first of the next row; where there is none, along a side of its own.
@@ -184,13 +195,12 @@ mod tests {
 
     #[test]
     fn facets_tell_their_panel() {
-        for (rows, cols, hint) in [(3, 4, None), (2, 2, None), (5, 1, None), (1, 4, Some(4)), (3, 1, Some(1))]
-        {
+        for (rows, cols) in [(3, 4), (2, 2), (5, 1), (1, 4), (1, 1)] {
             let fold =
                 Fold::new(50.0, 2.0, 1.0, FacetGrid { rows, cols }).unwrap().with_spacing(Spacing::Graded);
-            for (panel, turn) in fold.panels().iter().zip([0, 3]) {
-                let found =
-                    Panel::of_facets(&facets(panel, turn, turn > 0), panel.facets.start, hint).unwrap();
+            for (panel, turn) in fold.panels().iter().zip([0, if rows > 1 && cols > 1 { 3 } else { 0 }]) {
+                let quads = facets(panel, turn, panel.facets.start > 0);
+                let found = Panel::of_facets(&quads, panel.facets.start).unwrap();
                 assert_eq!((found.facets.clone(), found.row_edges.len()), (panel.facets.clone(), rows + 1));
                 let off =
                     |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
