@@ -86,7 +86,8 @@ impl CameraResponse {
             Ok(other)
         } else {
             Err(Error::Numeric(
-                "the camera sees nothing of the sky's light; check --sky-illuminant".to_owned(),
+                "the camera's strongest channel sees nothing of another light; check --illuminant and --sky-illuminant"
+                    .to_owned(),
             ))
         }
     }

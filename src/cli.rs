@@ -1,10 +1,14 @@
 //! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
 
+mod kernel;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, ValueEnum};
+
+pub use kernel::KernelArgs;
 
 use crate::error::{Error, Result};
 use crate::progress::{Progress, When};

@@ -10,8 +10,8 @@ use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 use vfold::calibrate::{Calibration, Patch};
 use vfold::camera::CameraResponse;
-use vfold::forward::Lighting;
 use vfold::forward::noise::Noise;
+use vfold::forward::{Lighting, OpenLight};
 use vfold::geometry::{FacetGrid, Fold, Light};
 use vfold::image::{Lens, Photograph, Point, ReadOptions, measure_patches};
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
@@ -54,7 +54,7 @@ fn flat_patches_are_those_of_colour_science() {
     let light = Light::new(&fold, 0.0, 0.0, 0.0).unwrap();
     let lighting = Lighting { light, sun: response.clone(), sky: response };
     for (patch, expected) in reflectances("cc24").unwrap().iter().zip(expected(&sidecar)) {
-        let rgb = lighting.flat_rgb(1.0, &patch.on(&grid, Outside::Refuse).unwrap());
+        let rgb = OpenLight::from(&lighting).flat_rgb(1.0, &patch.on(&grid, Outside::Refuse).unwrap());
         for (got, want) in rgb.iter().zip(expected) {
             assert!((got / want - 1.0).abs() < 1e-5, "{}: {rgb:?}, not {expected:?}", patch.name());
         }

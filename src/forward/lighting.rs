@@ -23,30 +23,6 @@ impl Lighting {
         std::iter::once(sun).chain((self.light.sky() > 0.0).then_some(sky))
     }
 
-    /// RGB at exposure 1 of a flat sheet of this `reflectance`, a number a waveband, outside the fold: the sun meets it at an angle
-    /// of cosine `cos`, nothing hides the sky.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::camera::CameraResponse;
-    /// use vfold::forward::Lighting;
-    /// use vfold::geometry::{FacetGrid, Fold, Light};
-    /// let light = Light::new(&Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?, 0.0, 0.0, 0.2)?;
-    /// let camera = CameraResponse::from_weights(vec![vec![0.75, 0.25]]);
-    /// let lighting = Lighting { light, sun: camera.clone(), sky: camera };
-    /// assert_eq!(lighting.flat_rgb(0.8, &[1.0, 1.0]), [1.0]); // 0.8 from the sun, 0.2 from the sky
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    #[must_use]
-    pub fn flat_rgb(&self, cos: f64, reflectance: &[f64]) -> Vec<f64> {
-        let seen = |camera: &CameraResponse, channel| -> f64 {
-            camera.channel(channel).iter().zip(reflectance).map(|(weight, r)| weight * r).sum()
-        };
-        (0..self.sun.channels())
-            .map(|channel| cos * seen(&self.sun, channel) + self.light.sky() * seen(&self.sky, channel))
-            .collect()
-    }
-
     /// The wavebands in which at least one channel sees one of the lights.
     #[must_use]
     pub fn seen_bands(&self) -> Vec<usize> {

@@ -8,10 +8,12 @@ mod lighting;
 pub mod model;
 pub mod noise;
 pub mod nonuniform;
+mod open_light;
 pub mod render;
 mod surface;
 mod terms;
 
 pub use lighting::{Lighting, Lit};
 pub use model::FacetModel;
+pub use open_light::OpenLight;
 pub use terms::Card;

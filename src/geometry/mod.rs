@@ -11,9 +11,11 @@ pub mod panel;
 pub mod polygon;
 pub mod shape;
 pub mod sight;
+pub mod source;
 
 pub use fold::{FacetGrid, Fold, Spacing};
 pub use light::Light;
 pub use panel::{Panel, joints};
 pub use polygon::{Polygon, Vec3};
 pub use shape::{Group, Shape};
+pub use source::LightSource;

@@ -33,6 +33,12 @@ impl Plane {
         self.normal.dot(point) - self.offset
     }
 
+    /// A parallel plane in front of this one.
+    #[must_use]
+    pub fn raised(&self, height: f64) -> Self {
+        Self { offset: self.offset + height, ..*self }
+    }
+
     /// The same plane seen from behind.
     #[must_use]
     pub fn reversed(&self) -> Self {

@@ -11,6 +11,7 @@ pub mod exact;
 pub mod exchange;
 pub mod facets;
 pub mod fold_kernel;
+pub mod given;
 pub mod mesh;
 pub mod method;
 pub mod midpoint;
@@ -20,6 +21,7 @@ pub mod quadrature;
 pub mod refinement;
 pub mod skipped;
 pub mod spectra;
+pub mod surface;
 
 pub use fold_kernel::FoldKernel;
 pub use method::Method;

@@ -1,4 +1,4 @@
-//! The model of a scene: its response, its lights and its camera, with a card of known reflectance if it has one.
+//! The model of a scene: its response, its lights and its camera, with a card of known reflectance if a fold has one.
 
 use serde::{Deserialize, Serialize};
 
@@ -47,12 +47,16 @@ impl Scene {
         self.fields.set("reference_panel", card)
     }
 
-    /// The model of facet RGB: of one sheet, or of a sheet and a card.
+    /// The model of facet RGB: of one sheet, or of a sheet and what is known beside it.
     ///
     /// # Errors
     /// [`Error::Field`] if a part of the scene is missing or does not fit the others.
     pub fn model(&self) -> Result<FacetModel> {
-        self.model_with(&self.response()?, &self.lighting()?)
+        if self.is_fold()? {
+            self.model_with(&self.response()?, &self.lighting()?)
+        } else {
+            self.surface_model()
+        }
     }
 
     /// The same under `lighting` with other facets, finer than those of the scene, for pictures.

@@ -1,11 +1,10 @@
-//! Arrays as NPY files: those of `--save FIELD=FILE`, and matrices that tools read.
+//! Arrays as NPY files, written.
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use nalgebra::DMatrix;
-use npyz::{NpyFile, Order, WriterBuilder};
+use npyz::WriterBuilder;
 
 use crate::error::{Error, Result};
 use crate::files::Saved;
@@ -92,31 +91,6 @@ pub fn write_matrix(path: &Path, rows: usize, cols: usize, row: impl Fn(usize) -
     out.flush().map_err(failed)?;
     drop(out);
     saved.keep()
-}
-
-/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names:
-/// nothing is read before the header agrees.
-///
-/// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Array`] if it is no such matrix.
-pub fn read_matrix(path: &Path, shape: [(usize, &str); 2]) -> Result<DMatrix<f64>> {
-    let failed = |e| Error::file(path.display(), e);
-    let array = NpyFile::new(BufReader::new(File::open(path).map_err(failed)?)).map_err(failed)?;
-    let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
-    let [(rows, row), (cols, col)] = shape;
-    if array.shape() != [rows as u64, cols as u64] {
-        let got = array.shape();
-        return Err(wrong(format!(
-            "an array of shape {got:?}, where {rows} {row} by {cols} {col} are needed"
-        )));
-    }
-    let order = array.order();
-    let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;
-    let values: Vec<f64> = numbers.collect::<std::io::Result<_>>().map_err(failed)?;
-    Ok(match order {
-        Order::C => DMatrix::from_row_slice(rows, cols, &values),
-        Order::Fortran => DMatrix::from_vec(rows, cols, values),
-    })
 }
 
 fn begin<W: Write>(shape: &[u64], out: W) -> std::io::Result<npyz::NpyWriter<f64, W>> {

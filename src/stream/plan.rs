@@ -45,7 +45,9 @@ pub fn plan(scene: &Scene, set: &str, noise_sd: f64, expected: &ExpectedError) -
     finite("expected_rmse", [&mean, &worst])?;
     let mut fields = Fields::of_kind("plan");
     fields.set("scene", scene.id()?)?;
-    fields.set("angle_deg", scene.fold()?.angle_deg())?;
+    if scene.is_fold()? {
+        fields.set("angle_deg", scene.fold()?.angle_deg())?;
+    }
     fields.set("reflectances", set)?;
     fields.set("samples", expected.reflectance.len())?;
     fields.set("noise_sd", noise_sd)?;

@@ -29,6 +29,8 @@ pub struct Reader {
     source: Box<dyn BufRead>,
     path: String,
     line: usize,
+    /// Comes before what is read.
+    first: Option<Scene>,
 }
 
 impl Reader {
@@ -41,7 +43,19 @@ impl Reader {
             "-" => Box::new(BufReader::new(io::stdin())),
             _ => Box::new(BufReader::new(File::open(path).map_err(|e| Error::file(path, e))?)),
         };
-        Ok(Self { source, path: path.to_owned(), line: 0 })
+        Ok(Self { source, path: path.to_owned(), line: 0, first: None })
+    }
+
+    /// Nothing but a scene.
+    #[must_use]
+    pub fn of(scene: Scene) -> Self {
+        Self { source: Box::new(io::empty()), path: String::new(), line: 0, first: Some(scene) }
+    }
+
+    /// The same records with a scene before them.
+    #[must_use]
+    pub fn after(self, scene: Scene) -> Self {
+        Self { first: Some(scene), ..self }
     }
 
     /// The next record, none at the end.
@@ -49,6 +63,9 @@ impl Reader {
     /// # Errors
     /// [`Error::Record`] for a line that is not a record, with file and line.
     pub fn read(&mut self) -> Result<Option<Record>> {
+        if let Some(scene) = self.first.take() {
+            return Ok(Some(Record::Scene(scene)));
+        }
         let mut bytes = Vec::new();
         let mut limited = (&mut self.source).take(LINE_MAX);
         let read = limited.read_until(b'\n', &mut bytes).map_err(|e| Error::file(&self.path, e))?;
@@ -83,6 +100,8 @@ impl Reader {
     pub fn at(&self, error: Error) -> Error {
         match error {
             Error::Usage { .. } => error,
+            // A scene that came from flags has no line.
+            error if self.line == 0 => error,
             other => Error::Located { path: self.path.clone(), line: self.line, source: Box::new(other) },
         }
     }

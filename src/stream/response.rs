@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::finite;
 use crate::error::{Error, Result};
-use crate::response::{ModeSet, Modes, Response};
+use crate::response::{ModeSet, Modes, Response, SurfaceResponse};
 
 /// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
 /// panel, residues for the facets of both.
@@ -14,6 +14,12 @@ use crate::response::{ModeSet, Modes, Response};
 enum ResponseRecord {
     Shared(ModesRecord),
     Separate { panels: [ModesRecord; 2] },
+}
+
+/// Of any other surface: a set for every source, residues for all facets.
+#[derive(Serialize, Deserialize)]
+struct ResponsesRecord {
+    sources: Vec<ModesRecord>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -75,5 +81,30 @@ impl Scene {
                 Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
             }
         })
+    }
+
+    /// Sets the poles and residues of every source around a surface.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a number is not finite.
+    pub(super) fn set_responses(&mut self, responses: &[SurfaceResponse]) -> Result<()> {
+        let sources: Vec<ModesRecord> = responses.iter().map(|response| response.modes().into()).collect();
+        finite("response", sources.iter().flat_map(ModesRecord::numbers))?;
+        self.fields.set("response", ResponsesRecord { sources })
+    }
+
+    /// Poles and residues of every source around a surface that is no fold.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if they are missing, or do not fit facets and sources.
+    pub fn responses(&self) -> Result<Vec<SurfaceResponse>> {
+        let record: ResponsesRecord = self.fields.require("response", "make the scene with vkernel")?;
+        let (facets, sources) = (self.facets()?, self.sources()?.len());
+        if record.sources.len() != sources {
+            let problem = format!("{} for {sources} sources of light", record.sources.len());
+            return Err(Error::field("response.sources", problem));
+        }
+        let response = |modes: ModesRecord| SurfaceResponse::new(modes.into_modes(facets)?);
+        record.sources.into_iter().map(response).collect()
     }
 }

@@ -8,13 +8,13 @@ mod settings;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{ArgGroup, Parser};
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
-use vfold::cli::{self, Common, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
@@ -27,6 +27,7 @@ const MISFIT: f64 = 5.0;
 #[command(
     name = "vestimate",
     version,
+    group(ArgGroup::new("scene without a camera").args(["plan", "kernel"]).multiple(true)),
     after_help = "Examples:\n  vkernel | vextract photo.tif --camera nikon-d5100 --panel0 ... --panel1 ... | vestimate --plot spectrum.svg\n  \
                   vestimate --prior smooth --smoothness 1e-4 samples.ndjson"
 )]
@@ -71,6 +72,8 @@ struct Args {
     #[command(flatten)]
     planning: PlanArgs,
     #[command(flatten)]
+    kernel: KernelArgs,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -99,6 +102,10 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
+    if let Some(mut scene) = args.kernel.scene()? {
+        args.planning.complete(&mut scene)?;
+        reader = reader.after(scene);
+    }
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }

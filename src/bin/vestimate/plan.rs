@@ -24,13 +24,13 @@ pub struct PlanArgs {
     #[arg(long, value_name = "SPEC", requires = "plan")]
     pub reflectance: Option<String>,
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
     /// Illuminant of a scene that has none; repeated: a picture under each [default: D65]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
-    #[arg(long, value_name = "SPEC", requires = "plan")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub sky_illuminant: Option<String>,
 }
 
@@ -48,7 +48,7 @@ impl PlanArgs {
     }
 
     /// Gives camera and light to a scene that has none.
-    fn complete(&self, scene: &mut Scene) -> Result<()> {
+    pub fn complete(&self, scene: &mut Scene) -> Result<()> {
         if scene.has_camera() {
             let flags = [&self.camera, &self.sky_illuminant];
             if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {

@@ -124,7 +124,7 @@ impl GivenCalibration {
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
-        let view = View { path, photograph, lighting: &scene.lighting()?, lens };
+        let view = View { path, photograph, light: &scene.open_light()?, lens };
         target.calibrate(&view, corners).map(Some)
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use vfold::calibrate::{Calibration, Patch};
-use vfold::forward::Lighting;
+use vfold::forward::OpenLight;
 use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Photograph, corner_orders, measure_patches};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{CalibrationRecord, Corners};
@@ -32,7 +32,7 @@ pub struct Target {
 pub struct View<'a> {
     pub path: &'a Path,
     pub photograph: &'a Photograph,
-    pub lighting: &'a Lighting,
+    pub light: &'a OpenLight,
     pub lens: Lens,
 }
 
@@ -80,7 +80,7 @@ impl Target {
 
     fn fit(&self, view: &View, corners: Corners) -> Result<(Calibration, CalibrationRecord)> {
         let patches = self.measure(view, corners)?;
-        let calibration = Calibration::fit(&patches, view.lighting.sun.reference_channel()).map_err(|e| {
+        let calibration = Calibration::fit(&patches, view.light.sun().reference_channel()).map_err(|e| {
             let remedy = format!("check {}, its reference, --camera, --illuminant and --transfer", self.flag);
             Error::picture(view.path, format!("{}: {e}", self.name), remedy)
         })?;
@@ -90,7 +90,7 @@ impl Target {
     }
 
     fn measure(&self, view: &View, corners: Corners) -> Result<Vec<Patch>> {
-        let (seen, known) = (view.photograph.channels(), view.lighting.sun.channels());
+        let (seen, known) = (view.photograph.channels(), view.light.sun().channels());
         if seen != known {
             let problem = format!("the photograph has {seen} channels, the camera {known}");
             return Err(Error::picture(view.path, problem, "give the photograph's --camera"));
@@ -108,7 +108,7 @@ impl Target {
             let (Some(mean), Some(standard_error)) = (measured.mean, measured.standard_error) else {
                 return Err(wrong("has too few pixels", format!("check {}", self.flag)));
             };
-            let expected = view.lighting.flat_rgb(self.cos, reflectance);
+            let expected = view.light.flat_rgb(self.cos, reflectance);
             Ok(Patch { name: name.clone(), measured: mean, standard_error, expected })
         };
         measured.into_iter().zip(&self.patches).map(patch).collect()

@@ -11,7 +11,7 @@ use clap::Parser;
 use render::RenderArgs;
 use setup::Setup;
 use subject::Subject;
-use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, OpticsArgs, ToolArgs};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::stream::{Output, Reader, Record, Scene};
@@ -28,7 +28,7 @@ use vfold::{Error, Result};
 )]
 struct Args {
     /// Scene from vkernel [default: standard input]
-    #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true)]
+    #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true, conflicts_with = "kernel")]
     scene: String,
     /// Reflectances: set, set:member, number, or CSV file
     #[arg(long, value_name = "SPEC", num_args = 1..,
@@ -68,6 +68,8 @@ struct Args {
     #[command(flatten)]
     render: RenderArgs,
     #[command(flatten)]
+    kernel: KernelArgs,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -93,7 +95,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     let optics = args.optics.resolve(&args.camera)?;
     let subject = Subject::of(args, &optics.grid)?;
-    let mut reader = Reader::open(&args.scene)?;
+    let given = args.kernel.scene()?;
+    let mut reader = given.map_or_else(|| Reader::open(&args.scene), |scene| Ok(Reader::of(scene)))?;
     while let Some(record) = reader.read()? {
         match record {
             Record::Scene(mut scene) => {
@@ -136,7 +139,7 @@ impl BouncesArg {
 /// Records the wavebands that no sensor sees: the models leave them out.
 fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
     let bands = scene.grid()?.len();
-    let unseen = bands - scene.lighting()?.seen_bands().len();
+    let unseen = bands - scene.open_light()?.seen_bands().len();
     if unseen > 0 && args.common.verbose {
         cli::say("vforward", &format!("{unseen} of {bands} wavebands are seen by no channel: skipped"));
     }

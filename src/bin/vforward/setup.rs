@@ -28,20 +28,12 @@ pub struct Setup<'a> {
     scene: &'a Scene,
     noise: Noise,
     bounces: Bounces,
-    lighting: Lighting,
     model: FacetModel,
 }
 
 impl<'a> Setup<'a> {
     pub fn new(args: &'a Args, noise: Noise, scene: &'a Scene) -> Result<Self> {
-        Ok(Self {
-            args,
-            scene,
-            noise,
-            bounces: args.bounces.of(scene)?,
-            lighting: scene.lighting()?,
-            model: scene.model()?,
-        })
+        Ok(Self { args, scene, noise, bounces: args.bounces.of(scene)?, model: scene.model()? })
     }
 
     /// Writes a sample a sheet or file; the first says where its panels are `seen`.
@@ -77,10 +69,10 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let kernel = form_factors(&self.scene.fold()?);
+        let (kernel, lighting) = (form_factors(&self.scene.fold()?), self.scene.lighting()?);
         for (n, path) in files.iter().enumerate() {
             let reflectance = self.facet_reflectance(path)?;
-            let rgb = nonuniform::facet_rgb(&kernel, &self.lighting, &reflectance)?;
+            let rgb = nonuniform::facet_rgb(&kernel, &lighting, &reflectance)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();
             out.sample(&self.sample(&id, rgb, n as u64)?)?;
         }
@@ -88,8 +80,7 @@ impl<'a> Setup<'a> {
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
-        let shape =
-            [(2 * self.scene.fold()?.facets().len(), "facets"), (self.scene.grid()?.len(), "wavebands")];
+        let shape = [(self.scene.facets()?, "facets"), (self.scene.grid()?.len(), "wavebands")];
         let reflectance = read_matrix(path, shape)?;
         match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
             Some(r) => Err(Error::Array {
@@ -110,8 +101,8 @@ impl<'a> Setup<'a> {
         let rows = |values: &[f64]| values.chunks(clean.nrows()).map(|rgb| Some(rgb.to_vec())).collect();
         let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
         let mut sample = Sample::new(&self.scene.id()?, id)?;
-        let pictures = self.args.optics.illuminant.len();
-        sample.set_facets(&rows(&values), (!noise.is_none()).then(|| rows(&sd)).as_ref(), pictures)?;
+        let sd = (!noise.is_none()).then(|| rows(&sd));
+        sample.set_facets(&rows(&values), sd.as_ref(), self.scene.pictures()?)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
     }
@@ -125,7 +116,7 @@ impl<'a> Setup<'a> {
         let view =
             FoldView::new(&self.scene.fold()?, &self.args.render.viewpoint(), self.args.render.frame()?)?;
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let lighting = if for_screen { self.screen()? } else { self.lighting.clone() };
+        let lighting = if for_screen { self.screen()? } else { self.scene.lighting()? };
         let model = self.scene.fine_model(view.grid(), &lighting)?;
         let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].reflectance).0;
         let mut picture = view.take(&light);

@@ -1,0 +1,34 @@
+//! Flags for a kernel that was made elsewhere.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::error::Result;
+use crate::stream::Scene;
+
+/// A kernel as NPY files, in place of a scene.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Kernel made elsewhere")]
+pub struct KernelArgs {
+    /// Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j
+    #[arg(long, value_name = "K.npy")]
+    pub kernel: Option<PathBuf>,
+    /// Direct light: a number a facet, or a row of them a source [default: 1 everywhere]
+    #[arg(long, value_name = "E0.npy", requires = "kernel")]
+    pub irradiance: Option<PathBuf>,
+    /// Areas of the facets [default: those that reciprocity asks for]
+    #[arg(long, value_name = "A.npy", requires = "kernel")]
+    pub areas: Option<PathBuf>,
+}
+
+impl KernelArgs {
+    /// The scene of the kernel, if one is given.
+    ///
+    /// # Errors
+    /// As [`Scene::of_kernel`].
+    pub fn scene(&self) -> Result<Option<Scene>> {
+        let of = |kernel| Scene::of_kernel(kernel, self.irradiance.as_deref(), self.areas.as_deref());
+        self.kernel.as_deref().map(of).transpose()
+    }
+}

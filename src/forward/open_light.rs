@@ -1,0 +1,85 @@
+//! What a scene's light does to a flat sheet that nothing hides: a chart, or a white card.
+
+use super::lighting::{Lighting, seen_bands};
+use crate::camera::CameraResponse;
+use crate::geometry::LightSource;
+
+/// The lights of a scene as the camera responds to them, without what they fall on.
+#[derive(Clone, Debug)]
+pub struct OpenLight {
+    /// The sun, or whatever stands in its place, is the first.
+    sources: Vec<OpenSource>,
+}
+
+#[derive(Clone, Debug)]
+struct OpenSource {
+    irradiance: f64,
+    is_sky: bool,
+    camera: CameraResponse,
+}
+
+impl OpenLight {
+    /// Of lights around a surface, each with the camera's response to it; at least one.
+    #[must_use]
+    pub fn new(sources: &[(LightSource, CameraResponse)]) -> Self {
+        let open = |(source, camera): &(LightSource, CameraResponse)| OpenSource {
+            irradiance: source.irradiance(),
+            is_sky: source.is_sky(),
+            camera: camera.clone(),
+        };
+        Self { sources: sources.iter().map(open).collect() }
+    }
+
+    /// RGB at exposure 1 of a flat sheet of this `reflectance`, a number a waveband, outside the scene: the sun meets it at an
+    /// angle of cosine `cos`, nothing hides the sky, and other lamps do not reach it.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::camera::CameraResponse;
+    /// use vfold::forward::OpenLight;
+    /// use vfold::geometry::LightSource;
+    /// let camera = CameraResponse::from_weights(vec![vec![0.75, 0.25]]);
+    /// let sun = (LightSource::directional([0.0, 0.0, 1.0], 1.0)?, camera.clone());
+    /// let sky = (LightSource::uniform_sky(0.2)?, camera);
+    /// assert_eq!(OpenLight::new(&[sun, sky]).flat_rgb(0.8, &[1.0, 1.0]), [1.0]); // 0.8 from the sun, 0.2 from the sky
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn flat_rgb(&self, cos: f64, reflectance: &[f64]) -> Vec<f64> {
+        let mut rgb = vec![0.0; self.sun().channels()];
+        for (n, source) in self.sources.iter().enumerate() {
+            let share = match source {
+                OpenSource { is_sky: true, irradiance, .. } => *irradiance,
+                _ if n == 0 => cos * source.irradiance,
+                _ => 0.0,
+            };
+            for (channel, value) in rgb.iter_mut().enumerate() {
+                let weights = source.camera.channel(channel).iter();
+                *value += share * weights.zip(reflectance).map(|(weight, r)| weight * r).sum::<f64>();
+            }
+        }
+        rgb
+    }
+
+    /// The camera's response to the sun, or to whatever stands in its place.
+    #[must_use]
+    pub fn sun(&self) -> &CameraResponse {
+        &self.sources[0].camera
+    }
+
+    /// The wavebands in which at least one channel sees one of the lights.
+    #[must_use]
+    pub fn seen_bands(&self) -> Vec<usize> {
+        seen_bands(self.sources.iter().map(|source| &source.camera))
+    }
+}
+
+impl From<&Lighting> for OpenLight {
+    fn from(lighting: &Lighting) -> Self {
+        let sun = OpenSource { irradiance: 1.0, is_sky: false, camera: lighting.sun.clone() };
+        let sky = lighting.light.sky();
+        let sky =
+            (sky > 0.0).then(|| OpenSource { irradiance: sky, is_sky: true, camera: lighting.sky.clone() });
+        Self { sources: std::iter::once(sun).chain(sky).collect() }
+    }
+}

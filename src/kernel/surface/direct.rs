@@ -1,0 +1,65 @@
+//! Direct light of any source on patches, shadows included.
+
+use super::SurfaceKernel;
+use super::patches::Patch;
+use super::skylight::{backs, skylight};
+use super::sunlight::{lamplight, sunlight};
+use crate::geometry::LightSource;
+use crate::geometry::shape::Shape;
+
+/// Mean irradiance of every patch, and its largest standard error, zero where there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectLight {
+    /// A number a patch.
+    pub irradiance: Vec<f64>,
+    /// Of the patch of which least is known.
+    pub standard_error: f64,
+}
+
+impl DirectLight {
+    /// What `source` gives to `patches` of `shape`, between which `kernel` says the exchange. A uniform sky gives what the patches do
+    /// not hide from each other, less the backs that they see, which are sampled; an overcast sky is sampled. A light of which nothing
+    /// but its irradiance is known gives nothing.
+    ///
+    /// # Source
+    /// CIE S 011/E:2003: the overcast sky's irradiance of a horizontal plane is 7/9 of π times the radiance of its zenith.
+    #[must_use]
+    pub fn of(source: &LightSource, shape: &Shape, patches: &[Patch], kernel: &SurfaceKernel) -> Self {
+        match source {
+            LightSource::Directional { towards, .. } => {
+                Self::exact(source, sunlight(shape, patches, towards))
+            }
+            LightSource::Point { at, distance, .. } => {
+                let square = distance * distance;
+                let light = lamplight(shape, patches, at).into_iter().map(|light| square * light);
+                Self::exact(source, light.collect())
+            }
+            LightSource::UniformSky { .. } => {
+                let (backs, error) = backs(shape, patches);
+                let open = |(sum, backs): (f64, f64)| (1.0 - sum - backs).max(0.0);
+                Self::sampled(source, (kernel.row_sums().into_iter().zip(backs).map(open).collect(), error))
+            }
+            LightSource::OvercastSky { zenith, .. } => {
+                Self::sampled(source, skylight(shape, patches, |towards| overcast(zenith.dot(towards))))
+            }
+            LightSource::Given => Self::exact(source, vec![0.0; patches.len()]),
+        }
+    }
+
+    fn exact(source: &LightSource, unit: Vec<f64>) -> Self {
+        Self::sampled(source, (unit, 0.0))
+    }
+
+    fn sampled(source: &LightSource, (unit, error): (Vec<f64>, f64)) -> Self {
+        let amount = source.irradiance();
+        Self {
+            irradiance: unit.into_iter().map(|light| amount * light).collect(),
+            standard_error: amount * error,
+        }
+    }
+}
+
+/// Radiance times π of an overcast sky that gives a horizontal plane irradiance 1, by the sine of the elevation.
+fn overcast(sin_elevation: f64) -> f64 {
+    if sin_elevation > 0.0 { 9.0 / 7.0 * (1.0 + 2.0 * sin_elevation) / 3.0 } else { 0.0 }
+}

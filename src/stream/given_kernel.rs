@@ -1,0 +1,60 @@
+//! A scene from a kernel that was made elsewhere, as NPY files.
+
+use std::path::Path;
+
+use super::{Scene, Surface, read_rows, read_square};
+use crate::error::{Error, Result};
+use crate::geometry::LightSource;
+use crate::kernel::dense::DenseExchange;
+use crate::kernel::mesh::Accuracy;
+use crate::response::SurfaceResponse;
+
+/// Relative residual of the bounces.
+const TOLERANCE: f64 = 1e-9;
+
+impl Scene {
+    /// The scene of K, eq. (10), in the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
+    /// `irradiance` holds direct light, a number a facet, or a row a source (1 everywhere if there is none); `areas` those of the
+    /// facets (by reciprocity if there is none).
+    ///
+    /// # Errors
+    /// [`Error::File`] or [`Error::Array`] if a file does not hold what it should.
+    pub fn of_kernel(kernel: &Path, irradiance: Option<&Path>, areas: Option<&Path>) -> Result<Self> {
+        let matrix = read_square(kernel)?;
+        let facets = matrix.nrows();
+        let areas = areas.map(|path| read_rows(path, facets)).transpose()?;
+        let exchange = DenseExchange::from_kernel(&matrix, areas.as_ref().map(nalgebra::Matrix::as_slice))
+            .map_err(|e| array(kernel, e))?;
+        let sources = match irradiance {
+            Some(path) => read_sources(path, facets)?,
+            None => vec![vec![1.0; facets]],
+        };
+        let solve = |source: &Vec<f64>| SurfaceResponse::solve(&exchange, source, TOLERANCE);
+        let solved: Vec<_> = sources.iter().map(solve).collect::<Result<_>>()?;
+        let (responses, residuals): (Vec<_>, Vec<_>) = solved.into_iter().unzip();
+        let name = kernel.file_stem().unwrap_or_default().to_string_lossy();
+        let given = vec![LightSource::Given; sources.len()];
+        let mut scene = Self::of_surface(&name, &Surface::Kernel { facets }, &given, &responses)?;
+        let residual = residuals.into_iter().fold(0.0, f64::max);
+        let accuracy = Accuracy { unknowns: facets, facet_mean_error: None, residual, kernel: None };
+        scene.set_accuracy("facets", TOLERANCE, &accuracy)?;
+        Ok(scene)
+    }
+}
+
+/// Direct light, source by source.
+fn read_sources(path: &Path, facets: usize) -> Result<Vec<Vec<f64>>> {
+    let rows = read_rows(path, facets)?;
+    if let Some(value) = rows.iter().find(|value| !(0.0..1e30).contains(*value)) {
+        return Err(array(path, format!("{value} is no irradiance; give numbers from 0")));
+    }
+    let sources: Vec<Vec<f64>> = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
+    match sources.iter().position(|source| !source.iter().any(|value| *value > 0.0)) {
+        Some(dark) => Err(array(path, format!("row {dark} has no light; leave it out"))),
+        None => Ok(sources),
+    }
+}
+
+fn array(path: &Path, problem: impl std::fmt::Display) -> Error {
+    Error::Array { path: path.display().to_string(), problem: problem.to_string() }
+}

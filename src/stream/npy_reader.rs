@@ -1,0 +1,73 @@
+//! Arrays as NPY files, read: nothing is taken in before the header agrees with what is needed and with the file's length.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use nalgebra::DMatrix;
+use npyz::{NpyFile, Order};
+
+use crate::error::{Error, Result};
+
+/// Largest kernel that is read: one of so many facets has 3 GB.
+const SQUARE_MAX: u64 = 20_000;
+
+/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read, [`Error::Array`] if it is no such matrix.
+pub fn read_matrix(path: &Path, shape: [(usize, &str); 2]) -> Result<DMatrix<f64>> {
+    let [(rows, row), (cols, col)] = shape;
+    let needed = format!("{rows} {row} by {cols} {col} are needed");
+    read(path, &needed, |shape| (shape == [rows as u64, cols as u64]).then_some([rows, cols]))
+}
+
+/// Reads a square matrix of double precision numbers.
+///
+/// # Errors
+/// As [`read_matrix`].
+pub fn read_square(path: &Path) -> Result<DMatrix<f64>> {
+    let needed = format!("a square matrix of 1 to {SQUARE_MAX} rows is needed");
+    read(path, &needed, |shape| match shape {
+        [rows, cols] if rows == cols && (1..=SQUARE_MAX).contains(rows) => Some([*rows as usize; 2]),
+        _ => None,
+    })
+}
+
+/// Reads a row of `cols` double precision numbers, or several rows.
+///
+/// # Errors
+/// As [`read_matrix`].
+pub fn read_rows(path: &Path, cols: usize) -> Result<DMatrix<f64>> {
+    let needed = format!("{cols} numbers are needed, or 1 to 1000 rows of them");
+    read(path, &needed, |shape| match shape {
+        [only] if *only == cols as u64 => Some([1, cols]),
+        [rows @ 1..=1000, of] if *of == cols as u64 => Some([*rows as usize, cols]),
+        _ => None,
+    })
+}
+
+/// Reads an array whose shape gives a number of rows and columns.
+fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]>) -> Result<DMatrix<f64>> {
+    let failed = |e| Error::file(path.display(), e);
+    let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
+    let file = File::open(path).map_err(failed)?;
+    let length = file.metadata().map_err(failed)?;
+    let array = NpyFile::new(BufReader::new(file)).map_err(failed)?;
+    let Some([rows, cols]) = extents(array.shape()) else {
+        let got = array.shape();
+        return Err(wrong(format!("an array of shape {got:?}, where {needed}")));
+    };
+    if length.is_file() && length.len() < 8 * (rows * cols) as u64 {
+        return Err(wrong(format!(
+            "its header says {rows} x {cols} numbers, which it does not hold; save it again"
+        )));
+    }
+    let order = array.order();
+    let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;
+    let values: Vec<f64> = numbers.collect::<std::io::Result<_>>().map_err(failed)?;
+    Ok(match order {
+        Order::C => DMatrix::from_row_slice(rows, cols, &values),
+        Order::Fortran => DMatrix::from_vec(rows, cols, values),
+    })
+}
