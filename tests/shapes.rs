@@ -31,10 +31,21 @@ fn explore() {
         let (shape, _) = obj::read(&Path::new(FOLDER).join(format!("{name}.obj"))).unwrap();
         let text = std::fs::read_to_string(Path::new(FOLDER).join(format!("{name}.json"))).unwrap();
         let reference: Value = serde_json::from_str(&text).unwrap();
-        for division in [Division::NONE, Division { cells: 1, strips: 2 }, Division { cells: 2, strips: 1 }, Division { cells: 2, strips: 2 }] {
+        for division in [
+            Division::NONE,
+            Division { cells: 1, strips: 2 },
+            Division { cells: 2, strips: 1 },
+            Division { cells: 2, strips: 2 },
+        ] {
             let begin = Instant::now();
             let kernel = SurfaceKernel::new(&shape, division, 1e-3).unwrap();
-            println!("{name} {division:?} {} patches {} entries {:?} {:?}", kernel.unknowns(), kernel.entries(), begin.elapsed(), kernel.census());
+            println!(
+                "{name} {division:?} {} patches {} entries {:?} {:?}",
+                kernel.unknowns(),
+                kernel.entries(),
+                begin.elapsed(),
+                kernel.census()
+            );
             let sums = kernel.facet_means(&kernel.start(&kernel.row_sums()));
             let want = numbers(&reference["row_sum"]);
             let worst = sums.iter().zip(&want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -44,7 +55,11 @@ fn explore() {
                 let towards = numbers(&case["light_towards"]);
                 let direct = sunlight(&shape, &patches, &Vec3::new(towards[0], towards[1], towards[2]));
                 let means = kernel.facet_means(&kernel.start(&direct));
-                let off = means.iter().zip(numbers(&case["direct_E0"])).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let off = means
+                    .iter()
+                    .zip(numbers(&case["direct_E0"]))
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f64::max);
                 print!("   E0 {off:.1e}");
                 for (n, r) in [0.2, 0.5, 0.9].into_iter().enumerate() {
                     let found = bounce(&kernel, &direct, r);
@@ -52,7 +67,9 @@ fn explore() {
                         Value::Array(rows) => numbers(&rows[n]),
                         object => numbers(&object[&format!("{r}")]),
                     };
-                    let rms = (found.iter().zip(&want).map(|(a, b)| (a / b - 1.0).powi(2)).sum::<f64>() / want.len() as f64).sqrt();
+                    let rms = (found.iter().zip(&want).map(|(a, b)| (a / b - 1.0).powi(2)).sum::<f64>()
+                        / want.len() as f64)
+                        .sqrt();
                     print!("  r {r} rms {:.3} %", 100.0 * rms);
                 }
                 println!();

@@ -30,6 +30,7 @@ mod photograph;
 mod pixel;
 mod pixel_area;
 mod plane_fit;
+mod pose;
 mod preview;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;
@@ -59,6 +60,7 @@ pub use overlay::write_overlay;
 pub use patches::{corner_orders, measure_patches};
 pub use photograph::Photograph;
 pub use pixel::Pixel;
+pub use pose::camera_position;
 pub use preview::write_preview;
 pub use refine::{Marked, Refinement, refine};
 pub use scale::ReadOptions;

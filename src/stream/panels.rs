@@ -10,16 +10,12 @@ impl Scene {
     /// The scene's panels by their numbers.
     ///
     /// # Errors
-    /// [`Error::Field`](crate::Error::Field) if the geometry is missing or none that this version knows.
+    /// [`Error::Field`](crate::Error::Field) if the geometry is missing or no surface in space.
     pub fn panels(&self) -> Result<BTreeMap<usize, Panel>> {
-        Ok(self.fold()?.panels().into_iter().enumerate().collect())
-    }
-
-    /// How many facets the scene has, those in no panel included.
-    ///
-    /// # Errors
-    /// As [`Scene::panels`].
-    pub fn facet_count(&self) -> Result<usize> {
-        Ok(2 * self.fold()?.facets().len())
+        if self.is_fold()? {
+            Ok(self.fold()?.panels().into_iter().enumerate().collect())
+        } else {
+            Ok(self.shape()?.panels())
+        }
     }
 }

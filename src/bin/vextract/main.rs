@@ -23,6 +23,7 @@ use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::geometry::sight::Sight;
 use vfold::image::Photograph;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
@@ -115,9 +116,20 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let (id, panels, facet_count) = (scene.id()?, scene.panels()?, scene.facet_count()?);
-    let setup =
-        Setup { args, options, scene: &scene, id, panels, facet_count, regions, calibration, flat_field };
+    let (id, panels, facet_count) = (scene.id()?, scene.panels()?, scene.facets()?);
+    let sight = if scene.is_fold()? { None } else { Some(Sight::new(&scene.shape()?)) };
+    let setup = Setup {
+        args,
+        options,
+        scene: &scene,
+        id,
+        panels,
+        facet_count,
+        sight,
+        regions,
+        calibration,
+        flat_field,
+    };
     if let [only] = args.images.as_slice() {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;

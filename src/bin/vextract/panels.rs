@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use vfold::geometry::sight::Sight;
 use vfold::geometry::{Panel, joints};
-use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Marked};
+use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Marked, camera_position};
 use vfold::stream::Regions;
 use vfold::{Error, Result};
 
@@ -46,6 +47,22 @@ impl<'a> MarkedPanels<'a> {
             Ok(Grid::of_panel(marked.panel, outline, &panel.row_edges, &panel.col_edges))
         };
         self.panels.iter().zip(&self.marked).zip(corners).map(grid).collect()
+    }
+
+    /// Whether each facet of the panels is hidden, row by row, by what stands before it: seen from where the camera stood for the panels to lie as
+    /// the `grids`. Panels of one plane do not tell where that was, and hide nothing.
+    pub fn hidden(&self, sight: &Sight, grids: &[Grid], lens: Lens) -> Vec<bool> {
+        let corners = |(panel, grid): (&&Panel, &Grid)| {
+            let seen = grid.outline.corners().map(|corner| lens.undistort(corner));
+            panel.corners.into_iter().zip(seen).collect::<Vec<_>>()
+        };
+        let seen: Vec<_> = self.panels.iter().zip(grids).flat_map(corners).collect();
+        let eye = camera_position(&seen);
+        let hidden = |panel: &&Panel, v: &[f64], u: &[f64]| {
+            eye.is_some_and(|eye| !sight.sees_all(&eye, panel, [[u[0], u[1]], [v[0], v[1]]]))
+        };
+        let rows = self.panels.iter().flat_map(|panel| panel.row_edges.windows(2).map(move |v| (panel, v)));
+        rows.flat_map(|(panel, v)| panel.col_edges.windows(2).map(move |u| hidden(panel, v, u))).collect()
     }
 
     /// The measured facets where the scene has them among its `count`; those of other panels are not seen.

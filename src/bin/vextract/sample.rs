@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use vfold::cli;
 use vfold::geometry::Panel;
+use vfold::geometry::sight::Sight;
 use vfold::image::{
     FacetMeasurement, FlatField, Homography, Photograph, ReadOptions, measure, pixels_sharing_noise,
 };
@@ -27,6 +28,8 @@ pub struct Setup<'a> {
     pub id: String,
     pub panels: BTreeMap<usize, Panel>,
     pub facet_count: usize,
+    /// Of a surface whose panels may hide each other.
+    pub sight: Option<Sight>,
     pub regions: GivenRegions,
     pub calibration: GivenCalibration,
     pub flat_field: Option<Arc<FlatField>>,
@@ -46,7 +49,13 @@ impl Setup<'_> {
         let outlines: Vec<Homography> = placed.grids.iter().map(|grid| grid.outline.clone()).collect();
         let sharing_noise = pixels_sharing_noise(&photograph, &outlines);
         let measured = measure(&photograph, &placed.grids, margin)?;
-        let measured = measured.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
+        let mut measured: Vec<_> =
+            measured.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
+        if let Some(sight) = &self.sight {
+            let hidden = panels.hidden(sight, &placed.grids, placed.lens);
+            let of_hidden = measured.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden);
+            of_hidden.for_each(|(facet, _)| *facet = FacetMeasurement::unseen());
+        }
         let mut facets = panels.in_scene(measured, self.facet_count);
         let mut grids = placed.grids.clone();
         grids.extend(self.calibration.grid(&regions, placed.lens)?);

@@ -8,7 +8,7 @@ use vfold::camera::CameraResponse;
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
-use vfold::forward::render::FoldView;
+use vfold::forward::render::{FoldView, Picture, ShapeView};
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
 use vfold::spectrum;
@@ -112,14 +112,13 @@ impl<'a> Setup<'a> {
         let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render.render, subject) else {
             return Ok(Vec::new());
         };
-        self.one_illuminant()?;
-        let view =
-            FoldView::new(&self.scene.fold()?, &self.args.render.viewpoint(), self.args.render.frame()?)?;
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let lighting = if for_screen { self.screen()? } else { self.scene.lighting()? };
-        let model = self.scene.fine_model(view.grid(), &lighting)?;
-        let light = self.args.exposure * self.bounces.facet_rgb(&model, &sheets[0].reflectance).0;
-        let mut picture = view.take(&light);
+        let reflectance = &sheets[0].reflectance;
+        let (mut picture, seen) = if self.scene.is_fold()? {
+            self.fold_picture(for_screen, reflectance)?
+        } else {
+            self.shape_picture(for_screen, reflectance)?
+        };
         self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
         if for_screen {
             picture.save_for_screen(path)?;
@@ -127,20 +126,55 @@ impl<'a> Setup<'a> {
             picture.save(path)?;
         }
         if !self.args.common.quiet {
-            say_corners(path, &view.corners());
+            say_corners(path, &seen);
         }
-        Ok(view.corners())
+        Ok(seen)
     }
 
-    fn one_illuminant(&self) -> Result<&str> {
-        self.args.optics.one_illuminant("give one with --render: a photograph has one light")
+    fn fold_picture(
+        &self,
+        for_screen: bool,
+        reflectance: &[f64],
+    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
+        let eye = self.eye()?;
+        let render = &self.args.render;
+        let view = FoldView::new(&self.scene.fold()?, &render.viewpoint(), render.frame()?)?;
+        let lighting = if for_screen {
+            Lighting { light: self.scene.light()?, sun: eye.clone(), sky: eye }
+        } else {
+            self.scene.lighting()?
+        };
+        let model = self.scene.fine_model(view.grid(), &lighting)?;
+        Ok((view.take(&self.light(&model, reflectance)), view.corners()))
     }
 
-    /// The scene as an eye sees it that is adapted to the light.
-    fn screen(&self) -> Result<Lighting> {
-        let illuminant = spectrum::illuminant(self.one_illuminant()?)?;
-        let eye = Colorimeter::new(&self.args.optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
-        let response = CameraResponse::from_weights(eye.screen_weights());
-        Ok(Lighting { light: self.scene.light()?, sun: response.clone(), sky: response })
+    fn shape_picture(
+        &self,
+        for_screen: bool,
+        reflectance: &[f64],
+    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
+        let eye = self.eye()?;
+        let (render, sources) = (&self.args.render, self.scene.sources()?);
+        let view = ShapeView::new(&self.scene.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
+        let light = if for_screen {
+            let model = self.scene.surface_model_seen_by(vec![eye; sources.len()])?;
+            self.light(&model, reflectance)
+        } else {
+            self.light(&self.model, reflectance)
+        };
+        Ok((view.take(&light), view.corners()))
+    }
+
+    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> DMatrix<f64> {
+        self.args.exposure * self.bounces.facet_rgb(model, reflectance).0
+    }
+
+    /// The response of an eye that is adapted to the light.
+    fn eye(&self) -> Result<CameraResponse> {
+        let optics = &self.args.optics;
+        let illuminant = optics.one_illuminant("give one with --render: a photograph has one light")?;
+        let illuminant = spectrum::illuminant(illuminant)?;
+        let eye = Colorimeter::new(&optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
+        Ok(CameraResponse::from_weights(eye.screen_weights()))
     }
 }

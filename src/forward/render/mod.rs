@@ -3,7 +3,9 @@
 mod fold;
 mod picture;
 mod pinhole;
+mod shape;
 
 pub use fold::FoldView;
 pub use picture::Picture;
 pub use pinhole::{Frame, Pinhole, Stand, Viewpoint};
+pub use shape::ShapeView;
