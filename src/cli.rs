@@ -1,6 +1,7 @@
 //! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
 
 mod kernel;
+mod materials;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, ValueEnum};
 
 pub use kernel::KernelArgs;
+pub use materials::MaterialArgs;
 
 use crate::error::{Error, Result};
 use crate::progress::{Progress, When};

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use vfold::camera::CameraResponse;
-use vfold::forward::FacetModel;
+use vfold::forward::{FacetModel, nonuniform};
 use vfold::kernel::dense::DenseExchange;
 use vfold::kernel::exchange::Exchange;
 use vfold::response::{ReducedExchange, SurfaceResponse};
@@ -151,6 +151,21 @@ proptest! {
         }
         let ours = model.facet_rgb(&r).column(0).into_owned();
         prop_assert!((ours - &dense).amax() < 1e-10 * dense.amax().max(1e-6));
+    }
+
+    /// A reflectance a facet.
+    #[test]
+    fn facets_of_many_reflectances_obey_eq_24(
+        surface in surfaces(),
+        all in prop::collection::vec(prop_oneof![1 => Just(0.0), 9 => 0.0..=1.0], 12),
+    ) {
+        let r = DVector::from_column_slice(&all[..surface.areas.len()]);
+        let light = &surface.lights[0];
+        let lights = [(light.as_slice().to_vec(), eye(1))];
+        let reflectance = DMatrix::from_column_slice(r.len(), 1, r.as_slice());
+        let ours = nonuniform::surface_rgb(&surface.exchange(), &lights, &reflectance).unwrap();
+        let dense = r.component_mul(&surface.dense(light, &r));
+        prop_assert!((ours.column(0) - &dense).amax() < 1e-10 * dense.amax().max(1e-6));
     }
 
     /// Parts of known reflectance beside an unknown one, by the dense solution of every waveband; derivatives by differences.

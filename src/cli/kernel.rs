@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::Result;
-use crate::stream::Scene;
+use crate::stream::GivenKernel;
 
 /// A kernel as NPY files, in place of a scene.
 #[derive(Args, Clone, Debug)]
@@ -23,12 +23,12 @@ pub struct KernelArgs {
 }
 
 impl KernelArgs {
-    /// The scene of the kernel, if one is given.
+    /// The kernel, if one is given.
     ///
     /// # Errors
-    /// As [`Scene::of_kernel`].
-    pub fn scene(&self) -> Result<Option<Scene>> {
-        let of = |kernel| Scene::of_kernel(kernel, self.irradiance.as_deref(), self.areas.as_deref());
-        self.kernel.as_deref().map(of).transpose()
+    /// As [`GivenKernel::read`].
+    pub fn given(&self) -> Result<Option<GivenKernel>> {
+        let read = |kernel| GivenKernel::read(kernel, self.irradiance.as_deref(), self.areas.as_deref());
+        self.kernel.as_deref().map(read).transpose()
     }
 }

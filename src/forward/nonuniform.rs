@@ -8,8 +8,11 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 use rayon::prelude::*;
 
 use super::Lighting;
+use super::lighting::seen_bands;
+use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::kernel::FoldKernel;
+use crate::kernel::exchange::Exchange;
 use crate::kernel::facets::FacetOperator;
 use crate::kernel::panel::PanelOperator;
 use crate::response::ModeLight;
@@ -122,4 +125,63 @@ impl<'a> Waveband<'a> {
         });
         Ok(DVector::from_vec(of_facets.concat()))
     }
+}
+
+/// The same of any surface under `lights`, each a direct irradiance a patch and the camera's response to it.
+///
+/// # Errors
+/// [`Error::Numeric`] if the bounces of a waveband do not end.
+///
+/// # Example
+/// ```
+/// use nalgebra::dmatrix;
+/// use vfold::camera::CameraResponse;
+/// use vfold::forward::nonuniform;
+/// use vfold::kernel::dense::DenseExchange;
+/// // Two like patches hand half of their light to each other, and one is lit.
+/// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);
+/// let eye = CameraResponse::from_weights(vec![vec![1.0]]);
+/// let rgb = nonuniform::surface_rgb(&exchange, &[(vec![1.0, 0.0], eye)], &dmatrix![1.0; 0.6])?;
+/// assert!((rgb[0] - 1.0 / (1.0 - 0.6 * 0.25)).abs() < 1e-14);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn surface_rgb(
+    exchange: &(impl Exchange + ?Sized),
+    lights: &[(Vec<f64>, CameraResponse)],
+    reflectance: &DMatrix<f64>,
+) -> Result<DMatrix<f64>> {
+    let channels = lights.first().map_or(0, |(_, camera)| camera.channels());
+    let mut rgb = DMatrix::zeros(reflectance.nrows(), channels);
+    for (light, camera) in lights {
+        let direct = DVector::from_vec(exchange.start(light));
+        for bands in seen_bands(std::iter::once(camera)).chunks(BATCH) {
+            let of = |band: &usize| {
+                surface_exitance(exchange, &direct, reflectance.column(*band)).map(|all| (*band, all))
+            };
+            for (band, exitance) in bands.par_iter().map(of).collect::<Result<Vec<_>>>()? {
+                for (channel, mut values) in rgb.column_iter_mut().enumerate() {
+                    values.axpy(camera.channel(channel)[band], &exitance, 1.0);
+                }
+            }
+        }
+    }
+    Ok(rgb)
+}
+
+/// Reflectance times irradiance of every facet of a surface, a `reflectance` a facet.
+fn surface_exitance(
+    exchange: &(impl Exchange + ?Sized),
+    direct: &DVector<f64>,
+    reflectance: DVectorView<f64>,
+) -> Result<DVector<f64>> {
+    let of_patches = exchange.facet_of().iter().map(|facet| reflectance[*facet].sqrt());
+    let roots = DVector::from_iterator(direct.len(), of_patches);
+    let product = |x: &DVector<f64>| {
+        let mut received = DVector::zeros(x.len());
+        exchange.apply(x.component_mul(&roots).as_slice(), received.as_mut_slice());
+        x - received.component_mul(&roots)
+    };
+    let y = conjugate_gradients(product, roots.component_mul(direct), TOLERANCE)
+        .ok_or_else(|| Error::Numeric("the bounces do not end: the surface is closed".to_owned()))?;
+    Ok(DVector::from_vec(exchange.facet_means(roots.component_mul(&y).as_slice())))
 }

@@ -1,4 +1,4 @@
-//! A scene from a kernel that was made elsewhere, as NPY files.
+//! A kernel that was made elsewhere, as NPY files.
 
 use std::path::Path;
 
@@ -12,14 +12,23 @@ use crate::response::SurfaceResponse;
 /// Relative residual of the bounces.
 const TOLERANCE: f64 = 1e-9;
 
-impl Scene {
-    /// The scene of K, eq. (10), in the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
+/// A kernel with its light.
+pub struct GivenKernel {
+    name: String,
+    /// The exchange between the facets, one patch each.
+    pub exchange: DenseExchange,
+    /// Direct light, a number a facet, of every source.
+    pub sources: Vec<Vec<f64>>,
+}
+
+impl GivenKernel {
+    /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
     /// `irradiance` holds direct light, a number a facet, or a row a source (1 everywhere if there is none); `areas` those of the
     /// facets (by reciprocity if there is none).
     ///
     /// # Errors
     /// [`Error::File`] or [`Error::Array`] if a file does not hold what it should.
-    pub fn of_kernel(kernel: &Path, irradiance: Option<&Path>, areas: Option<&Path>) -> Result<Self> {
+    pub fn read(kernel: &Path, irradiance: Option<&Path>, areas: Option<&Path>) -> Result<Self> {
         let matrix = read_square(kernel)?;
         let facets = matrix.nrows();
         let areas = areas.map(|path| read_rows(path, facets)).transpose()?;
@@ -29,12 +38,21 @@ impl Scene {
             Some(path) => read_sources(path, facets)?,
             None => vec![vec![1.0; facets]],
         };
-        let solve = |source: &Vec<f64>| SurfaceResponse::solve(&exchange, source, TOLERANCE);
-        let solved: Vec<_> = sources.iter().map(solve).collect::<Result<_>>()?;
+        let name = kernel.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, exchange, sources })
+    }
+
+    /// Its scene, bounces solved.
+    ///
+    /// # Errors
+    /// As [`SurfaceResponse::solve`].
+    pub fn scene(&self) -> Result<Scene> {
+        let solve = |source: &Vec<f64>| SurfaceResponse::solve(&self.exchange, source, TOLERANCE);
+        let solved: Vec<_> = self.sources.iter().map(solve).collect::<Result<_>>()?;
         let (responses, residuals): (Vec<_>, Vec<_>) = solved.into_iter().unzip();
-        let name = kernel.file_stem().unwrap_or_default().to_string_lossy();
-        let given = vec![LightSource::Given; sources.len()];
-        let mut scene = Self::of_surface(&name, &Surface::Kernel { facets }, &given, &responses)?;
+        let given = vec![LightSource::Given; self.sources.len()];
+        let facets = self.sources[0].len();
+        let mut scene = Scene::of_surface(&self.name, &Surface::Kernel { facets }, &given, &responses)?;
         let residual = residuals.into_iter().fold(0.0, f64::max);
         let accuracy = Accuracy { unknowns: facets, facet_mean_error: None, residual, kernel: None };
         scene.set_accuracy("facets", TOLERANCE, &accuracy)?;

@@ -36,6 +36,7 @@ pub use calibration::CalibrationRecord;
 pub use colours::Colours;
 pub use development::read_development;
 pub use fields::{Fields, finite};
+pub use given_kernel::GivenKernel;
 pub use materials::Material;
 pub use model::ReferencePanel;
 pub use npy::{ArrayStack, write_matrix};

@@ -80,6 +80,11 @@ impl Scene {
 
     /// The card, if a panel is one.
     pub(super) fn card(&self) -> Result<Option<Card>> {
+        if !self.materials()?.is_empty() {
+            let problem =
+                "a fold has panels and no groups; say which is known with --panel-reflectance P=SPEC";
+            return Err(Error::field("materials", problem));
+        }
         let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else { return Ok(None) };
         if card.panel > 1 {
             return Err(Error::field("reference_panel.panel", format!("{} is neither 0 nor 1", card.panel)));

@@ -8,6 +8,7 @@ mod cameras;
 #[path = "../common/mod.rs"]
 mod common;
 mod flags;
+mod kernels;
 mod methods;
 mod photographs;
 mod spectra;

@@ -104,6 +104,10 @@ impl Transform for Estimator<'_> {
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
+        let materials = self.args.materials.on(&grid)?;
+        if !materials.is_empty() {
+            scene.set_materials(&materials)?;
+        }
         let method = match &self.method {
             Method::Map(spectra, classes) => {
                 let on_grid: Vec<_> =

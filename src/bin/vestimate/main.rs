@@ -14,7 +14,7 @@ use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
-use vfold::cli::{self, Common, KernelArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
@@ -72,6 +72,8 @@ struct Args {
     #[command(flatten)]
     planning: PlanArgs,
     #[command(flatten)]
+    materials: MaterialArgs,
+    #[command(flatten)]
     kernel: KernelArgs,
     #[command(flatten)]
     common: Common,
@@ -102,7 +104,8 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
-    if let Some(mut scene) = args.kernel.scene()? {
+    if let Some(kernel) = args.kernel.given()? {
+        let mut scene = kernel.scene()?;
         args.planning.complete(&mut scene)?;
         reader = reader.after(scene);
     }

@@ -11,7 +11,7 @@ use clap::Parser;
 use render::RenderArgs;
 use setup::Setup;
 use subject::Subject;
-use vfold::cli::{self, Common, KernelArgs, OpticsArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::stream::{Output, Reader, Record, Scene};
@@ -40,7 +40,7 @@ struct Args {
     /// Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a
     /// facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
-        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "bounces", "render"])]
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render"])]
     facet_reflectance: Vec<PathBuf>,
     /// Camera: built-in name, CSV file or rawtoaces JSON
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
@@ -51,7 +51,7 @@ struct Args {
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
     /// Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene's tolerance asks for
-    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces)]
+    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with = "material")]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
@@ -67,6 +67,8 @@ struct Args {
     seed: u64,
     #[command(flatten)]
     render: RenderArgs,
+    #[command(flatten)]
+    materials: MaterialArgs,
     #[command(flatten)]
     kernel: KernelArgs,
     #[command(flatten)]
@@ -95,8 +97,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     let optics = args.optics.resolve(&args.camera)?;
     let subject = Subject::of(args, &optics.grid)?;
-    let given = args.kernel.scene()?;
-    let mut reader = given.map_or_else(|| Reader::open(&args.scene), |scene| Ok(Reader::of(scene)))?;
+    let materials = args.materials.on(&optics.grid)?;
+    let given = args.kernel.given()?;
+    let mut reader = match &given {
+        Some(kernel) => Reader::of(kernel.scene()?),
+        None => Reader::open(&args.scene)?,
+    };
     while let Some(record) = reader.read()? {
         match record {
             Record::Scene(mut scene) => {
@@ -106,7 +112,10 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 }
                 skip_unseen(args, &mut scene).map_err(|e| reader.at(e))?;
                 subject.card().map_or(Ok(()), |card| scene.set_reference_panel(card))?;
-                let setup = Setup::new(args, noise, &scene).map_err(|e| reader.at(e))?;
+                if !materials.is_empty() {
+                    scene.set_materials(&materials)?;
+                }
+                let setup = Setup::new(args, noise, &scene, given.as_ref()).map_err(|e| reader.at(e))?;
                 let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
                 setup.samples(&subject, &seen, out)?;

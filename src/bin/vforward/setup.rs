@@ -12,7 +12,7 @@ use vfold::forward::render::{FoldView, Picture, ShapeView};
 use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::kernel::exact::form_factors;
 use vfold::spectrum;
-use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};
+use vfold::stream::{Corners, GivenKernel, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -26,14 +26,20 @@ const BATCH: usize = 64;
 pub struct Setup<'a> {
     args: &'a Args,
     scene: &'a Scene,
+    given: Option<&'a GivenKernel>,
     noise: Noise,
     bounces: Bounces,
     model: FacetModel,
 }
 
 impl<'a> Setup<'a> {
-    pub fn new(args: &'a Args, noise: Noise, scene: &'a Scene) -> Result<Self> {
-        Ok(Self { args, scene, noise, bounces: args.bounces.of(scene)?, model: scene.model()? })
+    pub fn new(
+        args: &'a Args,
+        noise: Noise,
+        scene: &'a Scene,
+        given: Option<&'a GivenKernel>,
+    ) -> Result<Self> {
+        Ok(Self { args, scene, given, noise, bounces: args.bounces.of(scene)?, model: scene.model()? })
     }
 
     /// Writes a sample a sheet or file; the first says where its panels are `seen`.
@@ -69,14 +75,23 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let (kernel, lighting) = (form_factors(&self.scene.fold()?), self.scene.lighting()?);
+        let nonuniform = self.nonuniform()?;
         for (n, path) in files.iter().enumerate() {
-            let reflectance = self.facet_reflectance(path)?;
-            let rgb = nonuniform::facet_rgb(&kernel, &lighting, &reflectance)?;
+            let rgb = nonuniform(&self.facet_reflectance(path)?)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();
             out.sample(&self.sample(&id, rgb, n as u64)?)?;
         }
         Ok(())
+    }
+
+    /// Facet RGB by a reflectance a facet: of the fold, or of the kernel that is given.
+    fn nonuniform(&self) -> Result<Box<dyn Fn(&DMatrix<f64>) -> Result<DMatrix<f64>> + '_>> {
+        if let Some(given) = self.given {
+            let lights: Vec<_> = given.sources.iter().cloned().zip(self.scene.source_responses()?).collect();
+            return Ok(Box::new(move |r| nonuniform::surface_rgb(&given.exchange, &lights, r)));
+        }
+        let (kernel, lighting) = (form_factors(&self.scene.fold()?), self.scene.lighting()?);
+        Ok(Box::new(move |r| nonuniform::facet_rgb(&kernel, &lighting, r)))
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {

@@ -1,0 +1,45 @@
+//! Flags for groups of a shape whose reflectance is known.
+
+use clap::Args;
+
+use super::one_reflectance;
+use crate::error::{Error, Result};
+use crate::spectrum::{Outside, WavelengthGrid};
+use crate::stream::Material;
+
+/// Groups of known reflectance.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Materials")]
+pub struct MaterialArgs {
+    /// A group of a shape's facets has this reflectance; repeated for several groups. All other facets are the sheet
+    #[arg(long, value_name = "GROUP=SPEC", value_parser = group_and_spec)]
+    pub material: Vec<(String, String)>,
+}
+
+impl MaterialArgs {
+    /// The materials on the wavelengths of `grid`.
+    ///
+    /// # Errors
+    /// As [`one_reflectance`]; [`Error::Usage`] if a group has two, or [`Error::Spectrum`] if one does not cover the wavelengths.
+    pub fn on(&self, grid: &WavelengthGrid) -> Result<Vec<Material>> {
+        let mut materials: Vec<Material> = Vec::new();
+        for (group, spec) in &self.material {
+            if materials.iter().any(|material| material.group == *group) {
+                return Err(Error::usage("--material", format!("'{group}' has two"), "give one a group"));
+            }
+            let spectrum = one_reflectance("--material", spec)?;
+            let reflectance = spectrum.on(grid, Outside::Refuse)?;
+            materials.push(Material { group: group.clone(), name: spectrum.name().to_owned(), reflectance });
+        }
+        Ok(materials)
+    }
+}
+
+fn group_and_spec(text: &str) -> std::result::Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((group, spec)) if !group.is_empty() && !spec.is_empty() => {
+            Ok((group.to_owned(), spec.to_owned()))
+        }
+        _ => Err("write GROUP=SPEC, such as floor=cc24:white".to_owned()),
+    }
+}
