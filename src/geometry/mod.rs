@@ -6,6 +6,7 @@
 pub mod accordion;
 pub mod fold;
 pub mod light;
+pub mod merged;
 pub mod obj;
 pub mod panel;
 pub mod polygon;

@@ -19,6 +19,8 @@ pub enum Mesh {
     Facets,
     /// Flat patches finer than the facets, then averaged.
     Patches(FacetGrid),
+    /// The same on a shape: cells along each side of a facet.
+    Cells(usize),
 }
 
 impl fmt::Display for Mesh {
@@ -27,6 +29,7 @@ impl fmt::Display for Mesh {
             Self::Auto => f.write_str("auto"),
             Self::Facets => f.write_str("facets"),
             Self::Patches(grid) => write!(f, "{}x{}", grid.rows, grid.cols),
+            Self::Cells(cells) => write!(f, "{cells}"),
         }
     }
 }
@@ -95,6 +98,11 @@ pub fn respond_by(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Re
         }
         Mesh::Facets => respond_patches(method, fold, fold.facets(), tolerance),
         Mesh::Patches(patches) => respond_patches(method, fold, patches, tolerance),
+        Mesh::Cells(cells) => Err(Error::usage(
+            "--mesh",
+            format!("{cells} cells are for facets of a shape"),
+            "give patches such as 40x40, facets, or auto",
+        )),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which facets may stand between two others: cheap tests that never miss one, so that most pairs need no look for shadows.
 
-use crate::geometry::polygon::{Plane, Polygon, Vec3};
+use crate::geometry::merged::merged;
+use crate::geometry::polygon::{Plane, Polygon, Vec3, edges};
 
 /// Distances below this, relative to the surface's size, are none: a facet touching the line of sight hides nothing.
 pub const TOUCHING: f64 = 1e-9;
@@ -40,11 +41,63 @@ impl Bounds {
     }
 }
 
-/// A facet as something that may cast a shadow.
+/// What stands between two polygons.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Between {
+    /// Nothing can.
+    Nothing,
+    /// One facet that hides all of one from all of the other.
+    Wall,
+    /// These may.
+    Some(Vec<Polygon>),
+}
+
+/// A flat part of the surface as something that may cast a shadow.
 pub struct Caster {
     polygon: Polygon,
     plane: Plane,
     bounds: Bounds,
+}
+
+impl Caster {
+    /// Whether all of `a` is hidden from all of `b`, or nothing is; none if neither is certain.
+    ///
+    /// Lines from a polygon on one side of a plane to one on the other cross it in the hull of the crossings of lines between corners.
+    fn hides(&self, a: &Polygon, b: &Polygon, margin: f64) -> Option<bool> {
+        let heights = |polygon: &Polygon| {
+            let heights = polygon.corners().iter().map(|corner| self.plane.height(corner));
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+        };
+        let ((low_a, high_a), (low_b, high_b)) = (heights(a), heights(b));
+        if low_a.min(low_b) >= -margin || high_a.max(high_b) <= margin {
+            return Some(false);
+        }
+        if !((high_a < -margin && low_b > margin) || (high_b < -margin && low_a > margin)) {
+            return None;
+        }
+        let crossing = |p: &Vec3, q: &Vec3| {
+            let (h, k) = (self.plane.height(p), self.plane.height(q));
+            p + (q - p) * (h / (h - k))
+        };
+        let crossings = a.corners().iter().flat_map(|p| b.corners().iter().map(move |q| crossing(p, q)));
+        self.holds(&crossings.collect::<Vec<_>>(), margin)
+    }
+
+    /// Whether all points of its plane lie in it, or all beyond one of its sides; none if neither.
+    fn holds(&self, points: &[Vec3], margin: f64) -> Option<bool> {
+        let mut inside = true;
+        for (from, to) in edges(self.polygon.corners()) {
+            let inwards = self.plane.normal.cross(&(to - from)).normalize();
+            let heights = points.iter().map(|point| inwards.dot(&(point - from)));
+            let (low, high) =
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+            if high <= margin {
+                return Some(false);
+            }
+            inside &= low >= -margin;
+        }
+        inside.then_some(true)
+    }
 }
 
 /// All facets of a surface as casters of shadows.
@@ -56,12 +109,12 @@ pub struct Casters {
 impl Casters {
     /// Those of a surface of largest extent `size`.
     pub fn new<'a>(facets: impl Iterator<Item = &'a Polygon>, size: f64) -> Self {
-        let caster = |polygon: &Polygon| Caster {
-            polygon: polygon.clone(),
+        let caster = |polygon: Polygon| Caster {
             plane: polygon.plane(),
             bounds: Bounds::of(polygon.corners()),
+            polygon,
         };
-        Self { all: facets.map(caster).collect(), margin: TOUCHING * size }
+        Self { all: merged(facets).into_iter().map(caster).collect(), margin: TOUCHING * size }
     }
 
     /// Length below which a distance is none.
@@ -88,19 +141,20 @@ impl Casters {
         candidates.iter().copied().filter(|n| stands(&self.all[*n])).collect()
     }
 
-    /// The parts of `candidates` that may stand between two polygons: in front of both planes.
+    /// What of `candidates` may stand between two polygons: parts that are in front of both planes.
     #[must_use]
-    pub fn between(&self, a: &Polygon, b: &Polygon, candidates: &[usize]) -> Vec<Polygon> {
+    pub fn between(&self, a: &Polygon, b: &Polygon, candidates: &[usize]) -> Between {
         let [box_a, box_b] = [a, b].map(|polygon| Bounds::of(polygon.corners()));
-        let near = self.between_boxes(&box_a, &box_b, candidates).into_iter();
-        let parted = near.filter(|n| {
-            let heights =
-                a.corners().iter().chain(b.corners()).map(|corner| self.all[*n].plane.height(corner));
-            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
-            low < -self.margin && high > self.margin
-        });
         let planes = [a.plane(), b.plane()];
-        parted.filter_map(|n| self.in_front(n, &planes)).collect()
+        let mut parts = Vec::new();
+        for n in self.between_boxes(&box_a, &box_b, candidates) {
+            match self.all[n].hides(a, b, self.margin) {
+                Some(true) => return Between::Wall,
+                Some(false) => {}
+                None => parts.extend(self.in_front(n, &planes)),
+            }
+        }
+        if parts.is_empty() { Between::Nothing } else { Between::Some(parts) }
     }
 
     /// The parts of all facets in front of a plane: those that may stand between it and a light.

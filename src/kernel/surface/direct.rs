@@ -26,14 +26,6 @@ impl DirectLight {
     #[must_use]
     pub fn of(source: &LightSource, shape: &Shape, patches: &[Patch], kernel: &SurfaceKernel) -> Self {
         match source {
-            LightSource::Directional { towards, .. } => {
-                Self::exact(source, sunlight(shape, patches, towards))
-            }
-            LightSource::Point { at, distance, .. } => {
-                let square = distance * distance;
-                let light = lamplight(shape, patches, at).into_iter().map(|light| square * light);
-                Self::exact(source, light.collect())
-            }
             LightSource::UniformSky { .. } => {
                 let (backs, error) = backs(shape, patches);
                 let open = |(sum, backs): (f64, f64)| (1.0 - sum - backs).max(0.0);
@@ -42,12 +34,23 @@ impl DirectLight {
             LightSource::OvercastSky { zenith, .. } => {
                 Self::sampled(source, skylight(shape, patches, |towards| overcast(zenith.dot(towards))))
             }
-            LightSource::Given => Self::exact(source, vec![0.0; patches.len()]),
+            _ => Self { irradiance: Self::of_lamp(source, shape, patches), standard_error: 0.0 },
         }
     }
 
-    fn exact(source: &LightSource, unit: Vec<f64>) -> Self {
-        Self::sampled(source, (unit, 0.0))
+    /// What the sun or a lamp gives to `patches`, exact; nothing if `source` is neither.
+    #[must_use]
+    pub fn of_lamp(source: &LightSource, shape: &Shape, patches: &[Patch]) -> Vec<f64> {
+        let (unit, amount) = match source {
+            LightSource::Directional { towards, irradiance } => {
+                (sunlight(shape, patches, towards), *irradiance)
+            }
+            LightSource::Point { at, distance, irradiance } => {
+                (lamplight(shape, patches, at), irradiance * distance * distance)
+            }
+            _ => (vec![0.0; patches.len()], 0.0),
+        };
+        unit.into_iter().map(|light| amount * light).collect()
     }
 
     fn sampled(source: &LightSource, (unit, error): (Vec<f64>, f64)) -> Self {

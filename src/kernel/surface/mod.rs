@@ -10,6 +10,7 @@ pub mod direct;
 pub mod far;
 pub mod partial;
 pub mod patches;
+pub mod refinement;
 pub mod shadow;
 pub mod skylight;
 pub mod sunlight;
@@ -19,8 +20,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use rayon::prelude::*;
 
-use self::casters::{Bounds, Casters};
-use self::patches::{Division, Patch, patches};
+use self::casters::{Between, Bounds, Casters};
+use self::patches::Patch;
 use self::symmetric::Rows;
 use super::exchange::Exchange;
 use crate::error::{Error, Result};
@@ -53,12 +54,14 @@ pub struct Census {
     pub averted: usize,
     /// Nothing can stand between them.
     pub open: usize,
-    /// Others may stand between them.
+    /// One facet hides all of one from all of the other.
+    pub walled: usize,
+    /// Others may stand between them: their shadows were cut out.
     pub hidden: usize,
 }
 
 impl SurfaceKernel {
-    /// Form factors between the facets of `shape`, divided by `division`.
+    /// Form factors between `patches` of `shape`, all of them, in the order of its facets.
     ///
     /// # Arguments
     /// - `tolerance`: error of a partly hidden pair's form factor, relative to what it would be unhidden.
@@ -72,16 +75,15 @@ impl SurfaceKernel {
     /// # Example
     /// ```
     /// use vfold::geometry::{FacetGrid, Fold, accordion::Accordion};
-    /// use vfold::kernel::surface::{SurfaceKernel, patches::Division};
+    /// use vfold::kernel::surface::{SurfaceKernel, patches::{Division, patches}};
     /// let valley = Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
     /// let v = Accordion { valley, creases: 1, ridge_deg: 90.0, bow_deg: 0.0 }.shape()?;
-    /// let kernel = SurfaceKernel::new(&v, Division::NONE, 1e-3)?;
+    /// let kernel = SurfaceKernel::new(&v, &patches(&v, Division::NONE), 1e-3)?;
     /// // Two squares at a right angle exchange 0.20004 of their light (Howell, configuration C-14).
     /// assert!((kernel.row_sums()[0] - 0.20004377607540316).abs() < 1e-7);
     /// # Ok::<(), vfold::Error>(())
     /// ```
-    pub fn new(shape: &Shape, division: Division, tolerance: f64) -> Result<Self> {
-        let patches = patches(shape, division);
+    pub fn new(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         if patches.len() > FACETS_MAX {
             let problem = format!("{} patches fill more than a gigabyte", patches.len());
             return Err(Error::shape(problem, format!("take a mesh of at most {FACETS_MAX}")));
@@ -126,24 +128,14 @@ impl SurfaceKernel {
         sums.iter().zip(&self.root_areas).map(|(sum, root)| sum / root).collect()
     }
 
-    /// Rows `rows` of the matrix K of eq. (10) between the patches, one after the other: `K_ij` is the share of the light leaving
-    /// patch i that reaches patch j.
+    /// One row of the matrix K of eq. (10) between the patches: the share of the light leaving patch `row` that reaches each.
     #[must_use]
-    pub fn matrix_rows(&self, rows: std::ops::Range<usize>) -> Vec<f64> {
-        let count = self.unknowns();
-        let mut out = vec![0.0; rows.len() * count];
-        for (row, start, entries) in self.blocks.iter().flat_map(Rows::runs) {
-            for (column, entry) in (start..).zip(entries) {
-                let (entry, ratio) = (f64::from(*entry), self.root_areas[column] / self.root_areas[row]);
-                if rows.contains(&row) {
-                    out[(row - rows.start) * count + column] = entry * ratio;
-                }
-                if rows.contains(&column) {
-                    out[(column - rows.start) * count + row] = entry / ratio;
-                }
-            }
-        }
-        out
+    pub fn matrix_row(&self, row: usize) -> Vec<f64> {
+        let entry = |other: usize| {
+            let (first, last) = (row.min(other), row.max(other));
+            self.blocks[first / BLOCK].get(first, last) * self.root_areas[other] / self.root_areas[row]
+        };
+        (0..self.unknowns()).map(entry).collect()
     }
 }
 
@@ -180,11 +172,11 @@ struct Site {
 }
 
 impl Site {
-    fn new(patch: Patch) -> Self {
+    fn new(patch: &Patch) -> Self {
         let (plane, centre) = (patch.polygon.plane(), patch.polygon.centroid());
         let radius =
             patch.polygon.corners().iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
-        Self { polygon: patch.polygon, plane, centre, radius }
+        Self { polygon: patch.polygon.clone(), plane, centre, radius }
     }
 
     /// The part of this patch in front of the other's plane.
@@ -215,23 +207,33 @@ struct Assembly {
     tolerance: f64,
     averted: AtomicUsize,
     open: AtomicUsize,
+    walled: AtomicUsize,
     hidden: AtomicUsize,
 }
 
 impl Assembly {
-    fn new(shape: &Shape, patches: Vec<Patch>, tolerance: f64) -> Self {
-        let sites: Vec<Site> = patches.into_iter().map(Site::new).collect();
+    fn new(shape: &Shape, patches: &[Patch], tolerance: f64) -> Self {
+        let sites: Vec<Site> = patches.iter().map(Site::new).collect();
         let bounds = |sites: &[Site]| Bounds::of(sites.iter().flat_map(|site| site.polygon.corners()));
         let bounds = sites.chunks(BLOCK).map(bounds).collect();
         let casters = Casters::new(shape.facets(), shape.size());
         let none = AtomicUsize::default;
-        Self { sites, casters, bounds, tolerance, averted: none(), open: none(), hidden: none() }
+        Self {
+            sites,
+            casters,
+            bounds,
+            tolerance,
+            averted: none(),
+            open: none(),
+            walled: none(),
+            hidden: none(),
+        }
     }
 
     fn census(&self) -> Census {
-        let [averted, open, hidden] =
-            [&self.averted, &self.open, &self.hidden].map(|count| count.load(Relaxed));
-        Census { averted, open, hidden }
+        let counts = [&self.averted, &self.open, &self.walled, &self.hidden];
+        let [averted, open, walled, hidden] = counts.map(|count| count.load(Relaxed));
+        Census { averted, open, walled, hidden }
     }
 
     /// The rows of a block, right of the diagonal.
@@ -261,14 +263,19 @@ impl Assembly {
             self.averted.fetch_add(1, Relaxed);
             return 0.0;
         };
-        let casters =
-            if casters.is_empty() { Vec::new() } else { self.casters.between(&part_a, &part_b, casters) };
-        let count = if casters.is_empty() { &self.open } else { &self.hidden };
-        count.fetch_add(1, Relaxed);
-        let share = match &casters[..] {
-            [] => 1.0,
-            casters => partial::visible_share(&part_a, &part_b, casters, self.tolerance),
+        let between = if casters.is_empty() {
+            Between::Nothing
+        } else {
+            self.casters.between(&part_a, &part_b, casters)
         };
+        let (count, share) = match &between {
+            Between::Nothing => (&self.open, 1.0),
+            Between::Wall => (&self.walled, 0.0),
+            Between::Some(casters) => {
+                (&self.hidden, partial::visible_share(&part_a, &part_b, casters, self.tolerance))
+            }
+        };
+        count.fetch_add(1, Relaxed);
         if share < NOTHING {
             return 0.0;
         }

@@ -47,12 +47,17 @@ impl Division {
 /// ```
 #[must_use]
 pub fn patches(shape: &Shape, division: Division) -> Vec<Patch> {
+    patches_by(shape, |_| division)
+}
+
+/// The same with every facet divided in its own way.
+#[must_use]
+pub fn patches_by(shape: &Shape, division: impl Fn(usize) -> Division) -> Vec<Patch> {
     let valleys = Valleys::new(shape);
     let of_facet = |(facet, polygon): (usize, &Polygon)| {
-        let cells = if division == Division::NONE {
-            vec![polygon.clone()]
-        } else {
-            valleys.divide(facet, polygon, division)
+        let cells = match division(facet) {
+            Division::NONE => vec![polygon.clone()],
+            division => valleys.divide(facet, polygon, division),
         };
         cells.into_iter().map(move |polygon| Patch { polygon, facet })
     };

@@ -1,0 +1,161 @@
+//! The bounces on any surface, on patches that are divided until the facet means are right.
+
+use super::direct::DirectLight;
+use super::patches::{Division, Patch, patches, patches_by};
+use super::{Census, SurfaceKernel};
+use crate::error::{Error, Result};
+use crate::geometry::LightSource;
+use crate::geometry::shape::Shape;
+use crate::kernel::exchange::Exchange;
+use crate::kernel::mesh::{Accuracy, KernelSource, Mesh};
+use crate::kernel::method::Method;
+use crate::response::SurfaceResponse;
+
+/// Ever finer divisions: cells halve, and so do the strips beside valleys.
+const LADDER: [Division; 4] = [
+    Division { cells: 1, strips: 1 },
+    Division { cells: 2, strips: 2 },
+    Division { cells: 4, strips: 3 },
+    Division { cells: 8, strips: 4 },
+];
+/// How many more cells a side has on a facet in which a shadow ends.
+const SHADOW: usize = 4;
+/// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
+const UNEVEN: f64 = 0.01;
+/// Most patches of a mesh that was not asked for.
+const PATCHES_MAX: usize = 8000;
+/// The error that is believed, relative to the difference from the coarser mesh, which falls at least by half from one to the next.
+const BELIEVED: f64 = 0.5;
+/// Reflectances at which two meshes are compared.
+const PROBES: [f64; 2] = [0.5, 0.9];
+/// Facets that are darker than this share of the mean are compared with it instead of with themselves.
+const DARK: f64 = 0.1;
+
+/// What the bounces make of every source.
+pub struct Solved {
+    /// Poles and residues a source.
+    pub responses: Vec<SurfaceResponse>,
+    /// What they are worth.
+    pub accuracy: Accuracy,
+    /// How pairs of patches were dealt with.
+    pub census: Census,
+    /// Largest standard error of direct light that is sampled, 0 if none is.
+    pub direct_error: f64,
+}
+
+/// Solves the bounces on `shape` under each of `sources` for every reflectance, on `mesh`.
+///
+/// [`Mesh::Auto`] divides facets until no facet mean changes by more than twice `tolerance`, relative to itself or, in the dark, to a
+/// tenth of the mean, at reflectances up to 0.9; it stops earlier, and the accuracy says so, at 8000 patches.
+///
+/// # Errors
+/// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns, which a shape has not.
+///
+/// # Example
+/// ```
+/// use vfold::geometry::{FacetGrid, Fold, LightSource, accordion::Accordion};
+/// use vfold::kernel::{mesh::Mesh, surface::refinement::solve};
+/// let valley = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 2, cols: 2 })?;
+/// let v = Accordion { valley, creases: 1, ridge_deg: 60.0, bow_deg: 0.0 }.shape()?;
+/// let sun = LightSource::directional([0.0, 0.0, 1.0], 1.0)?;
+/// let solved = solve(&v, &[sun], Mesh::Auto, 0.02)?;
+/// assert!(solved.accuracy.facet_mean_error.unwrap() <= 0.02);
+/// assert!(solved.responses[0].irradiance(0, 0.9) > 1.4 * solved.responses[0].irradiance(0, 0.0));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64) -> Result<Solved> {
+    let scene = Scene { shape, sources, tolerance };
+    match mesh {
+        Mesh::Auto => scene.refined(),
+        Mesh::Facets => scene.on(&patches(shape, Division::NONE)),
+        Mesh::Cells(cells) => scene.on(&patches(shape, Division { cells, strips: 0 })),
+        Mesh::Patches(_) => Err(Error::usage(
+            "--mesh",
+            "a shape has no rows and columns",
+            "give auto, facets, or one number: cells along each side of a facet",
+        )),
+    }
+}
+
+struct Scene<'a> {
+    shape: &'a Shape,
+    sources: &'a [LightSource],
+    tolerance: f64,
+}
+
+impl Scene<'_> {
+    fn refined(&self) -> Result<Solved> {
+        let uneven = self.uneven();
+        let divided = |division: Division| {
+            let cells = |facet: usize| if uneven[facet] { SHADOW * division.cells } else { division.cells };
+            patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
+        };
+        let mut solved = self.on(&divided(LADDER[0]))?;
+        for division in &LADDER[1..] {
+            let patches = divided(*division);
+            if patches.len() > PATCHES_MAX {
+                break;
+            }
+            let finer = self.on(&patches)?;
+            let error = BELIEVED * difference(&solved.responses, &finer.responses);
+            solved = finer;
+            solved.accuracy.facet_mean_error = Some(error);
+            if error <= self.tolerance {
+                break;
+            }
+        }
+        Ok(solved)
+    }
+
+    /// Facets in which a shadow ends: parts of them get unlike light from a source that is no sky.
+    fn uneven(&self) -> Vec<bool> {
+        let patches = patches(self.shape, Division { cells: 2, strips: 0 });
+        let mut uneven = vec![false; self.shape.len()];
+        for source in self.sources.iter().filter(|source| !source.is_sky()) {
+            let light = DirectLight::of_lamp(source, self.shape, &patches);
+            let lit: Vec<(usize, f64)> = patches.iter().map(|patch| patch.facet).zip(light).collect();
+            for facet in lit.chunk_by(|a, b| a.0 == b.0) {
+                let (low, high) = facet.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (_, light)| {
+                    (low.min(*light), high.max(*light))
+                });
+                uneven[facet[0].0] |= high - low > UNEVEN * high;
+            }
+        }
+        uneven
+    }
+
+    /// The solution on given patches.
+    fn on(&self, patches: &[Patch]) -> Result<Solved> {
+        let kernel = SurfaceKernel::new(self.shape, patches, 0.1 * self.tolerance)?;
+        let (mut responses, mut residual, mut direct_error) = (Vec::new(), 0.0_f64, 0.0_f64);
+        for source in self.sources {
+            let direct = DirectLight::of(source, self.shape, patches, &kernel);
+            let (response, left) = SurfaceResponse::solve(&kernel, &direct.irradiance, 0.1 * self.tolerance)?;
+            responses.push(response);
+            (residual, direct_error) = (residual.max(left), direct_error.max(direct.standard_error));
+        }
+        let kernel_source = KernelSource { method: Method::Exact, entry_sd: None, entries: kernel.entries() };
+        let accuracy = Accuracy {
+            unknowns: kernel.unknowns(),
+            facet_mean_error: None,
+            residual,
+            kernel: Some(kernel_source),
+        };
+        Ok(Solved { responses, accuracy, census: kernel.census(), direct_error })
+    }
+}
+
+/// Largest difference of a facet's irradiance between two meshes, over sources and [`PROBES`].
+fn difference(coarse: &[SurfaceResponse], fine: &[SurfaceResponse]) -> f64 {
+    let mut largest = 0.0_f64;
+    for ((coarse, fine), r) in coarse.iter().zip(fine).flat_map(|pair| PROBES.map(|r| (pair, r))) {
+        let [before, after] = [coarse, fine].map(|response| {
+            (0..response.facets()).map(|facet| response.irradiance(facet, r)).collect::<Vec<_>>()
+        });
+        let dark = DARK * after.iter().sum::<f64>() / after.len() as f64;
+        let changes =
+            before.iter().zip(&after).map(|(before, after)| (before - after).abs() / after.max(dark));
+        largest = changes.fold(largest, f64::max);
+    }
+    largest
+}
