@@ -9,6 +9,7 @@ pub mod light;
 pub mod merged;
 pub mod obj;
 pub mod panel;
+pub mod ply;
 pub mod polygon;
 pub mod shape;
 pub mod sight;

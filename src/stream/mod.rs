@@ -28,6 +28,7 @@ mod response;
 mod sample;
 mod saves;
 mod scene;
+mod shape_file;
 mod surface;
 mod unknowns;
 mod writer;
@@ -50,6 +51,7 @@ pub use regions::{Corners, Regions};
 pub use regions_file::RegionsFile;
 pub use sample::{ReflectanceRecord, Sample, summary};
 pub use saves::Saves;
+pub use shape_file::read_shape;
 
 pub use scene::Scene;
 pub use surface::Surface;

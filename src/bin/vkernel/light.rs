@@ -17,7 +17,13 @@ pub struct LightArgs {
     #[arg(long, value_name = "X,Y,Z[:E]|point:X,Y,Z[:E]|none", value_parser = light, allow_hyphen_values = true)]
     light: Vec<LightArg>,
     /// Sky of --sky on a shape: alike in all directions, or that of a dull day (CIE), dark below the horizon
-    #[arg(long, value_name = "uniform|overcast", default_value = "uniform", hide_possible_values = true, hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "uniform|overcast",
+        default_value = "uniform",
+        hide_possible_values = true,
+        hide_default_value = true
+    )]
     sky_type: SkyType,
     /// Direction X,Y,Z to the zenith of an overcast sky [default: 0,0,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
@@ -50,7 +56,11 @@ impl LightArgs {
             ("--zenith", self.zenith.is_some()),
         ];
         given.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
-            Err(Error::usage(flag, "a fold has its light by --tilt-deg, --slant-deg and --sky", "leave it out"))
+            Err(Error::usage(
+                flag,
+                "a fold has its light by --tilt-deg, --slant-deg and --sky",
+                "leave it out",
+            ))
         })
     }
 
@@ -96,7 +106,7 @@ impl LightArg {
 
 /// Mean of the facets' centres by area.
 fn middle(shape: &Shape) -> Vec3 {
-    let area: f64 = shape.facets().map(|facet| facet.area()).sum();
+    let area: f64 = shape.facets().map(vfold::geometry::Polygon::area).sum();
     shape.facets().map(|facet| facet.area() * facet.centroid()).sum::<Vec3>() / area
 }
 
@@ -104,19 +114,18 @@ fn usage(flag: &'static str, error: &Error) -> Error {
     Error::usage(flag, error.to_string(), "see --help")
 }
 
-fn light(text: &str) -> Result<LightArg, String> {
+fn light(text: &str) -> std::result::Result<LightArg, String> {
     if text == "none" {
         return Ok(LightArg::None);
     }
     let wrong = || "write X,Y,Z or point:X,Y,Z, with :IRRADIANCE or without, or none".to_owned();
     let (is_point, rest) = text.strip_prefix("point:").map_or((false, text), |rest| (true, rest));
     let (place, irradiance) = rest.split_once(':').unwrap_or((rest, "1"));
-    let (place, irradiance) =
-        (vector(place).map_err(|_| wrong())?, irradiance.parse().map_err(|_| wrong())?);
+    let (place, irradiance) = (vector(place).map_err(|_| wrong())?, irradiance.parse().map_err(|_| wrong())?);
     Ok(if is_point { LightArg::Point(place, irradiance) } else { LightArg::Directional(place, irradiance) })
 }
 
-fn vector(text: &str) -> Result<[f64; 3], String> {
+fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| "write X,Y,Z, three numbers".to_owned())
 }

@@ -122,7 +122,7 @@ mod tests {
             );
             if in_front { exact += 1 } else { dark += 1 }
         }
-        assert!(exact > 500 && dark > 300, "{exact} {dark}");
+        assert!(exact > 500 && dark > 100, "{exact} {dark}");
         let seen: Vec<usize> = view.corners().iter().map(|(panel, _)| *panel).collect();
         assert_eq!(seen, [0, 2]); // the others show their backs
     }

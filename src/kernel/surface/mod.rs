@@ -24,6 +24,7 @@ use self::casters::{Between, Bounds, Casters};
 use self::patches::Patch;
 use self::symmetric::Rows;
 use super::exchange::Exchange;
+use super::skipped::Skipped;
 use crate::error::{Error, Result};
 use crate::geometry::polygon::{Plane, Polygon, Vec3};
 use crate::geometry::shape::{FACETS_MAX, Shape};
@@ -47,7 +48,7 @@ pub struct SurfaceKernel {
     census: Census,
 }
 
-/// How pairs of patches were dealt with.
+/// How many pairs of patches were dealt with in which way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     /// In one plane or behind each other: they exchange nothing.
@@ -160,6 +161,29 @@ impl Exchange for SurfaceKernel {
         for part in parts {
             out.iter_mut().zip(part).for_each(|(out, part)| *out += part);
         }
+    }
+}
+
+impl Census {
+    /// The work that was not done.
+    #[must_use]
+    pub fn skipped(&self) -> Vec<Skipped> {
+        let skip = |what, count, why| Skipped { what, count, why };
+        let mut list = vec![
+            skip(
+                "form factors of averted pairs",
+                self.averted,
+                "they lie in one plane or show each other their backs",
+            ),
+            skip("visibility tests", self.open, "no facet can stand between two others"),
+            skip(
+                "form factors of hidden pairs",
+                self.walled,
+                "one flat part of the surface hides all of one from the other",
+            ),
+        ];
+        list.retain(|skip| skip.count > 0);
+        list
     }
 }
 

@@ -90,7 +90,11 @@ impl Scene<'_> {
             let cells = |facet: usize| if uneven[facet] { SHADOW * division.cells } else { division.cells };
             patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
         };
-        let mut solved = self.on(&divided(LADDER[0]))?;
+        let first = divided(LADDER[0]);
+        if first.len() > PATCHES_MAX {
+            return self.on(&patches(self.shape, Division::NONE));
+        }
+        let mut solved = self.on(&first)?;
         for division in &LADDER[1..] {
             let patches = divided(*division);
             if patches.len() > PATCHES_MAX {

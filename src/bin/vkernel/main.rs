@@ -1,0 +1,162 @@
+//! `vkernel`: the geometry of a fold or any other surface and its light, as one scene record.
+
+mod fold;
+mod light;
+mod shape;
+
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+use light::LightArgs;
+use shape::ShapeArgs;
+use vfold::cli::{self, Common, ToolArgs};
+use vfold::geometry::FacetGrid;
+use vfold::kernel::mesh::{Accuracy, Mesh};
+use vfold::kernel::skipped::Skipped;
+use vfold::stream::Output;
+use vfold::{Error, Result};
+
+/// Solve the bounces of light in a V-shaped fold or on any other surface, for every reflectance at once
+#[derive(Parser)]
+#[command(
+    name = "vkernel",
+    version,
+    after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
+                  vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json\n  \
+                  vkernel --angle-deg 30 --method midpoint --check\n  \
+                  vkernel --shape bowl.obj --light 1,0,2 | vforward --reflectance cc24 | vestimate\n  \
+                  vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
+)]
+struct Args {
+    /// Angle between the two panels, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 45.0, allow_negative_numbers = true)]
+    angle_deg: f64,
+    /// Panel along the crease x away from it; only the ratio matters
+    #[arg(long, value_name = "WIDTHxDEPTH", default_value = "1x1", value_parser = cli::pair::<f64>)]
+    panel: (f64, f64),
+    /// Depth of panel 1, in the unit of --panel, if it is not that of panel 0
+    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
+    panel1_depth: Option<f64>,
+    /// Facets of a panel, rows away from the crease x columns along it: where colour is measured
+    #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
+    facets: (usize, usize),
+    /// Rows of equal depth, or graded: narrow at the crease, where colour varies
+    #[arg(long, value_name = "SPACING", default_value = "uniform")]
+    spacing: SpacingName,
+    /// How form factors are found: right to rounding, estimated from samples as in the paper, or eq. (2) at the facets' centres,
+    /// which is far off at the crease; the last two are for comparison
+    #[arg(long, value_name = "METHOD", default_value = "exact")]
+    method: MethodName,
+    /// Monte Carlo from pairs of points even over two facets (the paper's way; its variance is infinite where facets meet at
+    /// the crease), or from rays with the cosine law [default: area]
+    #[arg(long, value_name = "SAMPLING")]
+    sampling: Option<SamplingName>,
+    /// Pairs of points a distinct entry, or rays a row of facets [default: 10000]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// Seed of the samples [default: 0]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit
+    /// status 1 if one is broken
+    #[arg(long)]
+    check: bool,
+    /// Where the bounces are solved: as fine as needed, one flat patch a facet (the paper's model), given patches, or on a shape so many
+    /// cells along each side of a facet [default: auto; facets unless --method is exact]
+    #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
+    mesh: Option<Mesh>,
+    /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it
+    /// gets on a narrow fold; on shapes 5e-3, for reflectances up to 0.9]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    tilt_deg: f64,
+    /// Angle of the sun along the crease, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    slant_deg: f64,
+    /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's
+    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true)]
+    sky: f64,
+    /// Name of the scene
+    #[arg(long, default_value = "fold")]
+    id: String,
+    #[command(flatten)]
+    shape: ShapeArgs,
+    #[command(flatten)]
+    light: LightArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What `--spacing` takes.
+#[derive(Clone, Copy, ValueEnum)]
+enum SpacingName {
+    /// Rows of equal depth.
+    Uniform,
+    /// Row n ends at (n/rows)² of the depth.
+    Graded,
+}
+
+/// What `--method` takes.
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    /// Right to rounding.
+    Exact,
+    /// Estimated from samples.
+    MonteCarlo,
+    /// Eq. (2) at the facets' centres.
+    Midpoint,
+}
+
+/// What `--sampling` takes.
+#[derive(Clone, Copy, ValueEnum)]
+enum SamplingName {
+    /// Pairs of points.
+    Area,
+    /// Rays with the cosine law.
+    Cosine,
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+}
+
+fn main() -> ExitCode {
+    cli::run(tool)
+}
+
+fn tool(args: &Args, out: &mut Output) -> Result<()> {
+    if let Some(tolerance) = args.tolerance.filter(|tolerance| !(1e-12..=0.1).contains(tolerance)) {
+        return Err(Error::usage("--tolerance", format!("{tolerance} is out of range"), "give 1e-12 to 0.1"));
+    }
+    if args.shape.is_shape() { shape::write(args, out) } else { fold::write(args, out) }
+}
+
+/// With `--verbose`, what was solved and what was not.
+fn say_work(args: &Args, accuracy: &Accuracy, poles: usize, skipped: &[Skipped]) {
+    if !args.common.verbose {
+        return;
+    }
+    let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
+    let unknowns = accuracy.unknowns;
+    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, facet means' error {error}"));
+    for Skipped { what, count, why } in skipped {
+        cli::say("vkernel", &format!("skipped {count} {what}: {why}"));
+    }
+}
+
+fn mesh(text: &str) -> std::result::Result<Mesh, String> {
+    match text {
+        "auto" => Ok(Mesh::Auto),
+        "facets" => Ok(Mesh::Facets),
+        _ if text.parse().is_ok_and(|cells: usize| (1..=100).contains(&cells)) => {
+            text.parse().map(Mesh::Cells).map_err(|_| String::new())
+        }
+        _ => cli::pair(text)
+            .map(|(rows, cols)| Mesh::Patches(FacetGrid { rows, cols }))
+            .map_err(|_| "write auto, facets, patches such as 40x40, or cells such as 4".to_owned()),
+    }
+}

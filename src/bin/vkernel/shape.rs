@@ -1,0 +1,139 @@
+//! Any surface: read from a file, or a fold of several creases or with curved panels.
+
+use std::path::PathBuf;
+
+use clap::Args as ClapArgs;
+use vfold::cli;
+use vfold::geometry::Shape;
+use vfold::geometry::accordion::Accordion;
+use vfold::kernel::mesh::Mesh;
+use vfold::kernel::surface::SurfaceKernel;
+use vfold::kernel::surface::patches::{Division, patches};
+use vfold::kernel::surface::refinement::{Solved, solve};
+use vfold::stream::{Output, Scene, Surface, read_shape, write_matrix};
+use vfold::{Error, Result};
+
+use super::{Args, MethodName, fold, say_work};
+
+/// Relative error of facet means.
+const TOLERANCE: f64 = 5e-3;
+/// Least tolerance: exchanges are kept in single precision.
+const TOLERANCE_MIN: f64 = 1e-6;
+
+/// Surfaces other than a V of flat panels.
+#[derive(ClapArgs)]
+#[command(next_help_heading = "Shapes")]
+pub struct ShapeArgs {
+    /// Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file's order; corners counter-clockwise seen
+    /// from the reflecting side. At most 22000
+    #[arg(long, value_name = "FILE.obj|.ply|.json",
+          conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg", "bow_deg"])]
+    shape: Option<PathBuf>,
+    /// The surface of --shape reflects on both sides: the backs are as many facets again
+    #[arg(long, requires = "shape")]
+    two_sided: bool,
+    /// Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    folds: usize,
+    /// Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    ridge_deg: Option<f64>,
+    /// Panels curved in an arc: degrees by which each turns away from the other between the crease, where the angle is --angle-deg, and
+    /// its end, as the pages of an open book do; negative: towards it, a trough
+    #[arg(
+        long,
+        visible_alias = "bow",
+        value_name = "DEG",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    bow_deg: f64,
+}
+
+impl ShapeArgs {
+    /// Whether there is more than a V of flat panels.
+    pub fn is_shape(&self) -> bool {
+        self.shape.is_some() || self.folds != 1 || self.bow_deg != 0.0 || self.ridge_deg.is_some()
+    }
+}
+
+/// Writes the scene of a surface.
+pub fn write(args: &Args, out: &mut Output) -> Result<()> {
+    check(args)?;
+    let shape = shape(args)?;
+    let sources = args.light.sources(&shape, args.sky)?;
+    let (tolerance, mesh) = (args.tolerance.unwrap_or(TOLERANCE), args.mesh.unwrap_or(Mesh::Auto));
+    let solved = solve(&shape, &sources, mesh, tolerance)?;
+    say_accuracy(args, &solved)?;
+    let skipped = solved.census.skipped();
+    let poles = solved.responses.iter().map(|response| response.modes().poles.len()).sum();
+    say_work(args, &solved.accuracy, poles, &skipped);
+    if let Some(path) = out.saves.take("kernel") {
+        let kernel = SurfaceKernel::new(&shape, &patches(&shape, Division::NONE), 0.1 * tolerance)?;
+        write_matrix(&path, shape.len(), shape.len(), |facet| kernel.matrix_row(facet))?;
+    }
+    let mut scene = Scene::of_surface(&args.id, &Surface::Mesh(shape), &sources, &solved.responses)?;
+    scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
+    skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
+    if !args.common.no_history {
+        scene.fields.add_history("vkernel")?;
+    }
+    out.scene(&scene)
+}
+
+/// Refuses flags that only a V of flat panels knows.
+fn check(args: &Args) -> Result<()> {
+    let given = [
+        (
+            "--method",
+            !matches!(args.method, MethodName::Exact),
+            "leave it out: shapes have exact form factors",
+        ),
+        ("--check", args.check, "leave it out: the kernel of a shape is checked as it is made"),
+        ("--tilt-deg", args.tilt_deg != 0.0, "give --light X,Y,Z towards the sun"),
+        ("--slant-deg", args.slant_deg != 0.0, "give --light X,Y,Z towards the sun"),
+        (
+            "--tolerance",
+            args.tolerance.is_some_and(|tolerance| tolerance < TOLERANCE_MIN),
+            "give 1e-6 or more",
+        ),
+    ];
+    let wrong = given.into_iter().find(|(_, given, _)| *given);
+    wrong.map_or(Ok(()), |(flag, _, remedy)| Err(Error::usage(flag, "not for shapes", remedy)))
+}
+
+/// The surface, and what is odd about it on standard error.
+fn shape(args: &Args) -> Result<Shape> {
+    let ShapeArgs { shape: file, two_sided, folds, ridge_deg, bow_deg } = &args.shape;
+    let Some(path) = file else {
+        let valley = fold::fold(args)?;
+        let ridge_deg = ridge_deg.unwrap_or(valley.angle_deg());
+        return Accordion { valley, creases: *folds, ridge_deg, bow_deg: *bow_deg }.shape();
+    };
+    let (shape, remarks) = read_shape(path)?;
+    if !args.common.quiet {
+        remarks.iter().for_each(|remark| cli::say("vkernel", &format!("{}: {remark}", path.display())));
+    }
+    if *two_sided && !shape.is_two_sided() { shape.with_backs() } else { Ok(shape) }
+}
+
+/// Warns of an accuracy below what was expected, and refuses one below what was asked for.
+fn say_accuracy(args: &Args, solved: &Solved) -> Result<()> {
+    if solved.direct_error > 0.0 && !args.common.quiet {
+        let sampled =
+            format!("light of the sky is sampled: its standard error is up to {:.1e}", solved.direct_error);
+        cli::say("vkernel", &sampled);
+    }
+    let error = solved.accuracy.facet_mean_error;
+    let Some(error) = error.filter(|error| *error > args.tolerance.unwrap_or(TOLERANCE)) else {
+        return Ok(());
+    };
+    let problem = format!("{error:.1e} is the least error of the facet means that is reached on this shape");
+    if args.tolerance.is_some() {
+        return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
+    }
+    if !args.common.quiet {
+        cli::say("vkernel", &problem);
+    }
+    Ok(())
+}
