@@ -14,6 +14,8 @@ const GAP: f64 = 1e-12;
 const MARGIN: f64 = 1e-9;
 /// Places along each side of a facet that have to be seen for it to be seen whole.
 const PLACES: usize = 8;
+/// The outermost of them are so far inside, in sides: what meets the facet there does not hide it.
+const EDGE: f64 = 0.01;
 
 /// A shape as it is looked at.
 pub struct Sight {

@@ -64,8 +64,5 @@ pub fn say_corners(path: &Path, panels: &[(usize, Corners)]) {
 }
 
 fn point(text: &str) -> std::result::Result<Vector3<f64>, String> {
-    let parse = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
-    let numbers: Option<Vec<f64>> = text.split(',').map(parse).collect();
-    let point = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-    point.map(Vector3::from).ok_or_else(|| "write three numbers, such as 0,-1,5".to_owned())
+    cli::vector(text).map(Vector3::from)
 }
