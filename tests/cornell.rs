@@ -62,7 +62,10 @@ fn edges_are_where_they_are_seen(picture: &Photograph, scene: &Value) {
         let at = |axis: usize| back["vertices"][corner][axis].as_f64().unwrap();
         let x = SIZE / 2.0 + focal_px * (278.0 - at(0)) / (at(2) + 800.0); // x to the left
         let [wall, beside] = [inwards, -inwards].map(|way| light(picture, [x + 2.0 * way, 60.0]));
-        assert!((wall[0] / wall[1] / (beside[0] / beside[1]) - 1.0).abs() > 0.2, "{corner}: {wall:?} {beside:?}");
+        assert!(
+            (wall[0] / wall[1] / (beside[0] / beside[1]) - 1.0).abs() > 0.2,
+            "{corner}: {wall:?} {beside:?}"
+        );
     }
 }
 

@@ -8,6 +8,7 @@ use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 use crate::geometry::Shape;
+use crate::kernel::surface::lit::LitSurface;
 
 /// A group of facets of known reflectance, on the scene's wavelengths.
 #[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
@@ -66,14 +67,18 @@ impl Scene {
             return Ok(FacetModel::of_surface(&lights));
         }
         let part_of_facet = part_of_facets(&self.shape()?, &materials)?;
-        let exchange = self.reduced_exchange(&part_of_facet)?;
+        let exchange = self.lit_surface()?.reduce(&part_of_facet, self.tolerance()?)?;
         let known = materials.into_iter().map(|material| Some(material.reflectance));
         let parts: Vec<_> = std::iter::once(None).chain(known).collect();
         FacetModel::beside_known(&exchange, &parts, &cameras)
     }
 
-    fn reduced_exchange(&self, _part_of_facet: &[usize]) -> Result<crate::response::ReducedExchange> {
-        Err(Error::field("materials", "TODO"))
+    /// The surface in its light, divided as its response was solved.
+    ///
+    /// # Errors
+    /// As [`Scene::shape`] and [`Scene::sources`].
+    pub fn lit_surface(&self) -> Result<LitSurface> {
+        LitSurface::again(&self.shape()?, &self.sources()?, self.unknowns()?, self.tolerance()?)
     }
 }
 

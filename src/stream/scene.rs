@@ -112,6 +112,19 @@ impl Scene {
         Ok(solved.mesh)
     }
 
+    /// Number of unknowns with which the bounces were solved.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not there.
+    pub fn unknowns(&self) -> Result<usize> {
+        #[derive(Deserialize)]
+        struct Solved {
+            unknowns: usize,
+        }
+        let solved: Solved = self.fields.require("accuracy", "make the scene with vkernel")?;
+        Ok(solved.unknowns)
+    }
+
     /// Relative error that the response was allowed.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod nonuniform;
 mod render;
 mod setup;
 mod subject;

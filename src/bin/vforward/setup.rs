@@ -9,13 +9,13 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::forward::render::{FoldView, Picture, ShapeView};
-use vfold::forward::{FacetModel, Lighting, nonuniform};
-use vfold::kernel::exact::form_factors;
+use vfold::forward::{FacetModel, Lighting};
 use vfold::spectrum;
 use vfold::stream::{Corners, GivenKernel, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::nonuniform::Nonuniform;
 use super::render::say_corners;
 use super::subject::{Sheet, Subject};
 
@@ -75,23 +75,13 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let nonuniform = self.nonuniform()?;
+        let surface = Nonuniform::of(self.scene, self.given)?;
         for (n, path) in files.iter().enumerate() {
-            let rgb = nonuniform(&self.facet_reflectance(path)?)?;
+            let rgb = surface.facet_rgb(&self.facet_reflectance(path)?)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();
             out.sample(&self.sample(&id, rgb, n as u64)?)?;
         }
         Ok(())
-    }
-
-    /// Facet RGB by a reflectance a facet: of the fold, or of the kernel that is given.
-    fn nonuniform(&self) -> Result<Box<dyn Fn(&DMatrix<f64>) -> Result<DMatrix<f64>> + '_>> {
-        if let Some(given) = self.given {
-            let lights: Vec<_> = given.sources.iter().cloned().zip(self.scene.source_responses()?).collect();
-            return Ok(Box::new(move |r| nonuniform::surface_rgb(&given.exchange, &lights, r)));
-        }
-        let (kernel, lighting) = (form_factors(&self.scene.fold()?), self.scene.lighting()?);
-        Ok(Box::new(move |r| nonuniform::facet_rgb(&kernel, &lighting, r)))
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {

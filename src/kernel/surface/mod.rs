@@ -8,6 +8,7 @@ pub mod casters;
 pub mod contour;
 pub mod direct;
 pub mod far;
+pub mod lit;
 pub mod partial;
 pub mod patches;
 pub mod refinement;

@@ -22,6 +22,8 @@ const LADDER: [Division; 4] = [
 const SHADOW: usize = 4;
 /// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
 const UNEVEN: f64 = 0.01;
+/// Most cells along a side that anybody asks for: of one facet they are all the patches that there may be.
+const CELLS_MAX: usize = 150;
 /// Most patches of a mesh that was not asked for.
 const PATCHES_MAX: usize = 8000;
 /// The error that is believed, relative to the difference from the coarser mesh, which falls at least by half from one to the next.
@@ -77,6 +79,18 @@ pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64)
     }
 }
 
+/// The patches of a mesh on which [`solve`] ends with so many `unknowns`; none if there is no such mesh.
+#[must_use]
+pub fn patches_again(shape: &Shape, sources: &[LightSource], unknowns: usize) -> Option<Vec<Patch>> {
+    let scene = Scene { shape, sources, tolerance: 0.0 };
+    let even = (1..=CELLS_MAX).map(|cells| patches(shape, Division { cells, strips: 0 }));
+    let once = std::iter::once_with(|| patches(shape, Division::NONE));
+    let uneven = scene.uneven();
+    let ladder = LADDER.iter().map(|division| scene.divided(*division, &uneven));
+    let mut meshes = once.chain(ladder).chain(even.take_while(|patches| patches.len() <= unknowns));
+    meshes.find(|patches| patches.len() == unknowns)
+}
+
 struct Scene<'a> {
     shape: &'a Shape,
     sources: &'a [LightSource],
@@ -86,17 +100,13 @@ struct Scene<'a> {
 impl Scene<'_> {
     fn refined(&self) -> Result<Solved> {
         let uneven = self.uneven();
-        let divided = |division: Division| {
-            let cells = |facet: usize| if uneven[facet] { SHADOW * division.cells } else { division.cells };
-            patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
-        };
-        let first = divided(LADDER[0]);
+        let first = self.divided(LADDER[0], &uneven);
         if first.len() > PATCHES_MAX {
             return self.on(&patches(self.shape, Division::NONE));
         }
         let mut solved = self.on(&first)?;
         for division in &LADDER[1..] {
-            let patches = divided(*division);
+            let patches = self.divided(*division, &uneven);
             if patches.len() > PATCHES_MAX {
                 break;
             }
@@ -109,6 +119,12 @@ impl Scene<'_> {
             }
         }
         Ok(solved)
+    }
+
+    /// Finer patches where shadows end.
+    fn divided(&self, division: Division, uneven: &[bool]) -> Vec<Patch> {
+        let cells = |facet: usize| if uneven[facet] { SHADOW * division.cells } else { division.cells };
+        patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
     }
 
     /// Facets in which a shadow ends: parts of them get unlike light from a source that is no sky.

@@ -1,0 +1,45 @@
+//! `--facet-reflectance` on a fold, a mesh, or a kernel that is given.
+
+use nalgebra::DMatrix;
+use vfold::Result;
+use vfold::camera::CameraResponse;
+use vfold::forward::{Lighting, nonuniform};
+use vfold::kernel::FoldKernel;
+use vfold::kernel::exact::form_factors;
+use vfold::kernel::surface::SurfaceKernel;
+use vfold::stream::{GivenKernel, Scene};
+
+/// Direct light a patch of every source, and the camera's response to it.
+type Lights = Vec<(Vec<f64>, CameraResponse)>;
+
+/// A surface each of whose facets has a reflectance of its own.
+pub enum Nonuniform<'a> {
+    Fold(FoldKernel, Lighting),
+    Mesh(SurfaceKernel, Lights),
+    Kernel(&'a GivenKernel, Lights),
+}
+
+impl<'a> Nonuniform<'a> {
+    /// That of the scene, which may be of a kernel that is given.
+    pub fn of(scene: &Scene, given: Option<&'a GivenKernel>) -> Result<Self> {
+        if scene.is_fold()? {
+            return Ok(Self::Fold(form_factors(&scene.fold()?), scene.lighting()?));
+        }
+        let cameras = scene.source_responses()?.into_iter();
+        if let Some(given) = given {
+            return Ok(Self::Kernel(given, given.sources.iter().cloned().zip(cameras).collect()));
+        }
+        let lit = scene.lit_surface()?;
+        let lights = lit.lights.into_iter().map(|light| light.irradiance);
+        Ok(Self::Mesh(lit.kernel, lights.zip(cameras).collect()))
+    }
+
+    /// RGB of every facet at exposure 1, facet by channel.
+    pub fn facet_rgb(&self, reflectance: &DMatrix<f64>) -> Result<DMatrix<f64>> {
+        match self {
+            Self::Fold(kernel, lighting) => nonuniform::facet_rgb(kernel, lighting, reflectance),
+            Self::Mesh(kernel, lights) => nonuniform::surface_rgb(kernel, lights, reflectance),
+            Self::Kernel(given, lights) => nonuniform::surface_rgb(&given.exchange, lights, reflectance),
+        }
+    }
+}
