@@ -41,7 +41,7 @@ fn the_box_looks_like_its_picture() {
         2.0 * f64::atan(0.0125 / 0.035).to_degrees(),
         path.display()
     ));
-    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    assert_eq!((run.status, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
     let picture = Photograph::open(&path, &ReadOptions::default()).unwrap();
     let [left, right, floor, ceiling, back] =
         [[5.0, 60.0], [115.0, 60.0], [60.0, 112.0], [60.0, 8.0], [60.0, 60.0]].map(|at| light(&picture, at));

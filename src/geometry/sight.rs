@@ -88,8 +88,8 @@ impl Sight {
     #[must_use]
     pub fn sees_all(&self, eye: &Vec3, panel: &Panel, [u, v]: [[f64; 2]; 2]) -> bool {
         let [start, end, _, outer] = panel.corners;
-        let place =
-            |ends: [f64; 2], k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 + 0.5) / PLACES as f64;
+        let inside = |k: usize| EDGE + (1.0 - 2.0 * EDGE) * k as f64 / (PLACES - 1) as f64;
+        let place = |ends: [f64; 2], k: usize| ends[0] + (ends[1] - ends[0]) * inside(k);
         (0..PLACES * PLACES).all(|k| {
             let (u, v) = (place(u, k % PLACES), place(v, k / PLACES));
             let direction = start + u * (end - start) + v * (outer - start) - eye;
