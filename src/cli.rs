@@ -210,7 +210,8 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each
+    /// Illuminant: built-in name, daylight:CCT, or a CSV file; repeated: a picture under each, or, of a shape under several lights, one
+    /// picture with these in the order of the lights, skies aside
     #[arg(long, value_name = "SPEC", default_value = "D65")]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky [default: that of the sun]

@@ -53,7 +53,7 @@ fn an_overcast_sky_lights_ground_and_wall() {
         light(&two_squares(), LightSource::overcast_sky([0.0, 0.0, 2.0], 3.0).unwrap());
     let wall = (PI / 6.0 + 4.0 / 9.0) / (7.0 * PI / 9.0);
     assert!((wall - 0.396).abs() < 5e-4);
-    assert!(standard_error < 5e-3, "{standard_error}");
+    assert!(standard_error < 1e-2, "{standard_error}");
     assert!((irradiance[0] - 3.0).abs() < 4.0 * standard_error.max(1e-4), "{irradiance:?}");
     assert!((irradiance[1] - 3.0 * wall).abs() < 4.0 * standard_error, "{irradiance:?}");
 }
@@ -123,7 +123,7 @@ fn the_cornell_box_keeps_its_energy() {
     let faces = (0..walls.len()).flat_map(halves).collect();
     let shape = shape(vertices, faces);
     let lamp = Vec3::new(278.0, 273.0, 280.0);
-    let patches = patches(&shape, Division { cells: 6, strips: 2 });
+    let patches = patches(&shape, Division { cells: 3, strips: 0 });
     let sources = [LightSource::point(lamp.into(), 1.0, 100.0).unwrap()];
     let lit = LitSurface::new(&shape, &sources, &patches, 1e-3).unwrap();
     let areas: Vec<f64> = lit.kernel.root_areas().iter().map(|root| root * root).collect();

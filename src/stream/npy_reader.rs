@@ -58,13 +58,13 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
         let got = array.shape();
         return Err(wrong(format!("an array of shape {got:?}, where {needed}")));
     };
-    if length.is_file() && length.len() < 8 * (rows * cols) as u64 {
-        return Err(wrong(format!(
-            "its header says {rows} x {cols} numbers, which it does not hold; save it again"
-        )));
-    }
     let order = array.order();
     let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;
+    if length.is_file() && length.len() < 8 * (rows * cols) as u64 {
+        let problem =
+            format!("its header says {rows} x {cols} numbers, which it does not hold; save it again");
+        return Err(wrong(problem));
+    }
     let values: Vec<f64> = numbers.collect::<std::io::Result<_>>().map_err(failed)?;
     Ok(match order {
         Order::C => DMatrix::from_row_slice(rows, cols, &values),

@@ -9,6 +9,7 @@ mod cameras;
 mod common;
 mod flags;
 mod kernels;
+mod lights;
 mod methods;
 mod photographs;
 mod spectra;

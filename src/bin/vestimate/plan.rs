@@ -26,7 +26,7 @@ pub struct PlanArgs {
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none; repeated: a picture under each [default: D65]
+    /// Illuminant of a scene that has none; repeated: a picture under each, or one a light as for vforward [default: D65]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]

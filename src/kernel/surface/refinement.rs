@@ -146,7 +146,7 @@ impl Scene<'_> {
 
     /// The solution on given patches.
     fn on(&self, patches: &[Patch]) -> Result<Solved> {
-        let kernel = SurfaceKernel::new(self.shape, patches, 0.1 * self.tolerance)?;
+        let kernel = SurfaceKernel::new(self.shape, patches, self.tolerance)?;
         let (mut responses, mut residual, mut direct_error) = (Vec::new(), 0.0_f64, 0.0_f64);
         for source in self.sources {
             let direct = DirectLight::of(source, self.shape, patches, &kernel);

@@ -14,7 +14,7 @@ use crate::geometry::shape::Shape;
 /// Sets of rays from a patch, each a shift of the same even one: how much they differ says how far off their mean is.
 const SETS: usize = 16;
 /// Rays of a set.
-const RAYS: usize = 128;
+const RAYS: usize = 512;
 /// Steps of the even set along its four axes: reciprocal powers of the root of x⁵ = x + 1.
 const STEPS: [f64; 4] =
     [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_820_3, 0.538_597_257_223_610_7];
