@@ -22,7 +22,7 @@ for name in "all", "w", "noisy":
     rgb = sample(name)["facet_rgb"]
     seen = np.array([facet is not None for facet in rgb]).reshape(4, 16)
     off = [abs(np.array(rgb[k]) / true.reshape(-1, 3)[k] - 1)[:2].max() for k in range(64) if rgb[k]]
-    print(f"{name}: facets seen of each panel {seen.sum(1).tolist()}, red and green within {100 * max(off):.0f}%")
+    print(f"{name}: facets seen of each panel {seen.sum(1).tolist()}, red and green within {100 * max(off):.2f}%")
 given, flags = (np.load(f"{name}.npy") for name in ("w", "flags"))
 print("flags as the file:", bool(np.allclose(given, flags, rtol=1e-3, equal_nan=True)))
 END
