@@ -184,6 +184,22 @@ pub fn pair<T: std::str::FromStr>(text: &str) -> std::result::Result<(T, T), Str
         .ok_or_else(|| "write two numbers around an x, such as 10x10".to_owned())
 }
 
+/// Parses `X,Y,Z`, as in `--light 0,1,2`.
+///
+/// # Errors
+/// What to write instead, if the text is not three finite numbers around commas.
+///
+/// # Example
+/// ```
+/// assert_eq!(vfold::cli::vector("0, -1,5e1"), Ok([0.0, -1.0, 50.0]));
+/// assert!(vfold::cli::vector("1,2").is_err());
+/// ```
+pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
+    let parse = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    let numbers: Option<Vec<f64>> = text.split(',').map(parse).collect();
+    numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| "write X,Y,Z, three numbers".to_owned())
+}
+
 /// Camera, illuminants and wavelengths: what looks at a fold.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]

@@ -9,9 +9,8 @@ use std::path::{Path, PathBuf};
 use image::{ImageBuffer, Rgb};
 use proptest::prelude::*;
 use serde_json::Value;
-use vfold::geometry::Spacing;
 use vfold::image::{
-    FacetMeasurement, Homography, Lens, Photograph, Pixel, Point, ReadOptions, measure, write_linear,
+    FacetMeasurement, Grid, Homography, Lens, Photograph, Pixel, Point, ReadOptions, measure, write_linear,
 };
 
 const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
@@ -44,11 +43,7 @@ fn rendered(folder: &str, file: &str) -> Rendered {
     let truth = (0..200)
         .map(|k| numbers(&sidecar["facet_mean_rgb_10x10"][["A", "B"][k / 100]][k / 10 % 10][k % 10]))
         .collect();
-    Rendered {
-        measured: measure(&open(&path), &panels, &Spacing::Uniform.edges(10), 10, 0.0).unwrap(),
-        truth,
-        sidecar,
-    }
+    Rendered { measured: measure(&open(&path), &grids(&panels, [10, 10]), 0.0).unwrap(), truth, sidecar }
 }
 
 /// Relative errors of one panel's facets in its strongest channel, and their share of the standard error.
@@ -151,7 +146,7 @@ fn a_ramp_in_perspective_has_the_mean_over_the_sheet() {
     let ramp: Vec<f64> = (0..200 * 150 * 3).map(|k| f64::from(k / 600) + 0.5).collect();
     write_linear(&path, 200, 150, &ramp).unwrap();
     let trapezoid = panel([(20.0, 30.0), (180.0, 30.0), (150.0, 120.0), (50.0, 120.0)]);
-    let facets = measure(&open(&path), &[trapezoid], &Spacing::Uniform.edges(2), 3, 0.0).unwrap();
+    let facets = measure(&open(&path), &grids(&[trapezoid], [2, 3]), 0.0).unwrap();
     for (facet, v0) in facets.iter().zip([0.0, 0.0, 0.0, 0.5, 0.5, 0.5]) {
         let scale = |v: f64| 1.0 + 0.6 * v;
         let want = 270.0 - 800.0 * (scale(v0 + 0.5) / scale(v0)).ln();
@@ -181,7 +176,7 @@ fn a_ramp_on_the_sheet_has_its_middle_value() {
     picture.save(&path).unwrap();
     let photograph = open(&path);
     for (rows, cols, margin_px) in [(1, 1, 0.0), (3, 7, 0.0), (10, 10, 0.0), (5, 5, 3.0)] {
-        let facets = measure(&photograph, &panels, &Spacing::Uniform.edges(rows), cols, margin_px).unwrap();
+        let facets = measure(&photograph, &grids(&panels, [rows, cols]), margin_px).unwrap();
         assert_eq!(facets.len(), 2 * rows * cols);
         for (k, facet) in facets.iter().enumerate() {
             let (row, col) = (k / cols % rows, k % cols);
@@ -211,9 +206,7 @@ fn clipped_and_not_finite_pixels_are_left_out_and_counted() {
     picture.save(&path).unwrap();
     let whole = panel([(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]);
     let options = ReadOptions { white_level: Some(1.0), ..ReadOptions::default() };
-    let facets =
-        measure(&Photograph::open(&path, &options).unwrap(), &[whole], &Spacing::Uniform.edges(2), 2, 0.0)
-            .unwrap();
+    let facets = measure(&Photograph::open(&path, &options).unwrap(), &grids(&[whole], [2, 2]), 0.0).unwrap();
     let counts: Vec<_> =
         facets.iter().map(|f| (f.pixels.round() as usize, f.clipped, f.not_finite)).collect();
     assert_eq!(counts, [(98, 0, 2), (99, 1, 0), (100, 0, 0), (0, 100, 0)]);
@@ -228,8 +221,7 @@ fn facets_that_reach_out_of_the_picture_are_none() {
     let photo = rendered(PHOTOS, "a_ideal_magenta_50.exr");
     let picture = picture_of("a_ideal_magenta_50.exr");
     let cut = picture.crop(0, 0, 230, 480);
-    let facets =
-        measure(&cut, &panels_of(&photo.sidecar, 1.0)[..1], &Spacing::Uniform.edges(10), 10, 0.0).unwrap();
+    let facets = measure(&cut, &grids(&panels_of(&photo.sidecar, 1.0)[..1], [10, 10]), 0.0).unwrap();
     let inside = |k: usize| facets[k].mean.is_some();
     for k in (0..100).filter(|k| inside(*k)) {
         let [got, want] = [&facets[k], &photo.measured[k]].map(|facet| facet.mean.as_ref().unwrap()[1]);
@@ -247,7 +239,7 @@ fn a_panel_outside_the_picture_is_named() {
         panel([(10.0, 610.0), (90.0, 610.0), (90.0, 690.0), (10.0, 690.0)]),
     ];
     let photograph = open(&PathBuf::from(PHOTOS).join("a_ideal_magenta_50.exr"));
-    let error = measure(&photograph, &panels, &Spacing::Uniform.edges(2), 2, 0.0).unwrap_err().to_string();
+    let error = measure(&photograph, &grids(&panels, [2, 2]), 0.0).unwrap_err().to_string();
     assert!(error.starts_with("panel 1: no facet lies in the picture of 640 x 480 px"), "{error}");
 }
 
@@ -324,7 +316,7 @@ fn facets_of_three_pixels_are_right() {
     let mut photo = rendered(PHOTOS, "a_ideal_magenta_50.exr");
     let small = picture_of("a_ideal_magenta_50.exr").shrunk(8);
     let panels = panels_of(&photo.sidecar, 1.0 / 8.0);
-    photo.measured = measure(&small, &panels, &Spacing::Uniform.edges(10), 10, 0.0).unwrap();
+    photo.measured = measure(&small, &grids(&panels, [10, 10]), 0.0).unwrap();
     assert_accuracy(&photo, [0.06, 0.25], 0.5, 0.05);
 }
 
@@ -356,12 +348,11 @@ fn a_bent_photograph_gives_the_radiosity_solution() {
     let lens = Lens::new([k1, k2], 640, 480).unwrap();
     let corners = panels_of(&photo.sidecar, 1.0)
         .map(|panel| panel.corners().map(|corner| scaled(corner, magnification(corner))));
-    let edges = Spacing::Uniform.edges(10);
     let panels = corners.map(|corners| Homography::through(lens, corners).unwrap());
-    photo.measured = measure(&bent, &panels, &edges, 10, 1.0).unwrap();
+    photo.measured = measure(&bent, &grids(&panels, [10, 10]), 1.0).unwrap();
     assert_accuracy(&photo, [0.02, 0.025], 0.03, 0.003);
     let straight = corners.map(|corners| Homography::from_unit_square(corners).unwrap());
-    photo.measured = measure(&bent, &straight, &edges, 10, 1.0).unwrap();
+    photo.measured = measure(&bent, &grids(&straight, [10, 10]), 1.0).unwrap();
     assert!(rms(&errors(&photo, 0).0) > 0.001);
 }
 
@@ -373,7 +364,7 @@ fn facets_without_a_whole_pixel_have_no_mean() {
     write_linear(&path, 20, 20, &[0.5; 1200]).unwrap();
     let beyond = panel([(20.1, 2.0), (20.1, 8.0), (20.9, 8.0), (20.9, 2.0)]);
     let sliver = panel([(2.0, 2.2), (9.0, 2.2), (9.0, 2.9), (2.0, 2.9)]);
-    let facets = measure(&open(&path), &[beyond, sliver], &Spacing::Uniform.edges(3), 3, 0.0).unwrap();
+    let facets = measure(&open(&path), &grids(&[beyond, sliver], [3, 3]), 0.0).unwrap();
     assert!(facets.len() == 18 && facets.iter().all(|facet| facet.mean.is_none() && facet.pixels < 1e-9));
 }
 
@@ -396,8 +387,17 @@ proptest! {
         let photograph = open(&path);
         let sheet = [panel([(60.0, 3.0), (58.0, 44.0), (5.0, 40.0), (9.0, 11.0)])];
         let pixels = |rows, cols| -> f64 {
-            measure(&photograph, &sheet, &Spacing::Uniform.edges(rows), cols, margin_px).unwrap().iter().map(|facet| facet.pixels).sum()
+            measure(&photograph, &grids(&sheet, [rows, cols]), margin_px).unwrap().iter().map(|facet| facet.pixels).sum()
         };
         prop_assert!((pixels(rows, cols) - pixels(1, 1)).abs() < 1e-6);
     }
+}
+
+/// Panels with rows and columns of one size.
+fn grids(panels: &[Homography], rows_and_cols: [usize; 2]) -> Vec<Grid> {
+    let grid = |(k, panel): (usize, &Homography)| Grid {
+        panel: Some(k),
+        ..Grid::even(panel.clone(), rows_and_cols)
+    };
+    panels.iter().enumerate().map(grid).collect()
 }

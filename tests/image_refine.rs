@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, Uniform};
 use serde_json::Value;
-use vfold::image::{Lens, Photograph, Point, ReadOptions, Refinement, refine, write_linear};
+use vfold::image::{Lens, Marked, Photograph, Point, ReadOptions, Refinement, refine, write_linear};
 
 const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
 const MORE_PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos");
@@ -51,7 +51,7 @@ fn worst(folder: &str, file: &str, clicks: u64) -> [f64; 2] {
     let (photograph, truth) = (open(&path), corners(&sidecar));
     let mut worst = [0.0_f64; 2];
     for seed in 0..clicks {
-        let found = refine(&photograph, &clicked(&truth, 4.0, seed), &Lens::STRAIGHT, 6.0).unwrap();
+        let found = refine(&photograph, &marked(&clicked(&truth, 4.0, seed)), &Lens::STRAIGHT, 6.0).unwrap();
         for (panel, k) in (0..2).flat_map(|panel| (0..4).map(move |k| (panel, k))) {
             let off = distance(found.panels[panel][k], truth[panel][k]);
             worst[usize::from(k < 2)] = worst[usize::from(k < 2)].max(off);
@@ -89,7 +89,7 @@ fn refined(light: impl Fn(f64, f64) -> f64) -> (Refinement, [Point; 4]) {
         (0..200 * 200).flat_map(|k| [light(f64::from(k % 200) + 0.5, f64::from(k / 200) + 0.5); 3]).collect();
     write_linear(&path, 200, 200, &rgb).unwrap();
     let given = [(50.3, 40.2), (150.1, 45.0), (160.7, 150.4), (42.0, 155.5)].map(|(x, y)| Point::new(x, y));
-    (refine(&open(&path), &[given], &Lens::STRAIGHT, 6.0).unwrap(), given)
+    (refine(&open(&path), &marked(&[given]), &Lens::STRAIGHT, 6.0).unwrap(), given)
 }
 
 #[test]
@@ -126,6 +126,17 @@ fn panels_that_share_no_crease_are_refused() {
     let panel =
         |x: f64| [(x, 10.0), (x, 90.0), (x + 40.0, 90.0), (x + 40.0, 10.0)].map(|(x, y)| Point::new(x, y));
     let photograph = open(&Path::new(PHOTOS).join("a_ideal_magenta_50.exr"));
-    let error = refine(&photograph, &[panel(10.0), panel(100.0)], &Lens::STRAIGHT, 6.0).unwrap_err();
+    let error = refine(&photograph, &marked(&[panel(10.0), panel(100.0)]), &Lens::STRAIGHT, 6.0).unwrap_err();
     assert_eq!(error.exit_status(), 2, "{error}");
+}
+
+/// One panel, or two that share their crease.
+fn marked(panels: &[[Point; 4]]) -> Vec<Marked> {
+    let joints = [[0, 1, 2, 3], [0, 1, 4, 5]];
+    let marked = |(panel, (corners, joints)): (usize, (&[Point; 4], [usize; 4]))| Marked {
+        panel,
+        corners: *corners,
+        joints,
+    };
+    panels.iter().zip(joints).enumerate().map(marked).collect()
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use common::Workdir;
 use serde_json::Value;
 use tempfile::TempDir;
-use vfold::image::{Homography, Photograph, Pixel, Point, ReadOptions, SensorInfo, Transfer, measure};
+use vfold::image::{Grid, Homography, Photograph, Pixel, Point, ReadOptions, SensorInfo, Transfer, measure};
 
 const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/h_raw_magenta_50.dng");
 
@@ -32,8 +32,7 @@ fn the_rendered_photograph_gives_the_radiosity_solution() {
         };
         Homography::from_unit_square(["crease_0", "crease_1", "outer_1", "outer_0"].map(corner)).unwrap()
     });
-    let edges: Vec<f64> = (0..=10).map(|k| f64::from(k) / 10.0).collect();
-    let facets = measure(&open(PHOTO).unwrap(), &panels, &edges, 10, 0.0).unwrap();
+    let facets = measure(&open(PHOTO).unwrap(), &grids(&panels, [10, 10]), 0.0).unwrap();
     for channel in 0..3 {
         let error = |k: usize| {
             let truth = &sidecar["facet_mean_rgb_10x10"][["A", "B"][k / 100]][k / 10 % 10][k % 10][channel];
@@ -329,4 +328,13 @@ fn files_that_only_begin_like_raw_are_refused_in_one_line() {
     let lines: Vec<_> = run.stderr.lines().collect();
     assert_eq!((run.stdout.as_str(), lines.len()), ("1\n1\n1\n", 3), "{lines:?}");
     assert!(lines.iter().all(|line| line.starts_with("vextract: photo.raw: ")), "{lines:?}");
+}
+
+/// Panels with rows and columns of one size.
+fn grids(panels: &[Homography], rows_and_cols: [usize; 2]) -> Vec<Grid> {
+    let grid = |(k, panel): (usize, &Homography)| Grid {
+        panel: Some(k),
+        ..Grid::even(panel.clone(), rows_and_cols)
+    };
+    panels.iter().enumerate().map(grid).collect()
 }

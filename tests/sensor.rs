@@ -10,16 +10,11 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use serde_json::Value;
 use vfold::image::{
-    FacetMeasurement, Homography, Mosaic, Photograph, Pixel, Point, ReadOptions, measure,
+    FacetMeasurement, Grid, Homography, Mosaic, Photograph, Pixel, Point, ReadOptions, measure,
     pixels_sharing_noise,
 };
 
 const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
-
-/// Where facets of ten rows begin and end.
-fn edges() -> Vec<f64> {
-    (0..=10).map(|k| f64::from(k) / 10.0).collect()
-}
 
 fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
@@ -68,7 +63,7 @@ fn errors_percent(facets: &[FacetMeasurement], sidecar: &Value, channel: usize) 
 fn a_mosaic_gives_the_radiosity_solution() {
     for letters in ["RGGB", "GRBG", "BGGR", X_TRANS] {
         let (photograph, sidecar) = mosaic_of_photo(letters);
-        let facets = measure(&photograph, &panels(&sidecar), &edges(), 10, 0.0).unwrap();
+        let facets = measure(&photograph, &grids(&panels(&sidecar), [10, 10]), 0.0).unwrap();
         for channel in 0..3 {
             let errors = errors_percent(&facets, &sidecar, channel);
             let means = [0, 100].map(|from| errors[from..from + 100].iter().sum::<f64>() / 100.0);
@@ -90,12 +85,12 @@ fn a_clipped_site_spoils_its_own_colour_alone() {
         colour => colour as f32,
     });
     let photograph = Photograph::from_mosaic(mosaic.clone(), 8, 8, light.collect()).unwrap();
-    let facet = measure(&photograph, std::slice::from_ref(&panel), &[0.0, 1.0], 1, 0.0).unwrap().remove(0);
+    let facet = measure(&photograph, &grids(std::slice::from_ref(&panel), [1, 1]), 0.0).unwrap().remove(0);
     assert_eq!((facet.mean, facet.pixels, facet.clipped), (None, 48.0, 16));
     let light =
         (0..64).map(|k| if k == 0 { f32::INFINITY } else { 1.0 + mosaic.colour(k % 8, k / 8) as f32 });
     let photograph = Photograph::from_mosaic(mosaic.clone(), 8, 8, light.collect()).unwrap();
-    let facet = measure(&photograph, &[panel], &[0.0, 1.0], 1, 0.0).unwrap().remove(0);
+    let facet = measure(&photograph, &grids(&[panel], [1, 1]), 0.0).unwrap().remove(0);
     assert_eq!((facet.mean.unwrap(), facet.clipped), (vec![1.0, 2.0, 3.0], 1));
 }
 
@@ -207,7 +202,7 @@ type Camera = fn(&mut ChaCha8Rng) -> Photograph;
 /// Facet means of the light itself, from a photograph without noise.
 fn noise_free() -> Vec<f64> {
     let photograph = picture(|x, y, _| light(x as f64 + 0.5, y as f64 + 0.5));
-    let facets = measure(&photograph, &[panel()], &edges(), 10, 0.0).unwrap();
+    let facets = measure(&photograph, &grids(&[panel()], [10, 10]), 0.0).unwrap();
     facets.into_iter().map(|facet| facet.mean.unwrap()[0]).collect()
 }
 
@@ -219,7 +214,7 @@ fn errors_in_standard_errors(take: Camera) -> [f64; 2] {
         let photograph = take(&mut ChaCha8Rng::seed_from_u64(seed));
         let sharing = pixels_sharing_noise(&photograph, &[panel()]);
         for (facet, truth) in
-            measure(&photograph, &[panel()], &edges(), 10, 0.0).unwrap().into_iter().zip(&truth)
+            measure(&photograph, &grids(&[panel()], [10, 10]), 0.0).unwrap().into_iter().zip(&truth)
         {
             for (facet, errors) in [facet.clone().with_shared_noise(&sharing), facet].iter().zip(&mut errors)
             {
@@ -260,4 +255,13 @@ fn small_panels_say_nothing_of_shared_noise() {
     assert_eq!(pixels_sharing_noise(&clipped, &[panel()]), [1.0]);
     let dark = Photograph::from_light(SIDE, SIDE, vec![0.0; SIDE * SIDE]).unwrap();
     assert_eq!(pixels_sharing_noise(&dark, &[panel()]), [1.0]);
+}
+
+/// Panels with rows and columns of one size.
+fn grids(panels: &[Homography], rows_and_cols: [usize; 2]) -> Vec<Grid> {
+    let grid = |(k, panel): (usize, &Homography)| Grid {
+        panel: Some(k),
+        ..Grid::even(panel.clone(), rows_and_cols)
+    };
+    panels.iter().enumerate().map(grid).collect()
 }

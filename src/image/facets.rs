@@ -10,86 +10,21 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::corners::is_inside;
+use super::grid::Grid;
 use super::homography::{Homography, Point};
-use super::outliers::{Placed, without_outliers};
+use super::measurement::{FacetMeasurement, PixelRun};
+use super::outliers::Placed;
 use super::photograph::{Layer, Photograph};
 use super::pixel::Pixel;
 use super::pixel_area::{Quadrilateral, Sides, sense};
-use super::plane_fit::{Estimate, Run};
+use super::plane_fit::Run;
+use super::tally::Tally;
 use crate::{Error, Result};
-
-/// What a photograph says about one facet.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FacetMeasurement {
-    /// Mean linear light per channel, 1 at the white level; none if no pixel is usable or the facet reaches out of the picture.
-    pub mean: Option<Vec<f64>>,
-    /// Standard error of the mean per channel, from the spread about a plane; none if there are too few pixels to
-    /// tell. It takes the noise of every pixel for its own: see [`FacetMeasurement::with_shared_noise`].
-    pub standard_error: Option<Vec<f64>>,
-    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its area that
-    /// lies in this one.
-    pub pixels: f64,
-    /// Pixels left out because a channel is clipped.
-    pub clipped: usize,
-    /// Pixels left out because a channel is not finite or the pixel is transparent.
-    pub not_finite: usize,
-    /// Pixels left out because they do not look like the rest of the facet: dust, specks.
-    pub outliers: usize,
-    /// Where the pixels are that were left out.
-    pub left_out: Vec<PixelRun>,
-}
-
-/// Pixels beside each other.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PixelRun {
-    /// Their columns.
-    pub columns: Range<usize>,
-    /// Their row.
-    pub row: usize,
-}
-
-impl FacetMeasurement {
-    /// Of no channels and no pixels.
-    const NOTHING: Self = Self {
-        mean: Some(Vec::new()),
-        standard_error: Some(Vec::new()),
-        pixels: 0.0,
-        clipped: 0,
-        not_finite: 0,
-        outliers: 0,
-        left_out: Vec::new(),
-    };
-
-    /// The same with standard errors for noise that so many pixels share, per channel as
-    /// [`pixels_sharing_noise`](super::pixels_sharing_noise) gives it.
-    #[must_use]
-    pub fn with_shared_noise(mut self, pixels: &[f64]) -> Self {
-        for (error, pixels) in self.standard_error.iter_mut().flatten().zip(pixels) {
-            *error *= pixels.sqrt();
-        }
-        self
-    }
-
-    /// Both measurements as one; a number that one of them lacks is none.
-    fn with_channels(self, others: Self) -> Self {
-        let joined = |own: Option<Vec<f64>>, others: Option<Vec<f64>>| Some([own?, others?].concat());
-        Self {
-            mean: joined(self.mean, others.mean),
-            standard_error: joined(self.standard_error, others.standard_error),
-            pixels: self.pixels + others.pixels,
-            clipped: self.clipped + others.clipped,
-            not_finite: self.not_finite + others.not_finite,
-            outliers: self.outliers + others.outliers,
-            left_out: [self.left_out, others.left_out].concat(),
-        }
-    }
-}
 
 /// Measures every facet of one panel or more.
 ///
 /// # Arguments
-/// - `panels`: where each panel lies, by the order of [`PANEL_CORNERS`]; the crease is v = 0.
-/// - `row_edges`: where facet rows begin and end, from 0 at the crease to 1 at the outer edge; `cols`: facets along it.
+/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](super::PANEL_CORNERS), and how it is divided.
 /// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a little off
 ///   ask for one or two.
 ///
@@ -103,45 +38,31 @@ impl FacetMeasurement {
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Homography, Photograph, Point, ReadOptions, measure, write_linear};
+/// use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure, write_linear};
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("ramp.exr");
 /// let ramp: Vec<f64> = (0..300).map(|k| (k / 3 % 10) as f64 / 16.0).collect(); // 10 x 10 px, brighter to the right
 /// write_linear(&path, 10, 10, &ramp)?;
 /// let panel = Homography::from_unit_square([(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y)))?;
-/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[panel], &[0.0, 1.0], 2, 0.0)?;
+/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[Grid::even(panel, [1, 2])], 0.0)?;
 /// let means: Vec<f64> = facets.iter().map(|facet| facet.mean.as_ref().unwrap()[0]).collect();
 /// assert!((means[0] - 2.0 / 16.0).abs() < 1e-12 && (means[1] - 7.0 / 16.0).abs() < 1e-12);
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn measure(
-    photograph: &Photograph,
-    panels: &[Homography],
-    row_edges: &[f64],
-    cols: usize,
-    margin_px: f64,
-) -> Result<Vec<FacetMeasurement>> {
-    let rows = row_edges.len() - 1;
-    let facet = |k: usize| {
-        let (panel, row, col) = (&panels[k / (rows * cols)], k / cols % rows, k % cols);
-        let u = [col, col + 1].map(|edge| edge as f64 / cols as f64);
-        Facet { panel, u, v: [row_edges[row], row_edges[row + 1]] }
-    };
-    for k in 0..panels.len() {
-        let mut facets = (k * rows * cols..(k + 1) * rows * cols).map(facet);
-        if !facets.any(|facet| facet.is_inside((photograph.width(), photograph.height()))) {
-            return Err(outside(k, photograph));
-        }
+pub fn measure(photograph: &Photograph, panels: &[Grid], margin_px: f64) -> Result<Vec<FacetMeasurement>> {
+    let size = (photograph.width(), photograph.height());
+    if let Some(outside) = panels.iter().find(|panel| !panel.facets().any(|facet| facet.is_inside(size))) {
+        return Err(is_outside(outside, size));
     }
+    let facets: Vec<Facet> = panels.iter().flat_map(Grid::facets).collect();
     // one task a facet: each is summed in one order whatever the threads
-    let measure = |k: usize| facet(k).measure(photograph, margin_px);
-    Ok((0..panels.len() * rows * cols).into_par_iter().map(measure).collect())
+    Ok(facets.par_iter().map(|facet| facet.measure(photograph, margin_px)).collect())
 }
 
-fn outside(panel: usize, photograph: &Photograph) -> Error {
-    let (width, height) = (photograph.width(), photograph.height());
+fn is_outside(grid: &Grid, (width, height): (usize, usize)) -> Error {
+    let panel = grid.panel.map_or(String::new(), |number| format!("panel {number}: "));
     Error::Corners {
-        problem: format!("panel {panel}: no facet lies in the picture of {width} x {height} px"),
+        problem: format!("{panel}no facet lies in the picture of {width} x {height} px"),
         remedy: "give corners in px of the upright picture, origin at its top left corner".to_owned(),
     }
 }
@@ -151,6 +72,14 @@ struct Facet<'a> {
     panel: &'a Homography,
     u: [f64; 2],
     v: [f64; 2],
+}
+
+impl Grid {
+    /// Row by row.
+    fn facets(&self) -> impl Iterator<Item = Facet<'_>> {
+        let facet = |v: &[f64], u: &[f64]| Facet { panel: &self.outline, u: [u[0], u[1]], v: [v[0], v[1]] };
+        self.row_edges.windows(2).flat_map(move |v| self.col_edges.windows(2).map(move |u| facet(v, u)))
+    }
 }
 
 impl Facet<'_> {
@@ -232,8 +161,7 @@ impl Facet<'_> {
             let (u, v, area) = self.panel.to_panel_with_area(centre);
             let u = (u - self.u[0]) / (self.u[1] - self.u[0]) - 0.5;
             let v = (v - self.v[0]) / (self.v[1] - self.v[0]) - 0.5;
-            tally.placed.push(Placed { weight: overlap * area, u, v, run });
-            tally.runs.push((overlap, PixelRun { columns, row: y }));
+            tally.add(Placed { weight: overlap * area, u, v, run }, overlap, PixelRun { columns, row: y });
         }
     }
 }
@@ -256,53 +184,3 @@ const NO_OVERLAP: f64 = 1e-9;
 const STRAIGHT_PX: f64 = 0.02;
 /// A side is not cut into more parts than this.
 const MOST_CELLS: f64 = 100.0;
-
-#[derive(Default)]
-struct Tally {
-    placed: Vec<Placed>,
-    /// Of each of `placed`, the part of its pixels that lies in the facet, and where they are.
-    runs: Vec<(f64, PixelRun)>,
-    clipped: usize,
-    not_finite: usize,
-    left_out: Vec<PixelRun>,
-}
-
-impl Tally {
-    /// Counts a pixel without light; most pictures have few.
-    #[cold]
-    fn leave_out(&mut self, pixel: Pixel, x: usize, y: usize) {
-        match pixel {
-            Pixel::Clipped => self.clipped += 1,
-            _ => self.not_finite += 1,
-        }
-        match self.left_out.last_mut() {
-            Some(run) if run.row == y && run.columns.end == x => run.columns.end += 1,
-            _ => self.left_out.push(PixelRun { columns: x..x + 1, row: y }),
-        }
-    }
-
-    fn finish(mut self, channels: usize) -> FacetMeasurement {
-        let (sums, kept) = without_outliers(&self.placed, channels);
-        let (mut pixels, mut outliers) = (0.0, 0);
-        for ((placed, (overlap, run)), kept) in self.placed.iter().zip(self.runs).zip(kept) {
-            if kept {
-                pixels += overlap * placed.run.pixels();
-            } else {
-                outliers += placed.run.pixels() as usize;
-                self.left_out.push(run);
-            }
-        }
-        let estimates: Option<Vec<Estimate>> = (0..channels).map(|channel| sums.estimate(channel)).collect();
-        let each = estimates.as_ref();
-        FacetMeasurement {
-            mean: each.map(|each| each.iter().map(|estimate| estimate.mean).collect()),
-            standard_error: each
-                .and_then(|each| each.iter().map(|estimate| estimate.standard_error).collect()),
-            pixels,
-            clipped: self.clipped,
-            not_finite: self.not_finite,
-            outliers,
-            left_out: self.left_out,
-        }
-    }
-}

@@ -2,32 +2,13 @@
 
 use std::path::Path;
 
-use super::facets::PixelRun;
-use super::homography::{Homography, Point};
+use super::grid::Grid;
+use super::homography::Point;
+use super::measurement::PixelRun;
 use super::photograph::Photograph;
 use super::pixel_area::Quadrilateral;
 use super::preview::Canvas;
 use crate::Result;
-
-/// A quadrilateral of the picture divided into rows and columns: a panel and its facets, a chart and its patches.
-#[derive(Debug, Clone)]
-pub struct Grid {
-    /// Where it lies.
-    pub outline: Homography,
-    /// Where rows begin and end, from 0 to 1 away from the first side.
-    pub row_edges: Vec<f64>,
-    /// The same of columns, along the first side.
-    pub col_edges: Vec<f64>,
-}
-
-impl Grid {
-    /// Rows with these edges, and columns of one width.
-    #[must_use]
-    pub fn new(outline: Homography, row_edges: &[f64], cols: usize) -> Self {
-        let col_edges = (0..=cols).map(|edge| edge as f64 / cols as f64).collect();
-        Self { outline, row_edges: row_edges.to_vec(), col_edges }
-    }
-}
 
 /// Longest side of an overlay, px; small photographs are enlarged in whole pixels.
 const LONGEST_PX: f64 = 1600.0;
@@ -49,8 +30,8 @@ const DIGIT_PX: f64 = 36.0;
 
 /// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px a side.
 ///
-/// The first four grids are blue, orange, green and yellow; the first two carry their numbers, 0 and 1; a square marks the first
-/// corner of each. Pixels that were left out are red.
+/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, and a square marks the first corner of each.
+/// Pixels that were left out are red.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -62,7 +43,7 @@ const DIGIT_PX: f64 = 36.0;
 /// let (path, overlay) = (folder.path().join("grey.tif"), folder.path().join("overlay.png"));
 /// write_linear(&path, 40, 30, &[0.5; 40 * 30 * 3])?;
 /// let corners = [(5.0, 5.0), (35.0, 5.0), (35.0, 25.0), (5.0, 25.0)].map(|(x, y)| Point::new(x, y));
-/// let grid = Grid::new(Homography::from_unit_square(corners)?, &[0.0, 0.5, 1.0], 3);
+/// let grid = Grid::even(Homography::from_unit_square(corners)?, [2, 3]);
 /// write_overlay(&overlay, &Photograph::open(&path, &ReadOptions::default())?, &[grid], &[])?;
 /// # Ok::<(), vfold::Error>(())
 /// ```
@@ -83,17 +64,29 @@ pub fn write_overlay(
     for (k, grid) in grids.iter().enumerate() {
         canvas.draw_grid(grid, GRIDS[k % GRIDS.len()]);
     }
-    for (digit, grid) in DIGITS.iter().zip(grids) {
-        canvas.draw_digit(digit, canvas.at(grid.outline.to_image(0.5, 0.5)));
+    for grid in grids {
+        if let Some(number) = grid.panel {
+            canvas.draw_number(number, canvas.at(grid.outline.to_image(0.5, 0.5)));
+        }
     }
     canvas.write(path)
 }
 
-/// The numbers of panels as lines in a box of width 0.6 and height 1 about its centre.
-const DIGITS: [&[[f64; 2]]; 2] = [
+/// Digits as lines in a box of width 0.6 and height 1 about its centre.
+const DIGITS: [&[[f64; 2]]; 10] = [
     &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5], [-0.3, -0.5]],
     &[[-0.15, -0.3], [0.05, -0.5], [0.05, 0.5]],
+    &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.0], [-0.3, 0.0], [-0.3, 0.5], [0.3, 0.5]],
+    &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.0], [-0.2, 0.0], [0.3, 0.0], [0.3, 0.5], [-0.3, 0.5]],
+    &[[-0.3, -0.5], [-0.3, 0.0], [0.3, 0.0], [0.3, -0.5], [0.3, 0.5]],
+    &[[0.3, -0.5], [-0.3, -0.5], [-0.3, 0.0], [0.3, 0.0], [0.3, 0.5], [-0.3, 0.5]],
+    &[[0.3, -0.5], [-0.3, -0.5], [-0.3, 0.5], [0.3, 0.5], [0.3, 0.0], [-0.3, 0.0]],
+    &[[-0.3, -0.5], [0.3, -0.5], [0.0, 0.5]],
+    &[[-0.3, 0.0], [-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5], [-0.3, 0.0], [0.3, 0.0]],
+    &[[0.3, 0.0], [-0.3, 0.0], [-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5]],
 ];
+/// From one digit to the next, in heights.
+const DIGIT_STEP: f64 = 0.9;
 
 impl Canvas {
     /// Where a point of the photograph is on the canvas.
@@ -122,6 +115,14 @@ impl Canvas {
         let first = self.at(grid.outline.corners()[0]);
         self.fill(&square(first, FIRST_CORNER_PX + 4.0), BLACK, 0.5);
         self.fill(&square(first, FIRST_CORNER_PX), colour, 1.0);
+    }
+
+    fn draw_number(&mut self, number: usize, middle: Point) {
+        let digits: Vec<usize> = number.to_string().bytes().map(|digit| usize::from(digit - b'0')).collect();
+        for (k, digit) in digits.iter().enumerate() {
+            let right = DIGIT_PX * DIGIT_STEP * (k as f64 - (digits.len() - 1) as f64 / 2.0);
+            self.draw_digit(DIGITS[*digit], Point::new(middle.x + right, middle.y));
+        }
     }
 
     fn draw_digit(&mut self, digit: &[[f64; 2]], middle: Point) {

@@ -2,8 +2,10 @@
 
 use super::corners::{CHART_CORNERS, check_inside};
 use super::distortion::Lens;
-use super::facets::{FacetMeasurement, measure};
+use super::facets::measure;
+use super::grid::Grid;
 use super::homography::{Homography, Point};
+use super::measurement::FacetMeasurement;
 use super::photograph::Photograph;
 use crate::Result;
 
@@ -48,8 +50,8 @@ pub fn measure_patches(
     let middle =
         |k: usize, count: usize| [-MIDDLE, MIDDLE].map(|side| (k as f64 + 0.5 + side / 2.0) / count as f64);
     let patch = |k: usize| chart.rectangle(middle(k % cols, cols), middle(k / cols, rows));
-    let middles = (0..rows * cols).map(|k| Homography::through(lens, patch(k)));
-    measure(photograph, &middles.collect::<Result<Vec<_>>>()?, &[0.0, 1.0], 1, 0.0)
+    let middles = (0..rows * cols).map(|k| Ok(Grid::even(Homography::through(lens, patch(k))?, [1, 1])));
+    measure(photograph, &middles.collect::<Result<Vec<_>>>()?, 0.0)
 }
 
 /// The eight orders in which four corners can be read round a chart, that in which they are given first.

@@ -1,5 +1,6 @@
 //! JSON files beside the stream: what a user gives a flag.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::Read;
 
@@ -15,17 +16,30 @@ const MAX_BYTES: u64 = 64 << 20;
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds something else.
 pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> {
+    serde_json::from_slice(&bytes(path, example)?).map_err(|error| fault(path, error.line(), &error, example))
+}
+
+/// Reads a file of JSON values one after the other, such as NDJSON.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn read_all<T: DeserializeOwned>(path: &str, example: &str) -> Result<Vec<T>> {
+    let bytes = bytes(path, example)?;
+    let values = serde_json::Deserializer::from_slice(&bytes).into_iter();
+    values.map(|value| value.map_err(|error| fault(path, error.line(), &error, example))).collect()
+}
+
+fn bytes(path: &str, example: &str) -> Result<Vec<u8>> {
     let failed = |source| Error::file(path, source);
     let mut bytes = Vec::new();
     File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
-    let fault = |line: usize, problem: String| Error::Record {
-        path: path.to_owned(),
-        line: line.max(1),
-        problem,
-        remedy: format!("write {example}"),
-    };
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(fault(1, "the file is larger than 64 MiB".to_owned()));
+        return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }
-    serde_json::from_slice(&bytes).map_err(|error| fault(error.line(), error.to_string()))
+    Ok(bytes)
+}
+
+fn fault(path: &str, line: usize, problem: impl Display, example: &str) -> Error {
+    let (problem, remedy) = (problem.to_string(), format!("write {example}"));
+    Error::Record { path: path.to_owned(), line: line.max(1), problem, remedy }
 }

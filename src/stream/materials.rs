@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::finite;
+use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 use crate::geometry::Shape;
@@ -48,11 +49,19 @@ impl Scene {
 
     /// The model of a surface that is no fold.
     pub(super) fn surface_model(&self) -> Result<FacetModel> {
+        self.surface_model_seen_by(self.source_responses()?)
+    }
+
+    /// The same as others see it: `cameras` are responses to the sources.
+    ///
+    /// # Errors
+    /// As [`Scene::model`].
+    pub fn surface_model_seen_by(&self, cameras: Vec<CameraResponse>) -> Result<FacetModel> {
         if self.fields.get::<serde::de::IgnoredAny>("reference_panel")?.is_some() {
             let problem = "panels are those of a fold; say which group is known with --material GROUP=SPEC";
             return Err(Error::field("reference_panel", problem));
         }
-        let (materials, cameras) = (self.materials()?, self.source_responses()?);
+        let materials = self.materials()?;
         if materials.is_empty() {
             let lights: Vec<_> = self.responses()?.into_iter().zip(cameras).collect();
             return Ok(FacetModel::of_surface(&lights));

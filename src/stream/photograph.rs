@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::Sample;
 use super::development::DevelopmentRecord;
-use super::{Colours, Sample};
 use crate::error::Result;
-use crate::image::{FacetMeasurement, Homography, PhotographInfo, Refinement};
+use crate::image::{FacetMeasurement, Grid, PhotographInfo, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
 #[derive(Clone, Debug, Serialize)]
@@ -35,7 +35,8 @@ pub struct ImageRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     iso: Option<u32>,
     orientation: u32,
-    panels: Vec<[[f64; 2]; 4]>,
+    /// By number; null where none was marked.
+    panels: Vec<Option<[[f64; 2]; 4]>>,
     margin_px: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     distortion: Option<[f64; 2]>,
@@ -49,7 +50,7 @@ pub struct ImageRecord {
 #[derive(Clone, Debug, Serialize)]
 struct RefinedRecord {
     moved_px: Vec<[f64; 4]>,
-    sides_without_edge: Vec<&'static str>,
+    sides_without_edge: Vec<String>,
 }
 
 /// A level for all channels, or one for each.
@@ -84,11 +85,15 @@ impl ImageRecord {
     pub fn new(
         path: &Path,
         info: &PhotographInfo,
-        panels: &[Homography],
+        panels: &[Grid],
         margin_px: f64,
         pixels_sharing_noise: &[f64],
     ) -> Self {
-        let corners = |panel: &Homography| panel.corners().map(|corner| [corner.x, corner.y]);
+        let corners = |number: usize| {
+            let panel = panels.iter().find(|panel| panel.panel == Some(number))?;
+            Some(panel.outline.corners().map(|corner| [corner.x, corner.y]))
+        };
+        let count = panels.iter().filter_map(|panel| panel.panel).max().map_or(0, |last| last + 1);
         Self {
             file: path.display().to_string(),
             width: info.width,
@@ -109,7 +114,7 @@ impl ImageRecord {
             f_number: info.camera.f_number,
             iso: info.camera.iso,
             orientation: info.camera.orientation.exif(),
-            panels: panels.iter().map(corners).collect(),
+            panels: (0..count).map(corners).collect(),
             margin_px,
             distortion: None,
             refined: None,
@@ -130,21 +135,12 @@ impl ImageRecord {
 }
 
 impl Sample {
-    /// Sets the facets as measured in a photograph; those of a panel that was not marked are null up to `count`.
+    /// Sets the facets as measured in a photograph.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
-    pub fn set_photograph(
-        &mut self,
-        image: &ImageRecord,
-        facets: &[FacetMeasurement],
-        count: usize,
-    ) -> Result<()> {
-        let column = |pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
-            let mut rows: Colours = facets.iter().map(pick).collect();
-            rows.resize(count, None);
-            rows
-        };
+    pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement]) -> Result<()> {
+        let column = |pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| facets.iter().map(pick).collect();
         self.fields.set("image", image)?;
         self.set_facets(
             &column(|facet| facet.mean.clone()),

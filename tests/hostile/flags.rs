@@ -185,3 +185,20 @@ END
         ],
     );
 }
+
+#[test]
+fn cameras_of_photographs() {
+    assert_refused(
+        "vkernel --facets 2x2 -o scene.json
+        echo 'vforward scene.json --reflectance 0.5 --render x.exr \"$@\"' > render",
+        &[
+            case("sh render --eye 0,0", 2, &["--eye", "three numbers"]),
+            case("sh render --eye 1,2,NaN", 2, &["--eye", "three numbers"]),
+            case("sh render --eye 1,2,3 --look-at 1,2,3", 2, &["--eye", "stands where it looks at"]),
+            case("sh render --eye 0,0,5 --look-at 0,0,9", 2, &["--eye", "behind the camera"]),
+            case("sh render --eye 0,0,5 --up 0,0,1", 2, &["--up", "line of sight"]),
+            case("sh render --field-of-view-deg 180", 2, &["--field-of-view-deg", "between 0 and 180"]),
+            case("vforward scene.json --reflectance 0.5 --eye 1,2,3", 2, &["--render"]),
+        ],
+    );
+}

@@ -71,7 +71,7 @@ fn flags_beside_kernels() {
             case("vforward scene.json --kernel good.npy --reflectance 0.5", 2, &["--kernel"]),
             case("vforward --kernel good.npy --reflectance 0.5 --reference-panel 0.5", 1, &["--material"]),
             case("vforward --kernel good.npy --reflectance 0.5 --material a=0.5", 1, &["mesh", "--shape"]),
-            case("vforward --kernel good.npy --reflectance 0.5 --render x.png", 1, &["a fold is needed"]),
+            case("vforward --kernel good.npy --reflectance 0.5 --render x.png", 1, &["a mesh is needed"]),
             case("vforward --kernel good.npy --reflectance 0.5 --material =0.5", 2, &["GROUP=SPEC"]),
             case(
                 "vforward --kernel good.npy --reflectance 0.5 --material a=1 --material a=0",

@@ -48,6 +48,17 @@ END
             case("sh extract photo.exr '332,462 345,77 122,12 a,b'", 2, &["--panel0", "a,b"]),
             case("sh extract photo.exr '332,462 345,77 122,12 NaN,442'", 2, &["--panel0", "corner 4"]),
             case("sh extract photo.exr '332,462 345,77 345,77 104,442'", 2, &["--panel0", "same point"]),
+            case(
+                "sh whole photo.exr --panel 2='332,462 345,77 485,17 472,446'",
+                2,
+                &["--panel", "no flat panel 2", "0, 1"],
+            ),
+            case(
+                "sh whole photo.exr --panel 0='332,462 345,77 485,17 472,446'",
+                2,
+                &["--panel", "panel 0 is given twice"],
+            ),
+            case("sh whole photo.exr --panel '332,462 345,77 485,17 472,446'", 2, &["--panel", "N="]),
             case("sh extract photo.exr ''", 2, &["--panel0", "0 corners"]),
             case(
                 "sh extract photo.exr '932,462 945,77 722,12 704,442'",
@@ -59,7 +70,7 @@ END
             case(
                 "sh whole photo.exr --refine --panel1 '32,462 45,77 85,17 72,446'",
                 2,
-                &["--refine", "crease ends"],
+                &["--refine", "share in different places", "crease"],
             ),
             case("sh whole photo.exr --distortion 0.1,x", 2, &["--distortion", "K1,K2"]),
             case("sh whole photo.exr --distortion=-0.5", 2, &["--distortion", "bends the picture back"]),
@@ -87,7 +98,7 @@ END
             case(
                 "sh whole photo.exr --panel1 '332,462 345,77 122,12 104,442'",
                 2,
-                &["--panel1", "inside panel 0"],
+                &["panels 0 and 1", "over each other"],
             ),
             case("sh whole photo.exr --white-level 0", 2, &["--white-level", "black level"]),
             case("sh whole photo.exr --exposure 0", 2, &["--exposure", "above 0"]),

@@ -4,6 +4,7 @@ mod batch;
 mod calibration;
 mod camera;
 mod list;
+mod panels;
 mod pictures;
 mod placing;
 mod reading;
@@ -23,6 +24,7 @@ use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::geometry::sight::Sight;
 use vfold::image::Photograph;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
@@ -48,7 +50,7 @@ patches, coefficients and residuals.
 
 --regions FILE has the corners for every IMAGE:
   {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
-or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
+or is what vforward printed when it rendered the IMAGE, or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
 without its ending. Corners found in a picture of another size, such as a preview, are scaled
 if \"width\" and \"height\" say its pixels.
 
@@ -121,8 +123,20 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let (id, fold) = (scene.id()?, scene.fold()?);
-    let setup = Setup { args, options, scene: &scene, id, fold, regions, calibration, flat_field };
+    let (id, panels, facet_count) = (scene.id()?, scene.panels()?, scene.facets()?);
+    let sight = if scene.is_fold()? { None } else { Some(Sight::new(&scene.shape()?)) };
+    let setup = Setup {
+        args,
+        options,
+        scene: &scene,
+        id,
+        panels,
+        facet_count,
+        sight,
+        regions,
+        calibration,
+        flat_field,
+    };
     if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FacetMeasurement, Grid, Homography, Photograph, PixelRun, write_overlay, write_preview};
+use vfold::image::{FacetMeasurement, Grid, Photograph, PixelRun, write_overlay, write_preview};
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -57,11 +57,6 @@ impl PictureArgs {
         let left_out: Vec<PixelRun> = facets.iter().flat_map(|facet| facet.left_out.clone()).collect();
         write_overlay(&for_image(file, &name(image)), photograph, grids, &left_out)
     }
-}
-
-/// Panels as grids of facets.
-pub fn facet_grids(panels: &[Homography], row_edges: &[f64], cols: usize) -> Vec<Grid> {
-    panels.iter().map(|panel| Grid::new(panel.clone(), row_edges, cols)).collect()
 }
 
 fn for_image(file: &Path, name: &str) -> PathBuf {

@@ -2,8 +2,10 @@
 
 use clap::Args;
 use vfold::cli;
-use vfold::image::{Homography, Lens, Photograph, Refinement, refine};
+use vfold::image::{Grid, Lens, Photograph, Refinement, refine};
 use vfold::{Error, Result};
+
+use super::panels::MarkedPanels;
 
 #[derive(Args)]
 pub struct PlacingArgs {
@@ -17,7 +19,7 @@ pub struct PlacingArgs {
 
 /// Panels in a photograph.
 pub struct Placed {
-    pub panels: Vec<Homography>,
+    pub grids: Vec<Grid>,
     pub refinement: Option<Refinement>,
     pub distortion: Option<[f64; 2]>,
     pub lens: Lens,
@@ -40,16 +42,16 @@ impl PlacingArgs {
     /// Panels with the given corners, refined if asked for, behind the lens.
     ///
     /// # Errors
-    /// As [`Lens::new`], [`refine`] and [`Homography::through`].
-    pub fn place(&self, photograph: &Photograph, panels: &[Homography]) -> Result<Placed> {
+    /// As [`Lens::new`], [`refine`] and [`MarkedPanels::grids`].
+    pub fn place(&self, photograph: &Photograph, panels: &MarkedPanels) -> Result<Placed> {
         let lens = self.distortion.map(|k| Lens::new(k, photograph.width(), photograph.height()));
         let lens = lens.transpose()?.unwrap_or(Lens::STRAIGHT);
-        let given: Vec<_> = panels.iter().map(|panel| *panel.corners()).collect();
-        let refinement = self.refine.map(|px| refine(photograph, &given, &lens, px)).transpose()?;
-        let corners = refinement.as_ref().map_or(&given, |refinement| &refinement.panels);
-        let panels =
-            corners.iter().map(|corners| Homography::through(lens, *corners)).collect::<Result<_>>()?;
-        Ok(Placed { panels, refinement, distortion: self.distortion, lens })
+        let refinement = self.refine.map(|px| refine(photograph, &panels.marked, &lens, px)).transpose()?;
+        let grids = match &refinement {
+            Some(refinement) => panels.grids(lens, refinement.panels.iter().copied()),
+            None => panels.grids(lens, panels.marked.iter().map(|panel| panel.corners)),
+        };
+        Ok(Placed { grids: grids?, refinement, distortion: self.distortion, lens })
     }
 }
 
@@ -64,7 +66,7 @@ pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
         let moved: Vec<_> = refinement.moved_px.iter().map(panel).collect();
         let missing = if missing.is_empty() { String::new() } else { format!("; no edge at {missing}") };
         cli::say("vextract", &format!("{name}: corners moved by {} px{missing}", moved.join(" / ")));
-    } else if !quiet && refinement.sides_without_edge.iter().any(|side| *side != "crease") {
+    } else if !quiet && refinement.sides_without_edge.iter().any(|side| !side.starts_with("crease")) {
         let remedy = "look at --overlay";
         cli::say("vextract", &format!("{name}: no edge at {missing}, which stay where they are; {remedy}"));
     }

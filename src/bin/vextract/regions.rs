@@ -1,10 +1,11 @@
 //! Where the panels are in a photograph.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use vfold::image::{CHART_CORNERS, Homography, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
-use vfold::stream::{Regions, RegionsFile};
+use vfold::image::{CHART_CORNERS, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
+use vfold::stream::{Corners, Regions, RegionsFile};
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -14,12 +15,15 @@ use vfold::{Error, Result};
     group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
 )]
 pub struct RegionArgs {
-    /// Corners of panel 0
-    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "regions", "preview"], allow_hyphen_values = true)]
+    /// Corners of panel 0; facets of panels without corners are null
+    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "panel", "panel1", "regions", "preview"], allow_hyphen_values = true)]
     panel0: Option<String>,
-    /// Corners of panel 1 [default: only panel 0 is measured]
+    /// Corners of panel 1
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel1: Option<String>,
+    /// Corners of panel N, counted from 0 as the scene has them; once for each
+    #[arg(long, value_name = "N=x,y x,y x,y x,y", allow_hyphen_values = true, value_parser = numbered)]
+    panel: Vec<(usize, String)>,
     /// Corners of a colour chart's block of patches, to calibrate with
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
@@ -48,18 +52,36 @@ impl RegionArgs {
             text.as_ref().map(|text| parse_corners(flag, text, names)).transpose()
         };
         let flags = Regions {
-            panel0: corners("--panel0", &self.panel0, &PANEL_CORNERS)?,
-            panel1: corners("--panel1", &self.panel1, &PANEL_CORNERS)?,
+            panels: self.panels()?,
             chart: corners("--chart", &self.chart, &CHART_CORNERS)?,
             white: corners("--white-region", &self.white_region, &WHITE_CORNERS)?,
             ..Regions::default()
         };
         let file = self.regions.as_deref().map(RegionsFile::open).transpose()?;
-        if file.is_none() {
-            panels(&flags)?;
-        }
         Ok(GivenRegions { flags, file })
     }
+
+    fn panels(&self) -> Result<BTreeMap<usize, Corners>> {
+        let named = [("--panel0", 0, &self.panel0), ("--panel1", 1, &self.panel1)];
+        let named = named.into_iter().filter_map(|(flag, number, text)| Some((flag, number, text.as_ref()?)));
+        let mut panels = BTreeMap::new();
+        for (flag, number, text) in
+            named.chain(self.panel.iter().map(|(number, text)| ("--panel", *number, text)))
+        {
+            if panels.insert(number, parse_corners(flag, text, &PANEL_CORNERS)?).is_some() {
+                return Err(Error::usage(flag, format!("panel {number} is given twice"), "keep one"));
+            }
+        }
+        Ok(panels)
+    }
+}
+
+/// Parses `2=x,y x,y x,y x,y`.
+fn numbered(text: &str) -> std::result::Result<(usize, String), String> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(number, corners)| Some((number.trim().parse().ok()?, corners.to_owned())));
+    parts.ok_or_else(|| "write N=\"x,y x,y x,y x,y\", N the panel's number from 0".to_owned())
 }
 
 /// Regions from the command line, and those from a file.
@@ -80,25 +102,4 @@ impl GivenRegions {
             None => Ok(self.flags.clone()),
         }
     }
-}
-
-/// Where each panel lies.
-///
-/// # Errors
-/// [`Error::Usage`] if there is no panel 0, or the panels are not side by side.
-pub fn panels(regions: &Regions) -> Result<Vec<Homography>> {
-    let Some(panel0) = regions.panel0 else {
-        return Err(Error::usage("--regions", "there is no 'panel0' in it", "add it or give --panel0"));
-    };
-    let panels = [Some(panel0), regions.panel1];
-    let panels: Vec<_> =
-        panels.into_iter().flatten().map(Homography::from_unit_square).collect::<Result<_>>()?;
-    if let [panel0, panel1] = panels.as_slice() {
-        let (u, v) = panel0.to_panel(panel1.to_image(0.5, 0.5));
-        if (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
-            let problem = "the middle of panel 1 lies inside panel 0";
-            return Err(Error::usage("--panel1", problem, "the panels meet at the crease and nowhere else"));
-        }
-    }
-    Ok(panels)
 }

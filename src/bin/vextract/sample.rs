@@ -1,19 +1,24 @@
 //! From a photograph to its sample.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use vfold::cli;
-use vfold::geometry::Fold;
-use vfold::image::{FacetMeasurement, FlatField, Photograph, ReadOptions, measure, pixels_sharing_noise};
+use vfold::geometry::Panel;
+use vfold::geometry::sight::Sight;
+use vfold::image::{
+    FacetMeasurement, FlatField, Homography, Photograph, ReadOptions, measure, pixels_sharing_noise,
+};
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::calibration::{GivenCalibration, apply};
-use super::pictures::{facet_grids, name};
+use super::panels::MarkedPanels;
+use super::pictures::name;
 use super::placing;
-use super::regions::{GivenRegions, panels};
+use super::regions::GivenRegions;
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
@@ -21,7 +26,10 @@ pub struct Setup<'a> {
     pub options: ReadOptions,
     pub scene: &'a Scene,
     pub id: String,
-    pub fold: Fold,
+    pub panels: BTreeMap<usize, Panel>,
+    pub facet_count: usize,
+    /// Of a surface whose panels may hide each other.
+    pub sight: Option<Sight>,
     pub regions: GivenRegions,
     pub calibration: GivenCalibration,
     pub flat_field: Option<Arc<FlatField>>,
@@ -35,18 +43,25 @@ impl Setup<'_> {
         };
         let args = self.args;
         let regions = self.regions.of(path, &photograph)?;
-        let placed = args.placing.place(&photograph, &panels(&regions)?)?;
-        let (grid, margin) = (self.fold.facets(), args.regions.margin);
-        let row_edges = self.fold.spacing().edges(grid.rows);
-        let sharing_noise = pixels_sharing_noise(&photograph, &placed.panels);
-        let facets = measure(&photograph, &placed.panels, &row_edges, grid.cols, margin)?;
-        let mut facets: Vec<_> =
-            facets.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
-        let mut grids = facet_grids(&placed.panels, &row_edges, grid.cols);
+        let panels = MarkedPanels::new(&self.panels, &regions)?;
+        let placed = args.placing.place(&photograph, &panels)?;
+        let margin = args.regions.margin;
+        let outlines: Vec<Homography> = placed.grids.iter().map(|grid| grid.outline.clone()).collect();
+        let sharing_noise = pixels_sharing_noise(&photograph, &outlines);
+        let measured = measure(&photograph, &placed.grids, margin)?;
+        let mut measured: Vec<_> =
+            measured.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
+        if let Some(sight) = &self.sight {
+            let hidden = panels.hidden(sight, &placed.grids, placed.lens);
+            let of_hidden = measured.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden);
+            of_hidden.for_each(|(facet, _)| *facet = FacetMeasurement::unseen());
+        }
+        let mut facets = panels.in_scene(measured, self.facet_count);
+        let mut grids = placed.grids.clone();
         grids.extend(self.calibration.grid(&regions, placed.lens)?);
         args.pictures.overlay(path, &photograph, &grids, &facets)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
-            let remedy = "check --panel0, --panel1, --margin and the white level";
+            let remedy = "check the panels' corners, --margin and the white level";
             return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
         }
         let calibrated = self.calibration.calibrate(self.scene, &regions, placed.lens, path, &photograph)?;
@@ -58,9 +73,9 @@ impl Setup<'_> {
             apply(calibration, &mut facets);
             sample.set_calibration(record)?;
         }
-        let image = ImageRecord::new(path, photograph.info(), &placed.panels, margin, &sharing_noise)
+        let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &sharing_noise)
             .with_placing(placed.distortion, placed.refinement.as_ref());
-        sample.set_photograph(&image, &facets, 2 * grid.len())?;
+        sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
             placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
         }

@@ -51,8 +51,7 @@ impl Target {
 
     /// Its patches between `corners`.
     pub fn grid(&self, lens: Lens, corners: Corners) -> Result<Grid> {
-        let row_edges: Vec<f64> = (0..=self.rows).map(|edge| edge as f64 / self.rows as f64).collect();
-        Ok(Grid::new(Homography::through(lens, corners)?, &row_edges, self.cols))
+        Ok(Grid::even(Homography::through(lens, corners)?, [self.rows, self.cols]))
     }
 
     /// The calibration by this target between `corners`.

@@ -1,6 +1,7 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
 mod nonuniform;
+mod render;
 mod setup;
 mod subject;
 
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use render::RenderArgs;
 use setup::Setup;
 use subject::Subject;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
@@ -64,12 +66,8 @@ struct Args {
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
-    #[arg(long, value_name = "FILE")]
-    render: Option<PathBuf>,
-    /// Size of the photograph
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
-    render_size: (usize, usize),
+    #[command(flatten)]
+    render: RenderArgs,
     #[command(flatten)]
     materials: MaterialArgs,
     #[command(flatten)]
@@ -119,9 +117,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                     scene.set_materials(&materials)?;
                 }
                 let setup = Setup::new(args, noise, &scene, given.as_ref()).map_err(|e| reader.at(e))?;
-                setup.photograph(&subject)?;
+                let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
-                setup.samples(&subject, out)?;
+                setup.samples(&subject, &seen, out)?;
             }
             other => out.record(&other)?,
         }

@@ -1,6 +1,7 @@
 //! `--light`, `--sky-type`, `--zenith`: sources of light around any surface.
 
 use clap::{Args, ValueEnum};
+use vfold::cli::vector;
 use vfold::geometry::{LightSource, Shape, Vec3};
 use vfold::{Error, Result};
 
@@ -123,9 +124,4 @@ fn light(text: &str) -> std::result::Result<LightArg, String> {
     let (place, irradiance) = rest.split_once(':').unwrap_or((rest, "1"));
     let (place, irradiance) = (vector(place).map_err(|_| wrong())?, irradiance.parse().map_err(|_| wrong())?);
     Ok(if is_point { LightArg::Point(place, irradiance) } else { LightArg::Directional(place, irradiance) })
-}
-
-fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| "write X,Y,Z, three numbers".to_owned())
 }

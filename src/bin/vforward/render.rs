@@ -1,0 +1,68 @@
+//! The photograph that `--render` asks for.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use nalgebra::Vector3;
+use vfold::Result;
+use vfold::cli;
+use vfold::forward::render::{Frame, Viewpoint};
+use vfold::stream::Corners;
+
+#[derive(Args)]
+#[command(next_help_heading = "Photograph")]
+pub struct RenderArgs {
+    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
+    #[arg(long, value_name = "FILE")]
+    pub render: Option<PathBuf>,
+    /// Size of the photograph
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
+    render_size: (usize, usize),
+    /// Where the camera stands, in the unit of the panels [default: off by a few degrees from where the sun is]
+    #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
+    eye: Option<Vector3<f64>>,
+    /// What it looks at [default: the middle]
+    #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
+    look_at: Option<Vector3<f64>>,
+    /// What points upwards in the photograph [default: the crease]
+    #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
+    up: Option<Vector3<f64>>,
+    /// Angle over the photograph's width [default: it is cut to what it shows]
+    #[arg(long, value_name = "DEG", requires = "render", allow_negative_numbers = true)]
+    field_of_view_deg: Option<f64>,
+}
+
+impl RenderArgs {
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn frame(&self) -> Result<Frame> {
+        Frame::new(self.render_size.0, self.render_size.1)
+    }
+
+    /// Width and height, px.
+    pub fn size(&self) -> [usize; 2] {
+        [self.render_size.0, self.render_size.1]
+    }
+
+    pub fn viewpoint(&self) -> Viewpoint {
+        let Self { eye, look_at, up, field_of_view_deg, .. } = *self;
+        Viewpoint { eye, look_at, up, field_of_view_deg }
+    }
+}
+
+/// Says how vextract is told where the panels are.
+pub fn say_corners(path: &Path, panels: &[(usize, Corners)]) {
+    let flag = |(number, corners): &(usize, Corners)| {
+        let corners = corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" ");
+        match number {
+            0 | 1 => format!("--panel{number} \"{corners}\""),
+            _ => format!("--panel {number}=\"{corners}\""),
+        }
+    };
+    let flags: Vec<String> = panels.iter().map(flag).collect();
+    cli::say("vforward", &format!("{} has its corners at {}", path.display(), flags.join(" ")));
+}
+
+fn point(text: &str) -> std::result::Result<Vector3<f64>, String> {
+    cli::vector(text).map(Vector3::from)
+}

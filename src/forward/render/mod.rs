@@ -1,0 +1,11 @@
+//! Photographs of what is lit: a pinhole camera, and the light along its lines of sight.
+
+mod fold;
+mod picture;
+mod pinhole;
+mod shape;
+
+pub use fold::FoldView;
+pub use picture::Picture;
+pub use pinhole::{Frame, Pinhole, Stand, Viewpoint};
+pub use shape::ShapeView;

@@ -1,0 +1,179 @@
+//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one a photograph, or a stream of vforward,
+//! whose samples have them in their field `regions`.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{Fields, Regions, json_file};
+use crate::error::{Error, Result};
+
+const EXAMPLE: &str = "{\"panel0\": [[x, y], [x, y], [x, y], [x, y]], ..} or a list of such objects";
+
+/// A file of regions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionsFile {
+    path: String,
+    /// One that holds for every photograph, or one a photograph.
+    entries: Vec<Regions>,
+    is_list: bool,
+}
+
+impl RegionsFile {
+    /// Reads a file of regions.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON; [`Error::Regions`], with the field, if
+    /// it is not as this module says.
+    ///
+    /// # Example
+    /// ```
+    /// use std::path::Path;
+    /// use vfold::stream::RegionsFile;
+    /// let folder = tempfile::tempdir().unwrap();
+    /// let path = folder.path().join("regions.json");
+    /// std::fs::write(&path, r#"{"panel0": [[0, 0], [9, 0], [9, 9], [0, 9]], "width": 10, "height": 10}"#).unwrap();
+    /// let file = RegionsFile::open(&path)?;
+    /// let regions = file.of(Path::new("photo.tif"), [100, 100])?; // ten times as large
+    /// assert_eq!(regions.panels[&0][1].x, 90.0);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn open(path: &Path) -> Result<Self> {
+        let path = path.display().to_string();
+        let values: Vec<Value> = json_file::read_all(&path, EXAMPLE)?;
+        let in_a_list = values.iter().any(Value::is_array);
+        let objects: Vec<Value> = values.into_iter().flat_map(objects).collect();
+        if objects.is_empty() {
+            return Err(Error::regions(&path, "there are no regions in it", format!("write {EXAMPLE}")));
+        }
+        let is_list = in_a_list || objects.len() > 1;
+        let entry = |(n, object): (usize, Value)| {
+            let Value::Object(map) = object else {
+                let problem = format!("entry {n} is no object");
+                return Err(Error::regions(&path, problem, format!("write {EXAMPLE}")));
+            };
+            Regions::from_fields(&path, &Fields(map))
+        };
+        let entries = objects.into_iter().enumerate().map(entry).collect::<Result<Vec<_>>>()?;
+        let file = Self { path, entries, is_list };
+        if is_list { file.check_names() } else { Ok(()) }.map(|()| file)
+    }
+
+    /// Every entry of a list needs a name of its own.
+    fn check_names(&self) -> Result<()> {
+        let mut seen = HashSet::new();
+        for (n, entry) in self.entries.iter().enumerate() {
+            let Some(image) = &entry.image else {
+                let problem = format!("entry {n} of the list has no field 'image'");
+                return Err(Error::regions(&self.path, problem, "name its photograph"));
+            };
+            if !seen.insert(image) {
+                let problem = format!("field 'image': '{image}' comes twice");
+                return Err(Error::regions(&self.path, problem, "keep one of the two entries"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The regions of the photograph `image`, scaled to its upright `size`, px.
+    ///
+    /// # Errors
+    /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of another shape.
+    pub fn of(&self, image: &Path, size: [usize; 2]) -> Result<Regions> {
+        let names = [image.file_name(), image.file_stem()].map(|name| name.and_then(|name| name.to_str()));
+        let named = |name: &Option<&str>| self.entries.iter().find(|entry| entry.image.as_deref() == *name);
+        let entry = if self.is_list {
+            names.iter().filter(|name| name.is_some()).find_map(named)
+        } else {
+            self.entries.first()
+        };
+        let entry = entry.ok_or_else(|| {
+            let problem = format!("no entry of the list has '{}' as its 'image'", image.display());
+            Error::regions(&self.path, problem, "add one; names are compared without folders")
+        })?;
+        entry.scaled_to(&self.path, size)
+    }
+}
+
+/// The objects in a JSON value: those of a list, the regions of a record, or itself.
+fn objects(value: Value) -> Vec<Value> {
+    match value {
+        Value::Array(objects) => objects,
+        Value::Object(mut record) if record.contains_key("kind") => {
+            record.remove("regions").into_iter().collect()
+        }
+        object => vec![object],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use super::*;
+    use crate::image::Point;
+
+    const SQUARE: &str = "[[0,0],[8,0],[8,8],[0,8]]";
+
+    fn open(text: &str) -> Result<RegionsFile> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        RegionsFile::open(file.path())
+    }
+
+    fn refused(text: &str) -> String {
+        open(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_fault_is_named_with_its_field() {
+        assert!(refused("").contains("no regions in it") && refused("[]").contains("no regions in it"));
+        assert!(refused("{").contains("EOF while parsing"));
+        assert!(refused("7").contains("entry 0 is no object"));
+        assert!(
+            refused(r#"{"panle0": 1}"#)
+                .contains("no field 'panle0'; the fields are panel0, panel1, .., chart")
+        );
+        assert!(refused(r#"{"panel0": [[0,0],[8,0],[8,8]]}"#).contains("field 'panel0': invalid length 3"));
+        assert!(
+            refused(r#"{"chart": [[0,0],[8,8],[8,0],[0,8]]}"#).contains("field 'chart': the sides cross")
+        );
+        assert!(refused(r#"{"white": [[0,0],[8,0],[8,8],[0,"8"]]}"#).contains("field 'white': invalid type"));
+        assert!(refused(r#"{"width": 10}"#).contains("'width' and 'height'"));
+        assert!(refused(r#"{"width": 10, "height": -1}"#).contains("field 'height'"));
+        assert!(refused(r#"[{"image": 3}]"#).contains("field 'image'"));
+        assert!(refused(r#"[{"image": "a.tif"}, {}]"#).contains("entry 1 of the list has no field 'image'"));
+        assert!(refused(r#"[{"image": "a"}, {"image": "a"}]"#).contains("'a' comes twice"));
+    }
+
+    #[test]
+    fn a_list_is_searched_by_name_and_an_object_holds_for_all() {
+        let list = open(&format!(r#"[{{"image": "a", "panel0": {SQUARE}}}, {{"image": "b.tif"}}]"#)).unwrap();
+        let of = |name: &str| list.of(Path::new(name), [9, 9]);
+        assert!(
+            of("folder/a.png").unwrap().panels.contains_key(&0) && of("b.tif").unwrap().panels.is_empty()
+        );
+        assert!(of("b.png").unwrap_err().to_string().contains("'b.png'"));
+        let all = open(&format!(r#"{{"image": "a.tif", "panel0": {SQUARE}, "panel1": null}}"#)).unwrap();
+        assert!(all.of(Path::new("b.tif"), [9, 9]).unwrap().panels.contains_key(&0));
+    }
+
+    #[test]
+    fn a_stream_has_them_in_its_samples() {
+        let sample = |regions: &str| format!("{{\"kind\": \"sample\"{regions}}}\n");
+        let marked = sample(&format!(", \"regions\": {{\"image\": \"w.exr\", \"panel3\": {SQUARE}}}"));
+        let stream = open(&format!("{{\"kind\": \"scene\"}}\n{marked}{}", sample(""))).unwrap();
+        assert!(stream.of(Path::new("noisy.tif"), [9, 9]).unwrap().panels.contains_key(&3));
+        assert!(refused(&sample("")).contains("no regions in it"));
+    }
+
+    #[test]
+    fn corners_of_a_preview_are_scaled_and_those_of_a_crop_refused() {
+        let file = open(&format!(r#"{{"panel0": {SQUARE}, "width": 1024, "height": 683}}"#)).unwrap();
+        let corners = file.of(Path::new("a"), [6000, 4000]).unwrap().panels[&0];
+        assert_eq!(corners[2], Point::new(8.0 * 6000.0 / 1024.0, 8.0 * 4000.0 / 683.0));
+        let crop = file.of(Path::new("a"), [6000, 3900]).unwrap_err().to_string();
+        assert!(crop.contains("1024 x 683 px") && crop.contains("6000 x 3900 px"), "{crop}");
+    }
+}
