@@ -49,7 +49,9 @@ fn the_overview_is_of_this_version() {
 const SETUP: &str = concat!(
     "cp '",
     env!("CARGO_MANIFEST_DIR"),
-    "/tests/data/photos/a_ideal_magenta_50.exr' photo.exr",
+    "/tests/data/photos/a_ideal_magenta_50.exr' photo.exr\ncp '",
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/data/shapes/corner.obj' .",
     r#"
 vkernel --angle-deg 50 -o scene.json
 cp photo.exr 1.exr; cp photo.exr 2.exr

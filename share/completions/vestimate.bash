@@ -23,7 +23,7 @@ _vestimate() {
 
     case "${cmd}" in
         vestimate)
-            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --reference-panel --start --plot --spectra --trace --method --components --basis --plan --reflectance --camera --illuminant --sky-illuminant --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --reference-panel --start --plot --spectra --trace --method --components --basis --plan --reflectance --camera --illuminant --sky-illuminant --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -98,6 +98,22 @@ _vestimate() {
                     return 0
                     ;;
                 --sky-illuminant)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --material)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --kernel)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --irradiance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --areas)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -19,8 +19,12 @@ complete -c vestimate -l components -d 'Components that a spectrum is combined o
 complete -c vestimate -l basis -d 'Spectra that have the components [default: munsell]' -r
 complete -c vestimate -l reflectance -d 'Reflectances that will be photographed [default: cc24]' -r
 complete -c vestimate -l camera -d 'Camera of a scene that has none [default: canon-5d-mark-ii]' -r
-complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each [default: D65]' -r
+complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one a light as for vforward [default: D65]' -r
 complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r
+complete -c vestimate -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
+complete -c vestimate -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
+complete -c vestimate -l irradiance -d 'Direct light: a number a facet, or a row of them a source [default: 1 everywhere]' -r -F
+complete -c vestimate -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
 complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vestimate -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r

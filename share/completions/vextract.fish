@@ -1,11 +1,12 @@
 complete -c vextract -l files-from -d 'More photographs: a file with a name a line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
 complete -c vextract -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph\'s EXIF]' -r
-complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each' -r
+complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside' -r
 complete -c vextract -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
 complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
-complete -c vextract -l panel0 -d 'Corners of panel 0' -r
-complete -c vextract -l panel1 -d 'Corners of panel 1 [default: only panel 0 is measured]' -r
+complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null' -r
+complete -c vextract -l panel1 -d 'Corners of panel 1' -r
+complete -c vextract -l panel -d 'Corners of panel N, counted from 0 as the scene has them; once for each' -r
 complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, to calibrate with' -r
 complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
 complete -c vextract -l regions -d 'JSON file of corners, see below; the flags above win over it' -r -F

@@ -23,7 +23,7 @@ _vkernel() {
 
     case "${cmd}" in
         vkernel)
-            opts="-o -j -q -v -h -V --angle-deg --panel --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --angle-deg --panel --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --shape --two-sided --folds --ridge-deg --bow --bow-deg --light --sky-type --zenith --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -86,6 +86,38 @@ _vkernel() {
                     return 0
                     ;;
                 --id)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --shape)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --folds)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --ridge-deg)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --bow-deg)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --bow)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --light)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --sky-type)
+                    COMPREPLY=($(compgen -W "uniform overcast" -- "${cur}"))
+                    return 0
+                    ;;
+                --zenith)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

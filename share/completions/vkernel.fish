@@ -11,12 +11,20 @@ complete -c vkernel -l sampling -d 'Monte Carlo from pairs of points even over t
 cosine\t'Rays with the cosine law'"
 complete -c vkernel -l samples -d 'Pairs of points a distinct entry, or rays a row of facets [default: 10000]' -r
 complete -c vkernel -l seed -d 'Seed of the samples [default: 0]' -r
-complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed, one flat patch a facet (the paper\'s model), or given patches [default: auto; facets unless --method is exact]' -r
-complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold]' -r
+complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed, one flat patch a facet (the paper\'s model), given patches, or on a shape so many cells along each side of a facet [default: auto; facets unless --method is exact]' -r
+complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, for reflectances up to 0.9]' -r
 complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
 complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
+complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 22000' -r -F
+complete -c vkernel -l folds -d 'Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases' -r
+complete -c vkernel -l ridge-deg -d 'Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]' -r
+complete -c vkernel -l bow-deg -l bow -d 'Panels curved in an arc: degrees by which each turns away from the other between the crease, where the angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough' -r
+complete -c vkernel -l light -d 'A light, repeated for several: direction X,Y,Z towards the sun, or point:X,Y,Z, a lamp there; a number after another colon is its irradiance on a plane facing it (of a lamp: in the middle of the shape), 1 if there is none. none: the sky alone [default: 0,0,1]' -r
+complete -c vkernel -l sky-type -d 'Sky of --sky on a shape: alike in all directions, or that of a dull day (CIE), dark below the horizon' -r -f -a "uniform\t'Alike in all directions'
+overcast\t'That of a dull day'"
+complete -c vkernel -l zenith -d 'Direction X,Y,Z to the zenith of an overcast sky [default: 0,0,1]' -r
 complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vkernel -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r
@@ -32,6 +40,7 @@ complete -c vkernel -l list -d 'Print the built-in spectra of a kind, and your o
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vkernel -l check -d 'Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit status 1 if one is broken'
+complete -c vkernel -l two-sided -d 'The surface of --shape reflects on both sides: the backs are as many facets again'
 complete -c vkernel -s q -l quiet -d 'Say nothing but errors'
 complete -c vkernel -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vkernel -l no-history -d 'Do not record this tool\'s arguments in the stream'

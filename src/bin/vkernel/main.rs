@@ -23,8 +23,8 @@ use vfold::{Error, Result};
     version,
     after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
                   vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json\n  \
-                  vkernel --angle-deg 30 --method midpoint --check\n  \
-                  vkernel --shape bowl.obj --light 1,0,2 | vforward --reflectance cc24 | vestimate\n  \
+                  vkernel --angle-deg 1 --check\n  \
+                  vkernel --shape corner.obj --light 1,1,2 | vforward --reflectance cc24 | vestimate\n  \
                   vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
 )]
 struct Args {
