@@ -4,6 +4,7 @@
 //! built here ([`accordion`]). [`Panel`]s are what photographs of either are measured by.
 
 pub mod accordion;
+mod faces;
 pub mod fold;
 pub mod light;
 pub mod merged;

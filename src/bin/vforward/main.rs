@@ -1,6 +1,7 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
 mod nonuniform;
+mod photograph;
 mod render;
 mod setup;
 mod subject;

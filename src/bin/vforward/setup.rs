@@ -1,21 +1,17 @@
-//! Samples and photographs of what is folded, in one scene.
+//! Samples of what is folded, in one scene.
 
 use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
-use vfold::camera::CameraResponse;
-use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::forward::FacetModel;
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
-use vfold::forward::render::{FoldView, Picture, ShapeView};
-use vfold::forward::{FacetModel, Lighting};
 use vfold::parallel::{Item, in_order};
 use vfold::stream::{Corners, GivenKernel, Output, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::nonuniform::Nonuniform;
-use super::render::say_corners;
 use super::subject::{Sheet, Subject};
 
 /// Samples a thread that are computed before the first of them is written.
@@ -23,12 +19,12 @@ const AHEAD: usize = 16;
 
 /// What the samples of one scene need.
 pub struct Setup<'a> {
-    args: &'a Args,
-    scene: &'a Scene,
+    pub(super) args: &'a Args,
+    pub(super) scene: &'a Scene,
     given: Option<&'a GivenKernel>,
-    noise: Noise,
-    bounces: Bounces,
-    model: FacetModel,
+    pub(super) noise: Noise,
+    pub(super) bounces: Bounces,
+    pub(super) model: FacetModel,
 }
 
 impl<'a> Setup<'a> {
@@ -103,76 +99,5 @@ impl<'a> Setup<'a> {
         sample.set_facets(&rows(&values), sd.as_ref(), self.scene.pictures()?)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
-    }
-
-    /// Takes the photograph that `--render` asks for, of the first sheet; where the panels are in it.
-    pub fn photograph(&self, subject: &Subject) -> Result<Vec<(usize, Corners)>> {
-        let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render.render, subject) else {
-            return Ok(Vec::new());
-        };
-        let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let reflectance = &sheets[0].spectrum.reflectance;
-        let (mut picture, seen) = if self.scene.is_fold()? {
-            self.fold_picture(for_screen, reflectance)?
-        } else {
-            self.shape_picture(for_screen, reflectance)?
-        };
-        self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
-        if for_screen {
-            picture.save_for_screen(path)?;
-        } else {
-            picture.save(path)?;
-        }
-        if !self.args.common.quiet {
-            say_corners(path, &seen);
-        }
-        Ok(seen)
-    }
-
-    fn fold_picture(
-        &self,
-        for_screen: bool,
-        reflectance: &[f64],
-    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
-        let eye = self.eye()?;
-        let render = &self.args.render;
-        let view = FoldView::new(&self.scene.fold()?, &render.viewpoint(), render.frame()?)?;
-        let lighting = if for_screen {
-            Lighting { light: self.scene.light()?, sun: eye.clone(), sky: eye }
-        } else {
-            self.scene.lighting()?
-        };
-        let model = self.scene.fine_model(view.grid(), &lighting)?;
-        Ok((view.take(&self.light(&model, reflectance)), view.corners()))
-    }
-
-    fn shape_picture(
-        &self,
-        for_screen: bool,
-        reflectance: &[f64],
-    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
-        let eye = self.eye()?;
-        let (render, sources) = (&self.args.render, self.scene.sources()?);
-        let view = ShapeView::new(&self.scene.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
-        let light = if for_screen {
-            let model = self.scene.surface_model_seen_by(vec![eye; sources.len()])?;
-            self.light(&model, reflectance)
-        } else {
-            self.light(&self.model, reflectance)
-        };
-        Ok((view.take(&light), view.corners()))
-    }
-
-    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> DMatrix<f64> {
-        self.args.exposure * self.bounces.facet_rgb(model, reflectance).0
-    }
-
-    /// The response of an eye that is adapted to the light.
-    fn eye(&self) -> Result<CameraResponse> {
-        let optics = &self.args.optics;
-        let illuminant = optics.one_illuminant("give one with --render: a photograph has one light")?;
-        let illuminant = self.args.common.illuminant(illuminant)?;
-        let eye = Colorimeter::new(&optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
-        Ok(CameraResponse::from_weights(eye.screen_weights()))
     }
 }

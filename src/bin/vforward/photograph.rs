@@ -1,0 +1,86 @@
+//! The photograph of what is folded.
+
+use nalgebra::DMatrix;
+use vfold::Result;
+use vfold::camera::CameraResponse;
+use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::forward::render::{FoldView, Picture, ShapeView};
+use vfold::forward::{FacetModel, Lighting};
+use vfold::stream::Corners;
+
+use super::render::say_corners;
+use super::setup::Setup;
+use super::subject::Subject;
+
+impl Setup<'_> {
+    /// Takes the photograph that `--render` asks for, of the first sheet; where the panels are in it.
+    pub fn photograph(&self, subject: &Subject) -> Result<Vec<(usize, Corners)>> {
+        let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render.render, subject) else {
+            return Ok(Vec::new());
+        };
+        let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        let reflectance = &sheets[0].spectrum.reflectance;
+        let (mut picture, seen) = if self.scene.is_fold()? {
+            self.fold_picture(for_screen, reflectance)?
+        } else {
+            self.shape_picture(for_screen, reflectance)?
+        };
+        self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
+        if for_screen {
+            picture.save_for_screen(path)?;
+        } else {
+            picture.save(path)?;
+        }
+        if !self.args.common.quiet {
+            say_corners(path, &seen);
+        }
+        Ok(seen)
+    }
+
+    fn fold_picture(
+        &self,
+        for_screen: bool,
+        reflectance: &[f64],
+    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
+        let eye = self.eye()?;
+        let render = &self.args.render;
+        let view = FoldView::new(&self.scene.fold()?, &render.viewpoint(), render.frame()?)?;
+        let lighting = if for_screen {
+            Lighting { light: self.scene.light()?, sun: eye.clone(), sky: eye }
+        } else {
+            self.scene.lighting()?
+        };
+        let model = self.scene.fine_model(view.grid(), &lighting)?;
+        Ok((view.take(&self.light(&model, reflectance)), view.corners()))
+    }
+
+    fn shape_picture(
+        &self,
+        for_screen: bool,
+        reflectance: &[f64],
+    ) -> Result<(Picture, Vec<(usize, Corners)>)> {
+        let eye = self.eye()?;
+        let (render, sources) = (&self.args.render, self.scene.sources()?);
+        let view = ShapeView::new(&self.scene.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
+        let light = if for_screen {
+            let model = self.scene.surface_model_seen_by(vec![eye; sources.len()])?;
+            self.light(&model, reflectance)
+        } else {
+            self.light(&self.model, reflectance)
+        };
+        Ok((view.take(&light), view.corners()))
+    }
+
+    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> DMatrix<f64> {
+        self.args.exposure * self.bounces.facet_rgb(model, reflectance).0
+    }
+
+    /// The response of an eye that is adapted to the light.
+    fn eye(&self) -> Result<CameraResponse> {
+        let optics = &self.args.optics;
+        let illuminant = optics.one_illuminant("give one with --render: a photograph has one light")?;
+        let illuminant = self.args.common.illuminant(illuminant)?;
+        let eye = Colorimeter::new(&optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
+        Ok(CameraResponse::from_weights(eye.screen_weights()))
+    }
+}
