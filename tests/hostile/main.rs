@@ -14,6 +14,7 @@ mod lights;
 mod methods;
 mod photographs;
 mod resume;
+mod shapes;
 mod spectra;
 mod streams;
 
