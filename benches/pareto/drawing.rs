@@ -8,6 +8,8 @@ use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use vfold::plot::COLOURS;
+
 use crate::common::{machine, results};
 use crate::marks::{Mark, element};
 use crate::point::{HEAD, Point, front};
@@ -16,16 +18,7 @@ use crate::point::{HEAD, Point, front};
 const SIZE: (u32, u32) = (620, 460);
 /// What others made: what they take is beside the front, not on it.
 const PEERS: [&str; 4] = ["pyviewfactor", "NumPy", "SciPy", "colour-science"];
-/// Okabe and Ito's colours, which colour-blind readers tell apart; peers are black.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(120, 120, 120),
-];
+/// Marks of our own series, in the colours of all drawings; peers are black.
 const OURS: [Mark; 3] = [Mark::Disc, Mark::Ring, Mark::Triangle];
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -110,24 +103,31 @@ fn grid(file: &str, axes: &Axes, points: &[Point]) {
     {
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         root.fill(&WHITE).unwrap();
+        let names: Vec<&str> = grouped(points, |point| &point.series)
+            .into_iter()
+            .map(|(name, _)| name)
+            .filter(|name| !is_peer(name))
+            .collect();
         for (area, (title, points)) in root.split_evenly((rows, columns)).iter().zip(&panels) {
-            panel(area, axes, title, points);
+            panel(area, axes, title, points, &names);
         }
         root.present().unwrap();
     }
     fs::write(results(file), svg).unwrap();
 }
 
-fn panel(area: &Area, axes: &Axes, title: &str, points: &[&Point]) {
+/// A series looks alike in all panels: its place among all `names` of ours says how.
+fn panel(area: &Area, axes: &Axes, title: &str, points: &[&Point], names: &[&str]) {
     let mut chart = frame(area, axes, title, points);
     if axes.joins == Joins::Front {
         let line = front_of_ours(points).into_iter().map(|point| (point.ms, point.error));
         chart.draw_series(LineSeries::new(line, BLACK.mix(0.45).stroke_width(2))).unwrap();
     }
-    let mut styles = COLOURS.into_iter().zip(OURS.into_iter().cycle());
     for (name, points) in grouped(points.iter().copied(), |point| &point.series) {
-        let peer = Some((BLACK, Mark::Cross)).filter(|_| is_peer(name));
-        let (colour, mark) = peer.or_else(|| styles.next()).unwrap();
+        let (colour, mark) = match names.iter().position(|ours| *ours == name) {
+            Some(n) => (COLOURS[n % COLOURS.len()], OURS[n % OURS.len()]),
+            None => (BLACK, Mark::Cross),
+        };
         if axes.joins == Joins::Series {
             let line = points.iter().map(|point| (point.ms, point.error));
             chart.draw_series(LineSeries::new(line, colour.mix(0.5))).unwrap();

@@ -8,20 +8,11 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
+use vfold::plot::COLOURS;
 
 const SIZE: (u32, u32) = (640, 400);
 /// Room above the highest point, for the names of the lines.
 const HEADROOM: f64 = 1.4;
-
-/// Colours told apart by colour-blind readers (Okabe and Ito).
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(0, 0, 0),
-];
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 

@@ -12,7 +12,7 @@ use crate::files::Saved;
 use crate::image::write_srgb_png;
 
 /// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
-pub(super) const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),

@@ -2,3 +2,5 @@
 
 mod figure;
 pub mod spectra;
+
+pub use figure::COLOURS;
