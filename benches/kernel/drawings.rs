@@ -5,6 +5,7 @@ use std::fs;
 use plotters::coord::Shift;
 use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
+use vfold::plot::load_font;
 
 use crate::common::results;
 use crate::marks::{Mark, element};
@@ -107,6 +108,7 @@ fn by_angle(steps: &[Steps], n: usize) -> Vec<Series> {
 }
 
 fn grid(name: &str, axes: &Axes, panels: &[(String, Vec<Series>)]) {
+    load_font();
     let mut svg = String::new();
     {
         let columns = if panels.len() > 4 { 3 } else { 2 };

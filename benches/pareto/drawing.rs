@@ -8,7 +8,7 @@ use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use vfold::plot::COLOURS;
+use vfold::plot::{COLOURS, load_font};
 
 use crate::common::{machine, results};
 use crate::marks::{Mark, element};
@@ -99,6 +99,7 @@ fn grid(file: &str, axes: &Axes, points: &[Point]) {
     let columns = if panels.len() == 3 { 3 } else { panels.len().min(2) };
     let rows = panels.len().div_ceil(columns);
     let size = (SIZE.0 * columns as u32, SIZE.1 * rows as u32);
+    load_font();
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();

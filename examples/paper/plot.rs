@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
-use vfold::plot::COLOURS;
+use vfold::plot::{COLOURS, load_font};
 
 const SIZE: (u32, u32) = (640, 400);
 /// Room above the highest point, for the names of the lines.
@@ -60,6 +60,7 @@ where
     X: AsRangedCoord<Value = f64>,
     X::CoordDescType: ValueFormatter<f64>,
 {
+    load_font();
     let root = SVGBackend::new(out, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&root)

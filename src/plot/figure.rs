@@ -63,10 +63,15 @@ fn png(path: &Path, figure: &impl Figure) -> Result<()> {
     write_srgb_png(path, width as usize, height as usize, &rgb)
 }
 
-fn draw_on<B: DrawingBackend>(backend: B, figure: &impl Figure) -> Drawn<B> {
-    static FONTS: Once = Once::new();
+/// Makes the font of all drawings, "sans-serif", known to plotters, which measures text in it; again does no harm.
+pub fn load_font() {
+    static FONT_LOADED: Once = Once::new();
     // fails only for a file that is no font
-    FONTS.call_once(|| drop(register_font(FONT, FontStyle::Normal, dejavu::sans::regular())));
+    FONT_LOADED.call_once(|| drop(register_font(FONT, FontStyle::Normal, dejavu::sans::regular())));
+}
+
+fn draw_on<B: DrawingBackend>(backend: B, figure: &impl Figure) -> Drawn<B> {
+    load_font();
     let area = backend.into_drawing_area();
     area.fill(&WHITE)?;
     figure.draw(&area)?;

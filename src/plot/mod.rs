@@ -3,4 +3,4 @@
 mod figure;
 pub mod spectra;
 
-pub use figure::COLOURS;
+pub use figure::{COLOURS, load_font};
