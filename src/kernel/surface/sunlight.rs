@@ -52,11 +52,12 @@ fn light(
     eye: Eye,
     irradiance: impl Fn(&Polygon, &[Polygon]) -> f64 + Sync,
 ) -> Vec<f64> {
-    let casters = Casters::new(shape.facets(), shape.size());
+    let size = shape.size();
+    let casters = Casters::new(shape.facets(), size);
     let on = |patch: &Patch| {
         let plane = patch.polygon.plane();
         let height = match eye {
-            Eye::Direction(towards) => plane.normal.dot(&towards) * shape.size(),
+            Eye::Direction(towards) => plane.normal.dot(&towards) * size,
             Eye::Point(lamp) => plane.height(&lamp),
         };
         if height <= casters.margin() {
