@@ -152,11 +152,10 @@ fn mesh(text: &str) -> std::result::Result<Mesh, String> {
     match text {
         "auto" => Ok(Mesh::Auto),
         "facets" => Ok(Mesh::Facets),
-        _ if text.parse().is_ok_and(|cells: usize| (1..=100).contains(&cells)) => {
-            text.parse().map(Mesh::Cells).map_err(|_| String::new())
-        }
-        _ => cli::pair(text)
-            .map(|(rows, cols)| Mesh::Patches(FacetGrid { rows, cols }))
-            .map_err(|_| "write auto, facets, patches such as 40x40, or cells such as 4".to_owned()),
+        _ => match (text.parse(), cli::pair(text)) {
+            (Ok(cells @ 1..=100), _) => Ok(Mesh::Cells(cells)),
+            (_, Ok((rows, cols))) => Ok(Mesh::Patches(FacetGrid { rows, cols })),
+            _ => Err("write auto, facets, patches such as 40x40, or cells such as 4".to_owned()),
+        },
     }
 }

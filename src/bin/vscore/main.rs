@@ -79,7 +79,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     let scorer = Scorer::new(args)?;
-    let table = args.table.then(|| Table::new(scorer.score_names()));
+    let table = args.table.then(|| Table::new(scorer.names.clone()));
     let (mut groups, mut curves, mut measured) = (Groups::new(args.by.as_deref()), Vec::new(), Vec::new());
     table.as_ref().map_or(Ok(()), |table| table.header(out))?;
     // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.

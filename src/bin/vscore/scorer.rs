@@ -14,6 +14,8 @@ pub struct Scorer<'a> {
     args: &'a Args,
     illuminants: Vec<Spectrum>,
     metrics: Vec<Metric>,
+    /// The names of the scores that every sample gets, in their order.
+    pub names: Vec<String>,
     truth: Option<Vec<Spectrum>>,
 }
 
@@ -29,30 +31,13 @@ impl<'a> Scorer<'a> {
         let truth = args.truth.as_deref().map(|spec| args.common.reflectances(spec)).transpose()?;
         let illuminants: Vec<_> =
             args.illuminant.iter().map(|spec| args.common.illuminant(spec)).collect::<Result<_>>()?;
-        let scorer = Self { args, metrics: metrics(args)?, illuminants, truth };
-        let mut names = scorer.score_names();
-        names.sort_unstable();
-        if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-            let problem = format!("'{}' is asked for twice", twice[0]);
+        let metrics = metrics(args)?;
+        let names = score_names(&metrics, &illuminants);
+        if let Some((_, twice)) = names.iter().enumerate().find(|(n, name)| names[..*n].contains(name)) {
+            let problem = format!("'{twice}' is asked for twice");
             return Err(Error::usage("--illuminant, --metrics", problem, "give each once"));
         }
-        Ok(scorer)
-    }
-
-    /// The names of the scores that every sample gets, in their order.
-    pub fn score_names(&self) -> Vec<String> {
-        let others = || self.illuminants[1..].iter().map(Spectrum::name);
-        let names = self.metrics.iter().map(|metric| match metric {
-            Metric::Ciede2000 => {
-                let first = metric.name().to_owned();
-                std::iter::once(first)
-                    .chain(others().map(|light| format!("{}_{light}", metric.name())))
-                    .collect()
-            }
-            Metric::Metamerism => others().map(|light| format!("{}_{light}", metric.name())).collect(),
-            _ => vec![metric.name().to_owned()],
-        });
-        names.collect::<Vec<Vec<String>>>().concat()
+        Ok(Self { args, metrics, names, illuminants, truth })
     }
 
     fn scores(&self, context: &Context, truth: &[f64], estimate: &[f64]) -> Vec<Score> {
@@ -70,7 +55,7 @@ impl<'a> Scorer<'a> {
                 colorimeters[1..].iter().map(index).collect()
             }
         });
-        self.score_names().into_iter().zip(values).map(|(name, value)| Score { name, value }).collect()
+        self.names.iter().zip(values).map(|(name, value)| Score::new(name, value)).collect()
     }
 
     fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<ReflectanceRecord> {
@@ -101,22 +86,15 @@ impl<'a> Scorer<'a> {
     fn add_colour(&self, context: &Context, reflectance: &[f64], sample: &mut Sample) -> Result<()> {
         let meter = &context.colorimeters[0];
         let (covariance, sd) = (sample.estimated_covariance()?, sample.estimated_sd()?);
-        let bands = context.grid.len();
-        if covariance
-            .iter()
-            .flatten()
-            .map(Vec::len)
-            .chain(covariance.iter().map(Vec::len))
-            .any(|n| n != bands)
-        {
-            return Err(Error::field("estimate.covariance", "not on the wavelengths of its scene"));
-        }
+        let fits = |values: &Vec<f64>| values.len() == context.grid.len();
+        let off_grid = |field| Error::field(field, "not on the wavelengths of its scene");
         let errors = match (&covariance, &sd) {
-            (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
-            (None, Some(sd)) if sd.len() == bands => Some(ErrorBars::Deviations(sd)),
-            (None, Some(_)) => {
-                return Err(Error::field("estimate.reflectance_sd", "not on the wavelengths of its scene"));
+            (Some(rows), _) if rows.len() == context.grid.len() && rows.iter().all(fits) => {
+                Some(ErrorBars::Covariance(rows))
             }
+            (Some(_), _) => return Err(off_grid("estimate.covariance")),
+            (None, Some(sd)) if fits(sd) => Some(ErrorBars::Deviations(sd)),
+            (None, Some(_)) => return Err(off_grid("estimate.reflectance_sd")),
             (None, None) => None,
         };
         let observer = match self.args.observer {
@@ -155,6 +133,20 @@ impl Transform for Scorer<'_> {
         sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
         if self.args.colour { self.add_colour(context, &estimate.reflectance, sample) } else { Ok(()) }
     }
+}
+
+/// The names of the scores of `metrics`: those under other illuminants than the first have its name.
+fn score_names(metrics: &[Metric], illuminants: &[Spectrum]) -> Vec<String> {
+    let others = |metric: &Metric| {
+        let metric = metric.name();
+        illuminants[1..].iter().map(move |light| format!("{metric}_{}", light.name()))
+    };
+    let mut names = Vec::new();
+    for metric in metrics {
+        names.extend((*metric != Metric::Metamerism).then(|| metric.name().to_owned()));
+        names.extend(others(metric).filter(|_| matches!(metric, Metric::Ciede2000 | Metric::Metamerism)));
+    }
+    names
 }
 
 /// What is to be scored.
