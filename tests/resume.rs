@@ -50,6 +50,8 @@ fn however_often_it_was_killed() {
                 [ $(wc -l < out.ndjson) = $want ] && break || sleep 0.1
             done
             kill -9 $tool $feeder
+            # the file is free once the tool has ended
+            wait $tool 2>/dev/null || :
             wc -l < out.ndjson
         done
         vestimate - --resume out.ndjson < samples.ndjson || [ $? = 3 ]
