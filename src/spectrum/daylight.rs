@@ -3,7 +3,8 @@
 //! CIE 15:2018, section 4.1.2: chromaticity from the temperature, then a mean and two characteristic vectors of
 //! measured daylight, S(λ) = S0(λ) + M1 S1(λ) + M2 S2(λ).
 
-use super::{Spectrum, library};
+use super::Spectrum;
+use super::tables::builtin;
 use crate::error::{Error, Result};
 
 /// Daylight of the correlated colour temperature `cct_k`, in K, 100 at 560 nm, on 300..830 nm.
@@ -24,7 +25,7 @@ pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
         });
     }
     let (m1, m2) = weights(chromaticity(cct_k));
-    let basis = library::builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    let basis = builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
     let [s0, s1, s2] = [0, 1, 2].map(|i| basis[i].values());
     let values = s0.iter().zip(s1).zip(s2).map(|((s0, s1), s2)| s0 + m1 * s1 + m2 * s2).collect();
     // CIE 15 joins the values by lines

@@ -1,31 +1,16 @@
 //! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
 
-use super::nearest::nearest;
-use super::{Spectrum, daylight, formats, munsell, own, spec};
+pub use super::names::What;
+use super::names::{nearest, same_name, unknown};
+use super::tables::builtin;
+use super::{Spectrum, daylight, munsell, own};
 use crate::error::{Error, Result};
-
-/// The kinds of spectra.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
-    /// Camera sensitivities.
-    Cameras,
-    /// Illuminants.
-    Illuminants,
-    /// Reflectances.
-    Reflectances,
-}
 
 /// A table embedded in the program, with the file it was made from.
 macro_rules! shared {
     ($file:literal) => {
         builtin(concat!("share/", $file), include_str!(concat!("../../share/", $file)))
     };
-}
-
-/// The spectra of an embedded CSV text, joined by lines: CIE 15 has it so for its illuminants, and the published figures of this
-/// project for its cameras.
-pub(super) fn builtin(path: &str, text: &str) -> Result<Vec<Spectrum>> {
-    Ok(formats::parse_csv(path, text)?.spectra(path).into_iter().map(Spectrum::linear).collect())
 }
 
 struct Camera {
@@ -147,15 +132,6 @@ fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     Ok(members.into_iter().map(|member| member.renamed(|patch| format!("{set}:{patch}"))).collect())
 }
 
-/// Upper and lower case are the same, and `5R 6/12` is `5R6/12`.
-pub(super) fn same_name(a: &str, b: &str) -> bool {
-    plain(a).eq(plain(b))
-}
-
-fn plain(name: &str) -> impl Iterator<Item = u8> {
-    name.bytes().filter(|&letter| letter != b' ').map(|letter| letter.to_ascii_lowercase())
-}
-
 /// The built-in spectra called `name`: a set, a member, an illuminant, the channels of a camera; `None` if there are
 /// none.
 pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
@@ -180,7 +156,7 @@ fn members_called(name: &str, mut members: Vec<Spectrum>) -> Result<Vec<Spectrum
     }
     match members.iter().position(|member| same_name(member.name(), name)) {
         Some(at) => Ok(vec![members.swap_remove(at)]),
-        None => Err(spec::unknown(What::Reflectances, name, members.iter().map(Spectrum::name))),
+        None => Err(unknown(What::Reflectances, name, members.iter().map(Spectrum::name))),
     }
 }
 

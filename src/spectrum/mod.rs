@@ -10,9 +10,10 @@ mod interpolation;
 mod kinds;
 pub mod library;
 mod munsell;
-mod nearest;
+mod names;
 mod own;
 pub mod spec;
+mod tables;
 
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;

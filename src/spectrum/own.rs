@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::formats::{ENDINGS, has_ending};
-use super::library::same_name;
+use super::names::same_name;
 use crate::error::{Error, Result};
 
 /// The environment variable.

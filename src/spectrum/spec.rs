@@ -6,10 +6,10 @@
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
 use super::kinds::{Sensitivities, bad, check_power, check_reflectance};
-use super::library::{self, What};
-use super::nearest::nearest;
+use super::library;
+use super::names::{What, unknown};
 use super::own::{self, OwnFile};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -184,22 +184,10 @@ fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -
     spectra.into_iter().map(|spectrum| spectrum.renamed(name)).collect()
 }
 
-/// The error for a name that is not among `known`, with the nearest of those.
-pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let (kind, list) = match what {
-        What::Cameras => ("camera", "cameras"),
-        What::Illuminants => ("illuminant", "illuminants"),
-        What::Reflectances => ("reflectance", "reflectances"),
-    };
-    let near = nearest(name, known);
-    let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
-    let hint = format!("{meant}--list {list} shows what there is, a file needs its ending, such as .csv");
-    Error::UnknownName { kind, name: name.to_owned(), hint }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
     use std::fs::write;
 
     /// Runs `test` with the path of a CSV file of that text.

@@ -1,4 +1,39 @@
-//! Names like a mistyped one, for errors.
+//! Names of spectra: which are the same, and which might have been meant.
+
+use crate::error::Error;
+
+/// The kinds of spectra.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// Camera sensitivities.
+    Cameras,
+    /// Illuminants.
+    Illuminants,
+    /// Reflectances.
+    Reflectances,
+}
+
+/// Upper and lower case are the same, and `5R 6/12` is `5R6/12`.
+pub(super) fn same_name(a: &str, b: &str) -> bool {
+    plain(a).eq(plain(b))
+}
+
+fn plain(name: &str) -> impl Iterator<Item = u8> {
+    name.bytes().filter(|&letter| letter != b' ').map(|letter| letter.to_ascii_lowercase())
+}
+
+/// The error for a name that is not among `known`, with the nearest of those.
+pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    let (kind, list) = match what {
+        What::Cameras => ("camera", "cameras"),
+        What::Illuminants => ("illuminant", "illuminants"),
+        What::Reflectances => ("reflectance", "reflectances"),
+    };
+    let near = nearest(name, known);
+    let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
+    let hint = format!("{meant}--list {list} shows what there is, a file needs its ending, such as .csv");
+    Error::UnknownName { kind, name: name.to_owned(), hint }
+}
 
 /// Up to three of `known`, nearest first, that could be meant by `name`: a few letters off, or `name` is part of them.
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
