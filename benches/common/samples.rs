@@ -1,7 +1,8 @@
 //! Samples of a stream, ready to be estimated in process as `vestimate` does.
 
 use vfold::estimate::Exposure;
-use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::data::FacetData;
+use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::unknowns::SceneModel;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};

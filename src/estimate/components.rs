@@ -5,8 +5,7 @@
 use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessian, State};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::compress::usable_facets;
-use super::data::Measured;
+use super::measured::{Measured, usable_facets};
 use super::smooth::{ITERATION_LIMIT, second_difference_gram, termination};
 use super::{Estimate, Exposure};
 use crate::error::{Error, Result};

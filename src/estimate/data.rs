@@ -4,22 +4,15 @@
 //! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::compress::{compress, sample_terms, sum_of_rows, usable_facets, weighted};
+use super::channels::{ChannelModel, Channels};
+use super::compress::{compress, sample_terms, sum_of_rows, weighted};
+use super::measured::{Measured, usable_facets};
 use crate::error::Result;
 use crate::estimate::Exposure;
 use crate::estimate::unknowns::{Amounts, SceneModel};
-
-/// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
-pub struct Measured<'a> {
-    /// Values.
-    pub rgb: &'a [Option<Vec<f64>>],
-    /// Standard deviations, positive.
-    pub sd: &'a [Option<Vec<f64>>],
-}
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
@@ -29,19 +22,12 @@ pub struct FacetData<'a> {
     scene: Cow<'a, SceneModel>,
     exposure: Exposure,
     values: DVector<f64>,
-    channels: Vec<ChannelModel>,
+    channels: Channels,
     /// Sum of squares that no reflectance explains, and the number of facet values.
     outside: f64,
     count: usize,
     peak: f64,
     sums: SumRule,
-}
-
-/// What one channel's compressed data take of the terms, and the camera's weights: one of each a source.
-#[derive(Clone)]
-struct ChannelModel {
-    sources: Vec<DMatrix<f64>>,
-    weights: Vec<DVector<f64>>,
 }
 
 /// The sum of all facet values: measured, and of the terms of each source.
@@ -133,17 +119,12 @@ impl<'a> FacetData<'a> {
             scene: Cow::Borrowed(scene),
             exposure,
             values: DVector::from_vec(values),
-            channels: models,
+            channels: Channels(models),
             outside,
             count,
             peak,
             sums,
         })
-    }
-
-    /// Compressed data left of all facet values.
-    fn len(&self) -> usize {
-        self.values.len()
     }
 
     /// Root mean square of all residuals, those outside the compressed data included.
@@ -179,7 +160,7 @@ impl<'a> FacetData<'a> {
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
         let terms = self.scene.facets().terms_of(reflectance);
         let amounts = self.scene.amounts(unknowns).values();
-        let values = self.parts_of(&terms) * &amounts;
+        let values = self.channels.parts_of(&terms) * &amounts;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
         Residuals { residuals: &self.values - exposure * values, exposure }
     }
@@ -191,11 +172,11 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [terms, slopes, curvatures] = self.scene.facets().derivatives_of(reflectance);
-        let (amounts, parts) = (self.scene.amounts(unknowns), self.parts_of(&terms));
+        let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
         let values = &parts * &now;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
-        let mut jacobian = self.columns_of(&slopes, &now, by_unknown.ncols());
+        let mut jacobian = self.channels.columns_of(&slopes, &now, by_unknown.ncols());
         jacobian.columns_mut(slopes.ncols(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
         jacobian *= exposure;
         let square = values.norm_squared().max(f64::MIN_POSITIVE);
@@ -220,11 +201,11 @@ impl<'a> FacetData<'a> {
         let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
         let mixed = by_unknown
             .column_iter()
-            .map(|amounts| at.exposure * self.along(multipliers, &at.slopes, &amounts.into_owned()));
+            .map(|amounts| at.exposure * self.channels.along(multipliers, &at.slopes, &amounts.into_owned()));
         let mixed: Vec<_> = mixed.collect();
         Curvature {
-            slopes: at.exposure * self.along(multipliers, &at.slopes, &now),
-            reflectance: at.exposure * self.along(multipliers, &at.curvatures, &now),
+            slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
+            reflectance: at.exposure * self.channels.along(multipliers, &at.curvatures, &now),
             mixed: if mixed.is_empty() {
                 DMatrix::zeros(at.slopes.ncols(), 0)
             } else {
@@ -248,49 +229,10 @@ impl<'a> FacetData<'a> {
         }
     }
 
-    /// Model of the compressed data at exposure 1, each source in the amount 1: datum by source.
-    fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut parts = DMatrix::zeros(self.len(), self.sums.sources.len());
-        self.each_part(|rows, source, compressed, weights| {
-            let mut part = parts.view_mut((rows.start, source), (rows.len(), 1));
-            part.gemm(1.0, compressed, &(terms * weights), 0.0);
-        });
-        parts
-    }
-
-    /// Sum of the sources in these amounts a waveband, and `more` columns of zeros.
-    fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
-        let mut columns = DMatrix::zeros(self.len(), terms.ncols() + more);
-        self.each_part(|rows, source, compressed, weights| {
-            let mut part = compressed * terms;
-            part.column_iter_mut()
-                .zip(weights.iter())
-                .for_each(|(mut column, weight)| column *= amounts[source] * weight);
-            let mut target = columns.view_mut((rows.start, 0), part.shape());
-            target += part;
-        });
-        columns
-    }
-
-    /// `Σ λᵢ` times the model a waveband, without forming its columns.
-    fn along(
-        &self,
-        multipliers: &DVector<f64>,
-        of_terms: &DMatrix<f64>,
-        amounts: &DVector<f64>,
-    ) -> DVector<f64> {
-        let mut along = DVector::zeros(of_terms.ncols());
-        self.each_part(|rows, source, compressed, weights| {
-            let by_term = amounts[source] * compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
-            along += of_terms.tr_mul(&by_term).component_mul(weights);
-        });
-        along
-    }
-
     /// Sum over all facets and channels, a waveband.
     fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
         let mut sum = DVector::zeros(terms.ncols());
-        for channel in &self.channels {
+        for channel in &self.channels.0 {
             for (source, weights) in channel.weights.iter().enumerate() {
                 sum += terms.tr_mul(&(amounts[source] * &self.sums.sources[source])).component_mul(weights);
             }
@@ -311,18 +253,5 @@ impl<'a> FacetData<'a> {
             by_unknown.column_iter().map(|amounts| self.sum_of(terms, &amounts.into_owned()).sum());
         let all: Vec<f64> = by_reflectance.iter().copied().chain(by_unknown).collect();
         DVector::from_vec(all) / self.sum_of(terms, amounts).sum().max(f64::MIN_POSITIVE)
-    }
-
-    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows take of the
-    /// terms, and the camera's weights a waveband.
-    fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
-        let mut start = 0;
-        for channel in &self.channels {
-            let end = start + channel.sources[0].nrows();
-            for (source, compressed) in channel.sources.iter().enumerate() {
-                visit(start..end, source, compressed, &channel.weights[source]);
-            }
-            start = end;
-        }
     }
 }

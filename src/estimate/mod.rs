@@ -1,6 +1,7 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default), [`smooth`] (the paper's), and those of flat sheets
 //! that the paper compares with, [`park`] and [`khan`].
 
+mod channels;
 pub mod classes;
 pub mod components;
 mod compress;
@@ -9,6 +10,7 @@ mod facets;
 pub mod gaussian;
 pub mod khan;
 pub mod map;
+pub mod measured;
 pub mod noise;
 pub mod park;
 pub mod prior;

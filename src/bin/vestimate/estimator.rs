@@ -1,7 +1,8 @@
 //! Estimates of the samples of a stream.
 
 use vfold::estimate::components::FlatSheet;
-use vfold::estimate::data::{FacetData, Measured};
+use vfold::estimate::data::FacetData;
+use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{Quantity, SceneModel};

@@ -1,0 +1,79 @@
+//! What compressed data take of the terms of the reflectance: linear maps, one a channel and source.
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+
+/// What one channel's compressed data take of the terms, and the camera's weights: one of each a source.
+#[derive(Clone)]
+pub struct ChannelModel {
+    pub sources: Vec<DMatrix<f64>>,
+    pub weights: Vec<DVector<f64>>,
+}
+
+/// The channels, their data one after another.
+#[derive(Clone)]
+pub struct Channels(pub Vec<ChannelModel>);
+
+impl Channels {
+    /// Number of compressed data.
+    fn len(&self) -> usize {
+        self.0.iter().map(|channel| channel.sources[0].nrows()).sum()
+    }
+
+    fn sources(&self) -> usize {
+        self.0[0].sources.len()
+    }
+
+    /// Model of the compressed data at exposure 1, each source in the amount 1: datum by source.
+    pub fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut parts = DMatrix::zeros(self.len(), self.sources());
+        self.each_part(|rows, source, compressed, weights| {
+            let mut part = parts.view_mut((rows.start, source), (rows.len(), 1));
+            part.gemm(1.0, compressed, &(terms * weights), 0.0);
+        });
+        parts
+    }
+
+    /// Sum of the sources in these amounts a waveband, and `more` columns of zeros.
+    pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
+        let mut columns = DMatrix::zeros(self.len(), terms.ncols() + more);
+        self.each_part(|rows, source, compressed, weights| {
+            let mut part = compressed * terms;
+            part.column_iter_mut()
+                .zip(weights.iter())
+                .for_each(|(mut column, weight)| column *= amounts[source] * weight);
+            let mut target = columns.view_mut((rows.start, 0), part.shape());
+            target += part;
+        });
+        columns
+    }
+
+    /// `Σ λᵢ` times the model a waveband, without forming its columns.
+    pub fn along(
+        &self,
+        multipliers: &DVector<f64>,
+        of_terms: &DMatrix<f64>,
+        amounts: &DVector<f64>,
+    ) -> DVector<f64> {
+        let mut along = DVector::zeros(of_terms.ncols());
+        self.each_part(|rows, source, compressed, weights| {
+            let by_term = amounts[source] * compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
+            along += of_terms.tr_mul(&by_term).component_mul(weights);
+        });
+        along
+    }
+
+    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows take of the
+    /// terms, and the camera's weights a waveband.
+    fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
+        let mut start = 0;
+        for channel in &self.0 {
+            let end = start + channel.sources[0].nrows();
+            for (source, compressed) in channel.sources.iter().enumerate() {
+                visit(start..end, source, compressed, &channel.weights[source]);
+            }
+            start = end;
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Facets that were measured: which of them can be used.
+
+use crate::error::{Error, Result};
+use crate::forward::FacetModel;
+
+/// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
+pub struct Measured<'a> {
+    /// Values.
+    pub rgb: &'a [Option<Vec<f64>>],
+    /// Standard deviations, positive.
+    pub sd: &'a [Option<Vec<f64>>],
+}
+
+/// Facets with a value in every channel; checks the shapes on the way.
+pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
+    let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
+    for (name, rows) in [("facet_rgb", measured.rgb), ("facet_sd", measured.sd)] {
+        if rows.len() != facets {
+            return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
+        }
+        if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
+            return Err(Error::field(
+                name,
+                format!(
+                    "{} channels, but the scene has {channels}: its camera's in every picture",
+                    odd.len()
+                ),
+            ));
+        }
+    }
+    let usable: Vec<usize> =
+        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
+    if usable.is_empty() {
+        return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
+    }
+    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
+        return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
+    }
+    Ok(usable)
+}
