@@ -1,6 +1,7 @@
 //! Corners as a user types them, and whether they lie in the picture.
 
-use super::homography::{Homography, Point};
+use super::homography::Homography;
+use super::point::Point;
 use crate::{Error, Result};
 
 /// The corners of a panel, in the order in which they are given.

@@ -6,7 +6,7 @@
 //! ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens) use. OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by
 //! s⁴, s being half the shorter side over the focal length, both in px.
 
-use super::homography::Point;
+use super::point::Point;
 use crate::{Error, Result};
 
 /// What a lens does to an ideal picture.

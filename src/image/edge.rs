@@ -8,10 +8,10 @@
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::distortion::Lens;
-use super::homography::Point;
 use super::photograph::Photograph;
 use super::pixel::Pixel;
 use super::pixel_area::Quadrilateral;
+use super::point::Point;
 
 /// Pieces along a side.
 const PIECES: usize = 24;

@@ -11,13 +11,14 @@ use rayon::prelude::*;
 
 use super::corners::is_inside;
 use super::grid::Grid;
-use super::homography::{Homography, Point};
+use super::homography::Homography;
 use super::measurement::{FacetMeasurement, PixelRun};
 use super::outliers::Placed;
 use super::photograph::{Layer, Photograph};
 use super::pixel::Pixel;
 use super::pixel_area::{Quadrilateral, Sides, sense};
 use super::plane_fit::Run;
+use super::point::Point;
 use super::tally::Tally;
 use crate::{Error, Result};
 

@@ -2,39 +2,28 @@
 
 use std::path::Path;
 
-use super::photograph::Photograph;
 use super::pixel::Pixel;
+use super::pixels::Pixels;
 use crate::{Error, Result};
 
 /// A photograph of an evenly coloured sheet: where the light falls, and what the lens takes from it towards the corners.
 #[derive(Debug, Clone)]
 pub struct FlatField {
-    photograph: Photograph,
+    pixels: Pixels,
+    size: (usize, usize),
     /// One over the mean light per channel.
     per_mean: [f64; 3],
 }
 
 impl FlatField {
-    /// The flat field in a photograph; `path` is for errors.
+    /// The flat field in the pixels of a picture of this width and height; `path` is for errors.
     ///
     /// # Errors
-    /// [`Error::Picture`] if more than half of its pixels cannot be used, or a channel has no light.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::image::{FlatField, Photograph, Pixel, ReadOptions, write_linear};
-    /// let folder = tempfile::tempdir().unwrap();
-    /// let path = folder.path().join("two.exr");
-    /// write_linear(&path, 2, 1, &[0.25, 0.25, 0.25, 0.75, 0.75, 0.75])?; // mean 0.5
-    /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
-    /// let flat = FlatField::new(photograph.clone(), &path)?;
-    /// assert_eq!(photograph.with_flat_field(flat.into(), &path)?.pixel(0, 0), Pixel::Light([0.5; 3]));
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    pub fn new(photograph: Photograph, path: &Path) -> Result<Self> {
-        let (width, height) = (photograph.width(), photograph.height());
+    /// As [`Photograph::into_flat_field`](super::Photograph::into_flat_field).
+    pub(super) fn new(pixels: Pixels, size: (usize, usize), path: &Path) -> Result<Self> {
+        let (width, height) = size;
         let (mut seen, mut counts, mut sums) = (0, [0.0; 3], [0.0; 3]);
-        for layer in photograph.layers() {
+        for layer in pixels.layers() {
             let numbers = layer.numbers();
             for y in 0..height {
                 layer.visit(0..width, y, |_, pixel| {
@@ -58,17 +47,17 @@ impl FlatField {
                 "expose it more, or check --black-level",
             ));
         }
-        Ok(Self { photograph, per_mean: [0, 1, 2].map(|channel| counts[channel] / sums[channel]) })
+        Ok(Self { pixels, size, per_mean: [0, 1, 2].map(|channel| counts[channel] / sums[channel]) })
     }
 
     /// Width and height, px.
-    pub(super) fn size(&self) -> [usize; 2] {
-        [self.photograph.width(), self.photograph.height()]
+    pub(super) fn size(&self) -> (usize, usize) {
+        self.size
     }
 
     /// A pixel as even light would have shown it.
     pub(super) fn divide(&self, x: usize, y: usize, pixel: Pixel) -> Pixel {
-        match (pixel, self.photograph.pixel(x, y)) {
+        match (pixel, self.pixels.pixel(x, y)) {
             (Pixel::Light(light), Pixel::Light(flat)) if flat.iter().all(|flat| *flat > 0.0) => {
                 Pixel::Light([0, 1, 2].map(|k| light[k] / (flat[k] * self.per_mean[k])))
             }

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::grid::Grid;
-use super::homography::Point;
 use super::measurement::PixelRun;
 use super::photograph::Photograph;
 use super::pixel_area::Quadrilateral;
+use super::point::Point;
 use super::preview::Canvas;
 use crate::Result;
 

@@ -4,9 +4,10 @@ use super::corners::{CHART_CORNERS, check_inside};
 use super::distortion::Lens;
 use super::facets::measure;
 use super::grid::Grid;
-use super::homography::{Homography, Point};
+use super::homography::Homography;
 use super::measurement::FacetMeasurement;
 use super::photograph::Photograph;
+use super::point::Point;
 use crate::Result;
 
 /// The part of a patch's width and height that is measured: frames between patches, blur and corners a little off stay outside.

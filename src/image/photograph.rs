@@ -4,17 +4,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use image::ImageFormat;
-
-use super::decode::{Decoded, Picture, decode};
 use super::exif::CameraNotes;
 use super::flat_field::FlatField;
 use super::info::PhotographInfo;
 use super::interleaved::Interleaved;
 use super::mosaic::Mosaic;
 use super::pixel::Pixel;
-use super::raw;
-use super::scale::{ReadOptions, Scale};
+use super::pixels::{PixelLayer, Pixels};
 use super::sites::Sites;
 use crate::{Error, Result};
 
@@ -26,68 +22,7 @@ pub struct Photograph {
     info: PhotographInfo,
 }
 
-#[derive(Debug, Clone)]
-enum Pixels {
-    Interleaved(Box<Interleaved>),
-    Sites(Sites),
-}
-
 impl Photograph {
-    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha; with the
-    /// feature `raw` also a camera's RAW file.
-    ///
-    /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
-    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB decoded and 65536 px a side.
-    ///
-    /// # Errors
-    /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too
-    /// large, or has no colours to undo a development of; [`Error::Usage`] if the white level is not above the black
-    /// level.
-    ///
-    /// # Example
-    /// ```
-    /// use vfold::image::{Photograph, Pixel, ReadOptions, write_linear};
-    /// let folder = tempfile::tempdir().unwrap();
-    /// let path = folder.path().join("pixel.exr");
-    /// write_linear(&path, 1, 1, &[0.25, 0.5, 2.0])?;
-    /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
-    /// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.25, 0.5, 2.0]));
-    /// # Ok::<(), vfold::Error>(())
-    /// ```
-    pub fn open(path: &Path, options: &ReadOptions) -> Result<Self> {
-        let (decoded, undo) = (decode(path)?, options.development.is_some());
-        let no_colours = |what: &str| {
-            let problem = format!("{what} has no white balance and matrix to undo");
-            Error::picture(path, problem, "read it without --undo")
-        };
-        match decoded {
-            Decoded::Raw if undo => Err(no_colours("a RAW file")),
-            Decoded::Raw => raw::open(path, options),
-            Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
-                Err(no_colours("a grey picture"))
-            }
-            Decoded::Picture(picture) => Self::from_picture(picture, options),
-        }
-    }
-
-    fn from_picture(picture: Picture, options: &ReadOptions) -> Result<Self> {
-        let Picture { format, pixels, camera } = picture;
-        let color = pixels.color();
-        let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
-        let scale = Scale::new(options, bits)?;
-        let stored_size = (pixels.width() as usize, pixels.height() as usize);
-        let layout = camera.orientation.layout(stored_size);
-        let info = PhotographInfo {
-            transfer_used: scale.transfer,
-            black_level: vec![scale.black],
-            white_level: vec![scale.white],
-            undone: options.development,
-            ..PhotographInfo::new(camera, stored_size, describe(format, bits, color.has_color()))
-        };
-        let pixels = Interleaved::from_picture(pixels, layout, scale, options.development);
-        Ok(Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info })
-    }
-
     /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
     ///
     /// [`measure`](super::measure) averages each colour's pixels where they are; nothing is interpolated between them.
@@ -153,8 +88,30 @@ impl Photograph {
     pub(super) fn from_stored_light(light: Vec<f32>, channels: usize, info: PhotographInfo) -> Self {
         let layout =
             info.camera.orientation.layout(info.camera.orientation.upright_size((info.width, info.height)));
-        let pixels = Interleaved::from_light(light, layout, channels);
+        Self::from_interleaved(Interleaved::from_light(light, layout, channels), info)
+    }
+
+    /// From pixels with their colours side by side.
+    pub(super) fn from_interleaved(pixels: Interleaved, info: PhotographInfo) -> Self {
         Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
+    }
+
+    /// What a photograph of an evenly coloured sheet tells of the light and the lens; `path` is for errors.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if more than half of its pixels cannot be used, or a channel has no light.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel};
+    /// let sheet = Photograph::from_light(2, 1, vec![0.25, 0.25, 0.25, 0.75, 0.75, 0.75])?; // mean 0.5
+    /// let path = std::path::Path::new("sheet.exr");
+    /// let flat_field = sheet.clone().into_flat_field(path)?;
+    /// assert_eq!(sheet.with_flat_field(flat_field.into(), path)?.pixel(0, 0), Pixel::Light([0.5; 3]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn into_flat_field(self, path: &Path) -> Result<FlatField> {
+        FlatField::new(self.pixels, (self.info.width, self.info.height), path)
     }
 
     /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
@@ -162,8 +119,8 @@ impl Photograph {
     /// # Errors
     /// [`Error::Picture`] if the flat field has another size.
     pub fn with_flat_field(self, flat_field: Arc<FlatField>, path: &Path) -> Result<Self> {
-        let ([w, h], [width, height]) = (flat_field.size(), [self.width(), self.height()]);
-        if [w, h] != [width, height] {
+        let ((w, h), (width, height)) = (flat_field.size(), (self.width(), self.height()));
+        if (w, h) != (width, height) {
             let problem = format!("the picture has {width} x {height} px, the flat field {w} x {h}");
             return Err(Error::picture(path, problem, "take both with the same camera and framing"));
         }
@@ -185,10 +142,7 @@ impl Photograph {
     /// Colours of a pixel: 3, or 1 for a grey picture.
     #[must_use]
     pub fn channels(&self) -> usize {
-        match &self.pixels {
-            Pixels::Interleaved(pixels) => pixels.channels(),
-            Pixels::Sites(_) => 3,
-        }
+        self.pixels.channels()
     }
 
     /// What is known about the photograph besides its pixels.
@@ -201,24 +155,13 @@ impl Photograph {
     /// colour in the nine pixels around it.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
-        let pixel = match &self.pixels {
-            Pixels::Interleaved(pixels) => {
-                let mut pixel = Pixel::NotFinite;
-                pixels.visit(x..x + 1, y, |_, seen| pixel = seen);
-                pixel
-            }
-            Pixels::Sites(sites) => sites.pixel(x, y),
-        };
+        let pixel = self.pixels.pixel(x, y);
         self.flat_field.as_ref().map_or(pixel, |flat| flat.divide(x, y, pixel))
     }
 
     /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
     pub(super) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
-        let colours = match &self.pixels {
-            Pixels::Interleaved(_) => 0..1,
-            Pixels::Sites(_) => 0..3,
-        };
-        colours.map(|colour| Layer { photograph: self, colour })
+        self.pixels.layers().map(|pixels| Layer { photograph: self, pixels })
     }
 }
 
@@ -226,7 +169,7 @@ impl Photograph {
 #[derive(Clone, Copy)]
 pub(super) struct Layer<'a> {
     photograph: &'a Photograph,
-    colour: usize,
+    pixels: PixelLayer<'a>,
 }
 
 impl Layer<'_> {
@@ -237,55 +180,17 @@ impl Layer<'_> {
 
     /// Colours that its pixels have of their own.
     pub fn channels(self) -> usize {
-        match &self.photograph.pixels {
-            Pixels::Interleaved(pixels) => pixels.channels(),
-            Pixels::Sites(_) => 1,
-        }
-    }
-
-    /// Which of the three numbers of a pixel are its own; a grey pixel has all three, equal.
-    pub fn numbers(self) -> Range<usize> {
-        match &self.photograph.pixels {
-            Pixels::Interleaved(_) => 0..3,
-            Pixels::Sites(_) => self.colour..self.colour + 1,
-        }
+        self.pixels.channels()
     }
 
     /// Shows its pixels in `columns` of row `y` one after another, with their columns.
     #[inline]
     pub fn visit(self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
         match &self.photograph.flat_field {
-            None => self.visit_uneven(columns, y, visitor),
-            Some(flat) => self.visit_uneven(columns, y, |x, pixel| {
-                visitor(x, self.of_own_colour(flat.divide(x, y, pixel)));
+            None => self.pixels.visit(columns, y, visitor),
+            Some(flat) => self.pixels.visit(columns, y, |x, pixel| {
+                visitor(x, self.pixels.of_own_colour(flat.divide(x, y, pixel)));
             }),
         }
     }
-
-    /// A site has its own colour's light in place of all three.
-    fn of_own_colour(self, pixel: Pixel) -> Pixel {
-        match (&self.photograph.pixels, pixel) {
-            (Pixels::Sites(_), Pixel::Light(light)) => Pixel::Light([light[self.colour]; 3]),
-            (_, other) => other,
-        }
-    }
-
-    #[inline]
-    fn visit_uneven(self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
-        match &self.photograph.pixels {
-            Pixels::Interleaved(pixels) => pixels.visit(columns, y, visitor),
-            Pixels::Sites(sites) => sites.visit(self.colour, columns, y, visitor),
-        }
-    }
-}
-
-fn describe(format: ImageFormat, bits: u32, colour: bool) -> String {
-    let name = match format {
-        ImageFormat::Png => "PNG",
-        ImageFormat::Tiff => "TIFF",
-        ImageFormat::Jpeg => "JPEG",
-        _ => "OpenEXR",
-    };
-    let samples = if bits == 32 { "float".to_owned() } else { format!("{bits}-bit") };
-    format!("{name}, {samples}, {}", if colour { "RGB" } else { "grey" })
 }

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::homography::{Point, cross};
+use super::point::{Point, cross};
 
 /// A pixel whose edge lies on a side counts as inside in spite of rounding, px.
 const ROUNDING_PX: f64 = 1e-9;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Const, Dyn, Matrix3, OMatrix, RowSVector, Vector3};
 
-use super::homography::Point;
+use super::point::Point;
 
 /// Numbers of a projection, of which one is its scale.
 const UNKNOWNS: usize = 12;

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::distortion::Lens;
 use super::edge::{Edge, Side};
-use super::homography::Point;
 use super::photograph::Photograph;
+use super::point::Point;
 use crate::{Error, Result};
 
 /// Where a panel was seen, and which of its corners it shares.

@@ -40,9 +40,9 @@ impl ReadingArgs {
     }
 
     /// # Errors
-    /// As [`Photograph::open`] and [`FlatField::new`].
+    /// As [`Photograph::open`] and [`Photograph::into_flat_field`].
     pub fn flat_field(&self, options: &ReadOptions) -> Result<Option<FlatField>> {
-        self.white.as_ref().map(|path| FlatField::new(Photograph::open(path, options)?, path)).transpose()
+        self.white.as_ref().map(|path| Photograph::open(path, options)?.into_flat_field(path)).transpose()
     }
 }
 
