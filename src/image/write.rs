@@ -3,7 +3,7 @@
 //! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
 //! old file or none.
 
-use std::io::{BufWriter, Cursor, Write};
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::files::Saved;
@@ -68,28 +68,19 @@ pub(super) fn write_srgb_png_with_text(
     rgb: &[f64],
     [keyword, text]: [&str; 2],
 ) -> Result<()> {
-    let mut png = Vec::new();
-    eight_bits(path, width, height, rgb)?
-        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
-        .map_err(|error| Error::picture(path, error, "write another format"))?;
-    png.splice(PNG_HEADER_BYTES..PNG_HEADER_BYTES, text_chunk(keyword, text));
-    Saved::write(path, &png)
-}
-
-/// Signature and image header, after which other chunks may come.
-const PNG_HEADER_BYTES: usize = 8 + 25;
-
-/// A tEXt chunk (W3C, *Portable Network Graphics*, section 11.3.3.2).
-fn text_chunk(keyword: &str, text: &str) -> Vec<u8> {
-    let body = [b"tEXt", keyword.as_bytes(), b"\0", text.as_bytes()].concat();
-    let length = (body.len() - 4) as u32;
-    [&length.to_be_bytes()[..], &body, &crc32(&body).to_be_bytes()].concat()
-}
-
-/// The checksum of a PNG chunk (the same, annex D).
-fn crc32(bytes: &[u8]) -> u32 {
-    let shift = |crc: u32| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
-    !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift(crc)))
+    let failed = |error| match error {
+        png::EncodingError::IoError(source) => Error::file(path.display(), source),
+        other => Error::picture(path, other, "write another format"),
+    };
+    let picture = eight_bits(path, width, height, rgb)?;
+    let mut saved = Saved::new(path)?;
+    let mut encoder = png::Encoder::new(BufWriter::new(saved.file_mut()), picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.add_text_chunk(keyword.to_owned(), text.to_owned()).map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(picture.as_bytes()).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    saved.keep()
 }
 
 fn eight_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
@@ -138,15 +129,4 @@ fn save(path: &Path, picture: &DynamicImage, format: ImageFormat) -> Result<()> 
     out.flush().map_err(failed)?; // a full disk would go unnoticed when dropped
     drop(out);
     saved.keep()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The check value of CRC-32/ISO-HDLC in G. Cook's catalogue.
-    #[test]
-    fn the_checksum_is_that_of_the_catalogue() {
-        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
-    }
 }
