@@ -4,6 +4,7 @@ mod generate;
 mod kernel;
 mod materials;
 mod spectra;
+mod stream_page;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -49,7 +50,7 @@ pub struct Common {
     /// Do not record this tool's arguments in the stream
     #[arg(long)]
     pub no_history: bool,
-    /// Print the man page or a shell's completions
+    /// Print the man page, a shell's completions, or page and JSON Schema of the records
     #[arg(long, value_name = "WHAT")]
     pub generate: Option<Generate>,
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA

@@ -1,8 +1,8 @@
-//! The manual is that of the tools as they are: man pages and completions that are checked in are what `--generate` prints,
-//! and every example of `--help` runs as it stands.
+//! The manual is that of the tools as they are: man pages, completions and schemas that are checked in are what `--generate` prints,
+//! and every example of `--help` and of vfold-stream(5) runs as it stands.
 
 // a test stops at the first surprise
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod common;
 
@@ -10,33 +10,45 @@ use std::fs;
 use std::path::Path;
 
 use common::Workdir;
+use serde_json::Value;
 
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
 /// `MANUAL=write cargo test --test manual` rewrites them.
 #[test]
-fn man_pages_and_completions_are_up_to_date() {
-    let folder = Workdir::new();
+fn pages_completions_and_schemas_are_up_to_date() {
+    let mut kept = schemas();
+    kept.push(("man/vfold-stream.5".to_owned(), printed("vkernel", "stream")));
+    for tool in TOOLS {
+        kept.push((format!("man/{tool}.1"), printed(tool, "man")));
+        kept.push((format!("share/completions/{tool}.bash"), printed(tool, "bash")));
+        kept.push((format!("share/completions/_{tool}"), printed(tool, "zsh")));
+        kept.push((format!("share/completions/{tool}.fish"), printed(tool, "fish")));
+    }
     let write = std::env::var("MANUAL").is_ok_and(|what| what == "write");
     let mut stale = Vec::new();
-    for tool in TOOLS {
-        for (what, file) in [
-            ("man", format!("man/{tool}.1")),
-            ("bash", format!("share/completions/{tool}.bash")),
-            ("zsh", format!("share/completions/_{tool}")),
-            ("fish", format!("share/completions/{tool}.fish")),
-        ] {
-            let run = folder.sh(&format!("{tool} --generate {what}"));
-            assert!(run.status == 0 && run.stderr.is_empty(), "{tool} {what}: {run:?}");
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&file);
-            if write {
-                fs::write(path, run.stdout).unwrap();
-            } else if !fs::read_to_string(path).is_ok_and(|kept| kept == run.stdout) {
-                stale.push(file);
-            }
+    for (file, text) in kept {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&file);
+        if write {
+            fs::write(path, text).unwrap();
+        } else if !fs::read_to_string(path).is_ok_and(|kept| kept == text) {
+            stale.push(file);
         }
     }
     assert!(stale.is_empty(), "{stale:?} are stale: MANUAL=write cargo test --test manual writes them anew");
+}
+
+fn printed(tool: &str, what: &str) -> String {
+    let run = Workdir::new().sh(&format!("{tool} --generate {what}"));
+    assert!(run.status == 0 && run.stderr.is_empty(), "{tool} {what}: {run:?}");
+    run.stdout
+}
+
+/// The schema of each kind of record, from that of the stream.
+fn schemas() -> Vec<(String, String)> {
+    let stream: Value = serde_json::from_str(&printed("vkernel", "schema")).unwrap();
+    let records = stream["$defs"].as_object().unwrap().iter();
+    records.map(|(kind, schema)| (format!("share/schema/{kind}.json"), format!("{schema:#}\n"))).collect()
 }
 
 #[test]
@@ -60,6 +72,7 @@ vforward scene.json --reflectance cc24:red -o samples.ndjson
 vestimate samples.ndjson -o estimates.ndjson
 for angle in 30 60; do vkernel --angle-deg $angle | vforward --reflectance 0.5 | vestimate -o angle-$angle.ndjson; done
 printf 'nm,red\n380,0.05\n600,0.4\n780,0.6\n' > measured.csv
+vscore estimates.ndjson -o scored.ndjson
 "#
 );
 
@@ -74,5 +87,35 @@ fn examples_of_help_run() {
             let run = Workdir::new().sh(&format!("{SETUP}{example}"));
             assert_eq!(run.status, 0, "{example}: {run:?}");
         }
+    }
+}
+
+/// What the examples of vfold-stream(5) need beside the tools.
+const NEEDED: [(&str, &str); 4] = [
+    ("jq", "jq --version"),
+    ("parallel", "parallel --version"),
+    ("numpy", "python3 -c 'import numpy'"),
+    ("jsonschema", "python3 -c 'import jsonschema'"),
+];
+
+#[test]
+fn examples_of_the_stream_page_run() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("man/vfold-stream.5")).unwrap();
+    let (_, examples) = page.split_once(".SH EXAMPLES").unwrap();
+    let unescaped = examples.replace("\\e", "\\").replace("\\-", "-");
+    let examples: Vec<_> = unescaped.lines().filter(|line| line.starts_with("  ")).collect();
+    assert!(examples.len() > 8, "{examples:?}");
+    let folder = Workdir::new();
+    assert_eq!(folder.sh(SETUP).status, 0);
+    let missing: Vec<_> = NEEDED.iter().filter(|(_, line)| folder.sh(line).status != 0).collect();
+    for example in examples {
+        if let Some((program, _)) = missing.iter().find(|(program, _)| example.contains(program)) {
+            println!("{program} is not there: not run (tests/run installs it): {example}");
+            continue;
+        }
+        let run = folder.sh(example);
+        assert!(run.status == 0 && run.stderr.is_empty(), "{example}: {run:?}");
+        let may_be_silent = ["<", ">", "-o ", ".error"].iter().any(|sign| example.contains(sign));
+        assert!(may_be_silent || !run.stdout.is_empty(), "{example} prints nothing");
     }
 }

@@ -146,7 +146,7 @@ _vestimate() {
                     return 0
                     ;;
                 --generate)
-                    COMPREPLY=($(compgen -W "man bash zsh fish" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "man stream schema bash zsh fish" -- "${cur}"))
                     return 0
                     ;;
                 --list)

@@ -32,7 +32,9 @@ complete -c vestimate -l progress -d 'Count samples on standard error while they
 always\t'Always'
 never\t'Never'"
 complete -c vestimate -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
-complete -c vestimate -l generate -d 'Print the man page or a shell\'s completions' -r -f -a "man\t'The man page'
+complete -c vestimate -l generate -d 'Print the man page, a shell\'s completions, or page and JSON Schema of the records' -r -f -a "man\t'The man page'
+stream\t'The man page vfold-stream(5): all fields of all records'
+schema\t'JSON Schema of the records'
 bash\t'Completions for bash'
 zsh\t'Completions for zsh'
 fish\t'Completions for fish'"

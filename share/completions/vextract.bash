@@ -170,7 +170,7 @@ _vextract() {
                     return 0
                     ;;
                 --generate)
-                    COMPREPLY=($(compgen -W "man bash zsh fish" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "man stream schema bash zsh fish" -- "${cur}"))
                     return 0
                     ;;
                 --list)

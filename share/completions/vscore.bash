@@ -86,7 +86,7 @@ _vscore() {
                     return 0
                     ;;
                 --generate)
-                    COMPREPLY=($(compgen -W "man bash zsh fish" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "man stream schema bash zsh fish" -- "${cur}"))
                     return 0
                     ;;
                 --list)

@@ -1,4 +1,4 @@
-//! What `--generate` prints, made from a tool's own flags: its man page and the completions of shells.
+//! What `--generate` prints: a tool's man page and completions, from its own flags; page and schema of the stream, from its types.
 
 use std::io;
 
@@ -7,14 +7,19 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 use roff::{Roff, roman};
 
+use super::stream_page::stream_page;
 use crate::error::{Error, Result};
-use crate::stream::Output;
+use crate::stream::{Output, schema};
 
 /// What `--generate` prints.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Generate {
     /// The man page.
     Man,
+    /// The man page vfold-stream(5): all fields of all records.
+    Stream,
+    /// JSON Schema of the records.
+    Schema,
     /// Completions for bash.
     Bash,
     /// Completions for zsh.
@@ -29,7 +34,8 @@ const EXIT_STATUS: [(&str, &str); 4] = [
     ("2", "Wrong usage."),
     ("3", "Finished, but some records carry an error."),
 ];
-const SEE_ALSO: &str = "vfold(7), vkernel(1), vextract(1), vforward(1), vestimate(1), vscore(1)";
+const SEE_ALSO: &str =
+    "vfold(7), vfold-stream(5), vkernel(1), vextract(1), vforward(1), vestimate(1), vscore(1)";
 
 impl Generate {
     /// Prints it for the tool that `command` is.
@@ -44,6 +50,8 @@ impl Generate {
                 man_page(command, &mut text).map_err(Error::Output)?;
                 return out.text(&String::from_utf8_lossy(&text));
             }
+            Self::Stream => return out.text(stream_page().trim_end()),
+            Self::Schema => return out.text(&schema()),
             Self::Bash => Shell::Bash,
             Self::Zsh => Shell::Zsh,
             Self::Fish => Shell::Fish,

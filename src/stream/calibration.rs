@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::finite;
@@ -10,27 +11,42 @@ use crate::calibrate::{Calibration, Patch};
 use crate::error::Result;
 
 /// How a photograph's values were made those of the scene's camera.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CalibrationRecord {
+    /// What calibrated it: chart or white card.
     by: &'static str,
+    /// Rows and columns of its patches.
     grid: [usize; 2],
+    /// Cosine of the angle between the sun and its normal.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     cos: f64,
+    /// Its corners, [x, y] each, px of the upright picture.
     corners: [[f64; 2]; 4],
+    /// The exposure that it gives.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     exposure: f64,
+    /// Standard deviation of the exposure.
+    #[schemars(range(min = 0))]
     exposure_sd: f64,
-    /// Constant, linear and quadratic coefficient a channel.
+    /// Constant, linear and quadratic coefficient of each channel: from the photograph's values to those of the camera.
     coefficients: Vec<[f64; 3]>,
+    /// Root mean square of the patches' residuals, a number a channel.
+    #[schemars(inner(range(min = 0)))]
     residual_rms: Vec<f64>,
+    /// The patches, row by row.
     patches: Vec<PatchRecord>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+/// A patch of known reflectance.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct PatchRecord {
+    /// Name.
     name: String,
+    /// Value in the photograph, a number a channel.
     measured: Vec<f64>,
-    /// At exposure 1.
+    /// Value in the scene's camera at exposure 1, a number a channel.
     expected: Vec<f64>,
-    /// Of what was expected.
+    /// How far the calibrated value is off, as a share of what was expected, a number a channel.
     residual: Vec<f64>,
 }
 

@@ -2,17 +2,28 @@
 
 use std::ops::RangeInclusive;
 
-use serde_json::Value;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Sample;
-use super::fields::finite;
+use super::fields::{LARGEST, finite};
 use crate::error::{Error, Result};
-
-/// Largest value of a facet that is read: sums and squares of such numbers stay finite.
-const LARGEST: f64 = 1e30;
 
 /// Facet by channel, those of several pictures one after the other; none for a facet that was not measured in all of them.
 pub type Colours = Vec<Option<Vec<f64>>>;
+
+/// A number a channel, in the order of the camera's; null for a facet that was not measured.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "needs lists of numbers, a facet each, or a list of such lists, a picture each"
+)]
+pub(super) enum ColoursRecord {
+    /// Of one picture: `[facet][channel]`.
+    Picture(Colours),
+    /// Of several: `[picture][facet][channel]`.
+    Pictures(Vec<Colours>),
+}
 
 impl Sample {
     /// Sets the facets' values in a number of `pictures` and, where known, their standard deviations.
@@ -22,10 +33,11 @@ impl Sample {
     pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>, pictures: usize) -> Result<()> {
         for (name, facets) in std::iter::once(("facet_rgb", rgb)).chain(sd.map(|sd| ("facet_sd", sd))) {
             finite(name, facets.iter().flatten().flatten())?;
-            match pictures {
-                1 => self.fields.set(name, facets)?,
-                _ => self.fields.set(name, by_picture(facets, pictures))?,
-            }
+            let record = match pictures {
+                1 => ColoursRecord::Picture(facets.clone()),
+                _ => ColoursRecord::Pictures(by_picture(facets, pictures)),
+            };
+            self.fields.set(name, record)?;
         }
         Ok(())
     }
@@ -49,28 +61,21 @@ impl Sample {
 
     /// A field, pictures beside each other.
     fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<Colours>> {
-        let several = self.fields.0.get(name).is_some_and(is_by_picture);
-        let facets = if several {
-            Some(beside_each_other(self.fields.require(name, "make it with vforward or vextract")?)?)
-        } else {
-            self.fields.get(name)?
+        let facets = match self.fields.get(name)? {
+            None => None,
+            Some(ColoursRecord::Picture(facets)) => Some(facets),
+            Some(ColoursRecord::Pictures(pictures)) => Some(beside_each_other(name, &pictures)?),
         };
         facets.as_ref().map_or(Ok(()), |facets| within(name, facets, range))?;
         Ok(facets)
     }
 }
 
-/// Whether there are three levels of lists, not two.
-fn is_by_picture(facets: &Value) -> bool {
-    let rows = facets.as_array().into_iter().flatten().filter_map(Value::as_array);
-    rows.flatten().any(Value::is_array)
-}
-
-fn beside_each_other(pictures: Vec<Colours>) -> Result<Colours> {
+fn beside_each_other(name: &str, pictures: &[Colours]) -> Result<Colours> {
     let facets = pictures[0].len();
     if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
         let problem = format!("{} facets in one picture, {facets} in another", other.len());
-        return Err(Error::field("facet_rgb", problem));
+        return Err(Error::field(name, problem));
     }
     let in_all = |facet: usize| {
         let values: Option<Vec<_>> = pictures.iter().map(|picture| picture[facet].clone()).collect();

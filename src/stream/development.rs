@@ -1,5 +1,6 @@
 //! What a camera did to a picture, in a file and in records.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::json_file;
@@ -7,9 +8,11 @@ use crate::error::{Error, Result};
 use crate::image::Development;
 
 /// White balance and matrix, as a file tells them and a record keeps them; other fields are passed over.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct DevelopmentRecord {
+    /// Factor of each channel.
     white_balance_gains: [f64; 3],
+    /// Matrix from balanced camera values to linear sRGB, row by row.
     camera_to_linear_srgb: [[f64; 3]; 3],
 }
 

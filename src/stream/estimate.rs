@@ -1,23 +1,128 @@
 //! What a sample says of its estimate.
 
-use std::collections::BTreeMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
-
-use super::fields::{Fields, finite};
-use super::sample::{ReflectanceRecord, Sample};
-use crate::error::Result;
-use crate::estimate::unknowns::Quantity;
+use super::fields::finite;
+use super::quantities::Quantities;
+use super::sample::Sample;
+use crate::error::{Error, Result};
 use crate::estimate::{Estimate, Fitted};
+use crate::plot::spectra::Curve;
 use crate::solve::Termination;
-use crate::solve::posterior::Iteration;
+use crate::spectrum::formats::Measured;
+
+/// The estimated spectrum of a sheet. An estimate that another program makes needs wavelengths and reflectance alone.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct EstimateRecord {
+    /// As `vestimate --method` names it: interreflection, park or khan.
+    #[serde(skip_deserializing)]
+    method: String,
+    /// The prior as `vestimate --prior` names it, or the basis of the components.
+    #[serde(skip_deserializing)]
+    prior: String,
+    /// Wavelengths, nm, increasing: those of the scene.
+    pub wavelengths_nm: Vec<f64>,
+    /// Reflectance, a number a wavelength.
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub reflectance: Vec<f64>,
+    /// Exposure, as known or as found.
+    #[serde(skip_deserializing)]
+    exposure: f64,
+    /// Root mean square of the residuals in units of their expected size: near 1 where the model is good.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub residual_rms: f64,
+    /// Number of iterations.
+    #[serde(skip_deserializing)]
+    iterations: u32,
+    /// Why they ended.
+    #[serde(skip_deserializing)]
+    termination: Option<TerminationRecord>,
+    /// Standard deviation of the reflectance, a number a wavelength; absent where the method does not know it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub reflectance_sd: Option<Vec<f64>>,
+    /// What was fitted along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fit: Option<Quantities<FittedRecord>>,
+    /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Vec<Vec<f64>>>,
+}
+
+/// Why a solver stopped.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(tag = "reason", rename_all_fields = "snake_case")]
+enum TerminationRecord {
+    /// The optimality conditions hold.
+    #[serde(rename = "converged")]
+    Converged {
+        /// What is left of them.
+        gradient_norm: f64,
+    },
+    /// The limit on iterations came first.
+    #[serde(rename = "iteration limit")]
+    IterationLimit,
+    /// Rounding is reached.
+    #[serde(rename = "no progress")]
+    NoProgress {
+        /// What is left of the gradient.
+        gradient_norm: f64,
+    },
+}
+
+/// A number of the scene as found, in the unit that its name says.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+struct FittedRecord {
+    /// Value.
+    value: f64,
+    /// Standard deviation.
+    #[schemars(range(min = 0))]
+    sd: f64,
+    /// Whether the facets say more of it than was known before.
+    supported: bool,
+}
+
+impl From<&Termination> for TerminationRecord {
+    fn from(termination: &Termination) -> Self {
+        match *termination {
+            Termination::Converged { gradient_norm } => Self::Converged { gradient_norm },
+            Termination::IterationLimit => Self::IterationLimit,
+            Termination::NoProgress { gradient_norm } => Self::NoProgress { gradient_norm },
+        }
+    }
+}
+
+impl From<&Fitted> for FittedRecord {
+    fn from(&Fitted { value, sd, supported, .. }: &Fitted) -> Self {
+        Self { value, sd, supported }
+    }
+}
+
+impl EstimateRecord {
+    /// Whether there are as many values as wavelengths, two or more.
+    fn is_spectrum(&self) -> bool {
+        let count = self.wavelengths_nm.len();
+        let rows = self.covariance.iter().flatten();
+        let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(rows);
+        let mut counts = lists.map(Vec::len).chain(self.covariance.iter().map(Vec::len));
+        count > 1 && counts.all(|other| other == count)
+    }
+
+    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    #[must_use]
+    pub fn unsupported(&self) -> Vec<&'static str> {
+        let fitted = self.fit.iter().flat_map(Quantities::iter);
+        fitted.filter(|(_, one)| !one.supported).map(|(name, _)| name).collect()
+    }
+}
 
 impl Sample {
     /// Adds an estimate, with its covariance (waveband by waveband) if asked to.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if a number is not finite.
+    /// [`Error::Field`] if a number is not finite.
     pub fn set_estimate(
         &mut self,
         method: &str,
@@ -26,31 +131,45 @@ impl Sample {
         estimate: &Estimate,
         with_covariance: bool,
     ) -> Result<()> {
-        let sd = estimate.reflectance_sd();
+        let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
-        finite("estimate.reflectance_sd", sd.iter().flatten())?;
+        finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
-        let mut record = json!({
-            "method": method,
-            "prior": prior,
-            "wavelengths_nm": wavelengths_nm,
-            "reflectance": estimate.reflectance,
-            "exposure": estimate.exposure,
-            "residual_rms": estimate.residual_rms,
-            "iterations": estimate.iterations,
-            "termination": termination(&estimate.termination),
-        });
-        if let Some(sd) = sd {
-            record["reflectance_sd"] = json!(sd);
+        finite("estimate.fit", estimate.fitted.iter().flat_map(|fitted| [&fitted.value, &fitted.sd]))?;
+        let covariance = estimate.covariance().filter(|_| with_covariance);
+        let rows = |matrix: nalgebra::DMatrix<f64>| {
+            matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+        };
+        self.fields.set(
+            "estimate",
+            EstimateRecord {
+                method: method.to_owned(),
+                prior: prior.to_owned(),
+                wavelengths_nm: wavelengths_nm.to_vec(),
+                reflectance: estimate.reflectance.clone(),
+                exposure: estimate.exposure,
+                residual_rms: estimate.residual_rms,
+                iterations: estimate.iterations,
+                termination: Some((&estimate.termination).into()),
+                reflectance_sd,
+                fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.quantity, fitted.into()))),
+                covariance: covariance.map(rows),
+            },
+        )
+    }
+
+    /// The estimate; none if the sample has none.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is no spectrum with as many values as wavelengths.
+    pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
+        match self.fields.get::<EstimateRecord>("estimate")? {
+            Some(estimate) if !estimate.is_spectrum() => {
+                let problem = "not as many values as wavelengths, two or more; estimate it again";
+                Err(Error::field("estimate", problem))
+            }
+            estimate => Ok(estimate),
         }
-        if !estimate.fitted.is_empty() {
-            record["fit"] = fit(&estimate.fitted)?;
-        }
-        if let Some(covariance) = estimate.covariance().filter(|_| with_covariance) {
-            let rows = covariance.row_iter().map(|row| row.iter().copied().collect());
-            record["covariance"] = json!(rows.collect::<Vec<Vec<f64>>>());
-        }
-        self.fields.set("estimate", record)
     }
 
     /// Whether this is what an estimate, or the attempt of one, made of `measured`.
@@ -61,136 +180,28 @@ impl Sample {
         is_done && ["id", "scene", "facet_rgb", "facet_sd", "exposure"].iter().all(same)
     }
 
-    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    /// The estimate as a curve to draw; none if there is none.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if what was fitted is not what [`Sample::set_estimate`] writes.
-    pub fn unsupported(&self) -> Result<Vec<String>> {
-        #[derive(Deserialize)]
-        struct Fit {
-            fit: Option<BTreeMap<String, Supported>>,
-        }
-        #[derive(Deserialize)]
-        struct Supported {
-            supported: bool,
-        }
-        let fit = self.fields.get::<Fit>("estimate")?.and_then(|estimate| estimate.fit).unwrap_or_default();
-        Ok(fit.into_iter().filter(|(_, one)| !one.supported).map(|(name, _)| name).collect())
+    /// [`Error::Field`] if it is not a spectrum.
+    pub fn curve(&self) -> Result<Option<Curve>> {
+        let Some(EstimateRecord { wavelengths_nm, reflectance, reflectance_sd, .. }) = self.estimate()?
+        else {
+            return Ok(None);
+        };
+        let truth = self.truth()?.map(|truth| (truth.wavelengths_nm, truth.reflectance));
+        Ok(Some(Curve { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd, truth }))
     }
 
-    /// Adds the iterations that led to an estimate, for [`Sample::take_trace`].
+    /// The estimate as a file of spectra has it; none if there is none.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if a number is not finite.
-    pub fn set_trace(&mut self, trace: &[Vec<Iteration>]) -> Result<()> {
-        let mut lines = Vec::new();
-        for (run, iterations) in trace.iter().enumerate() {
-            for (iteration, Iteration { cost, gradient_norm, damping, inflation }) in
-                iterations.iter().enumerate()
-            {
-                finite("trace", [cost, gradient_norm, damping, inflation])?;
-                lines.push(json!({
-                    "kind": "iteration",
-                    "sample": self.id()?,
-                    "run": run,
-                    "iteration": iteration,
-                    "cost": cost,
-                    "gradient_norm": gradient_norm,
-                    "damping": damping,
-                    "noise": inflation,
-                }));
-            }
-        }
-        self.fields.set("trace", lines)
-    }
-
-    /// Takes the iterations out, a record each: `run` 0 is under all spectra as one Gaussian, the others each under a class.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if `trace` is not a list of objects.
-    pub fn take_trace(&mut self) -> Result<Vec<Fields>> {
-        let lines: Vec<Map<String, Value>> = self.fields.get("trace")?.unwrap_or_default();
-        self.fields.0.remove("trace");
-        Ok(lines.into_iter().map(Fields).collect())
-    }
-
-    /// The estimated spectrum, on its wavelengths; none if the sample has no estimate.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if it is not a spectrum.
-    pub fn estimated(&self) -> Result<Option<ReflectanceRecord>> {
-        self.fields.get("estimate")
-    }
-
-    /// The standard deviation of the estimated spectrum, if there is one.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if it is not a list of numbers.
-    pub fn estimated_sd(&self) -> Result<Option<Vec<f64>>> {
-        #[derive(Deserialize)]
-        struct Deviation {
-            reflectance_sd: Option<Vec<f64>>,
-        }
-        Ok(self.fields.get::<Deviation>("estimate")?.and_then(|estimate| estimate.reflectance_sd))
-    }
-
-    /// The covariance of the estimated spectrum, waveband by waveband, if the sample has it.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if it is not a list of rows.
-    pub fn estimated_covariance(&self) -> Result<Option<Vec<Vec<f64>>>> {
-        #[derive(Deserialize)]
-        struct Spread {
-            covariance: Option<Vec<Vec<f64>>>,
-        }
-        Ok(self.fields.get::<Spread>("estimate")?.and_then(|estimate| estimate.covariance))
-    }
-
-    /// Residuals of the estimate in units of their expected size, if there is an estimate.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if it is not a number.
-    pub fn residual_rms(&self) -> Result<Option<f64>> {
-        #[derive(Deserialize)]
-        struct Fit {
-            residual_rms: f64,
-        }
-        Ok(self.fields.get::<Fit>("estimate")?.map(|fit| fit.residual_rms))
-    }
-}
-
-/// Fitted numbers by name.
-fn fit(fitted: &[Fitted]) -> Result<Value> {
-    let mut all = Map::new();
-    for Fitted { quantity, value, sd, supported } in fitted {
-        finite("estimate.fit", [value, sd])?;
-        all.insert(
-            fitted_name(*quantity).to_owned(),
-            json!({ "value": value, "sd": sd, "supported": supported }),
-        );
-    }
-    Ok(Value::Object(all))
-}
-
-/// Field of a fitted number.
-pub(super) fn fitted_name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Exposure => "exposure",
-        Quantity::TiltDeg => "tilt_deg",
-        Quantity::Sky => "sky",
-        Quantity::SkyCctK => "sky_cct_k",
-        Quantity::AngleDeg => "angle_deg",
-    }
-}
-
-fn termination(termination: &Termination) -> Value {
-    match termination {
-        Termination::Converged { gradient_norm } => {
-            json!({ "reason": "converged", "gradient_norm": gradient_norm })
-        }
-        Termination::IterationLimit => json!({ "reason": "iteration limit" }),
-        Termination::NoProgress { gradient_norm } => {
-            json!({ "reason": "no progress", "gradient_norm": gradient_norm })
-        }
+    /// [`Error::Field`] if it is not a spectrum.
+    pub fn measured(&self) -> Result<Option<Measured>> {
+        let Some(EstimateRecord { wavelengths_nm, reflectance, reflectance_sd, .. }) = self.estimate()?
+        else {
+            return Ok(None);
+        };
+        Ok(Some(Measured { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd }))
     }
 }

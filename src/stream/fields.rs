@@ -6,17 +6,23 @@ use serde_json::{Map, Value};
 
 use crate::error::{Error, Result};
 
+/// Largest number that is read of colours, spectra and exposures: sums, products and squares of such numbers stay finite.
+pub(super) const LARGEST: f64 = 1e30;
+
 /// The fields of one record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fields(pub(super) Map<String, Value>);
 
 impl Fields {
-    /// An empty record of the given kind.
-    #[must_use]
-    pub fn of_kind(kind: &str) -> Self {
-        let mut map = Map::new();
-        map.insert("kind".to_owned(), Value::from(kind));
-        Self(map)
+    /// The fields of a record; the caller has made sure with [`finite`] that its numbers are numbers.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it has no form in JSON.
+    pub(super) fn of(record: &impl Serialize) -> Result<Self> {
+        match serde_json::to_value(record).map_err(|e| Error::field("kind", e))? {
+            Value::Object(fields) => Ok(Self(fields)),
+            _ => Err(Error::field("kind", "not that of a record")),
+        }
     }
 
     /// The record's kind, empty if it has none.
@@ -61,7 +67,7 @@ impl Fields {
     ///
     /// # Example
     /// ```
-    /// let mut fields = vfold::stream::Fields::of_kind("scene");
+    /// let mut fields = vfold::stream::Fields::default();
     /// fields.set("geometry", std::collections::HashMap::from([("angle_deg", 45.0)]))?;
     /// assert_eq!(fields.text_at("geometry.angle_deg")?.as_deref(), Some("45.0"));
     /// assert_eq!(fields.text_at("geometry.shape")?, None);
@@ -86,6 +92,16 @@ impl Fields {
         let value = serde_json::to_value(value).map_err(|e| Error::field(name, e))?;
         self.0.insert(name.to_owned(), value);
         Ok(())
+    }
+
+    /// Adds an entry to a field that is a list, or makes it; entries that it has stay as they are.
+    ///
+    /// # Errors
+    /// As [`Fields::set`]; [`Error::Field`] if it is not a list.
+    pub(super) fn push(&mut self, name: &str, entry: impl Serialize) -> Result<()> {
+        let mut list: Vec<Value> = self.get(name)?.unwrap_or_default();
+        list.push(serde_json::to_value(entry).map_err(|e| Error::field(name, e))?);
+        self.set(name, list)
     }
 }
 

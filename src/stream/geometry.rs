@@ -1,66 +1,55 @@
-//! The scene's geometry: a fold and its facets.
+//! The scene's geometry: a fold, or what [`super::surface`] knows.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
+use super::scene::BY_VKERNEL;
 use super::surface::MeshRecord;
 use crate::error::{Error, Result};
-use crate::geometry::{FacetGrid, Fold, Spacing};
+use crate::geometry::Fold;
 
-/// A fold, or what [`super::surface`] knows.
-#[derive(Serialize, Deserialize)]
+/// What is lit.
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "lowercase")]
 pub(super) enum GeometryRecord {
+    /// Two rectangular panels that meet at a crease.
     Fold(FoldRecord),
+    /// Flat facets in space.
     Mesh(MeshRecord),
+    /// Facets of which nothing is known but their kernel.
     Kernel,
 }
 
-#[derive(Serialize, Deserialize)]
+/// Two rectangular panels that meet at a crease.
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct FoldRecord {
+    /// Angle between the panels, degrees; 180 is a flat sheet.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
     angle_deg: f64,
+    /// Extent of panel 0 along the crease and away from it, in any unit.
+    #[schemars(inner(range(min = 0)))]
     panel: [f64; 2],
-    /// Where it differs from panel 0's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Extent of panel 1 away from the crease, in the same unit, where it is not that of panel 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     panel1_depth: Option<f64>,
 }
 
-#[derive(Serialize, Deserialize)]
-struct FacetsRecord {
-    panels: usize,
-    rows: usize,
-    cols: usize,
-    /// Uniform if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    spacing: Option<SpacingRecord>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum SpacingRecord {
-    Uniform,
-    Graded,
-}
-
-impl Scene {
-    pub(super) fn set_fold(&mut self, fold: &Fold) -> Result<()> {
+impl From<&Fold> for FoldRecord {
+    fn from(fold: &Fold) -> Self {
         let [depth0, depth1] = fold.depths();
-        let record = FoldRecord {
+        Self {
             angle_deg: fold.angle_deg(),
             panel: [fold.width(), depth0],
             panel1_depth: (!fold.is_symmetric()).then_some(depth1),
-        };
-        self.fields.set("geometry", GeometryRecord::Fold(record))?;
-        let FacetGrid { rows, cols } = fold.facets();
-        let spacing = match fold.spacing() {
-            Spacing::Uniform => None,
-            Spacing::Graded => Some(SpacingRecord::Graded),
-        };
-        self.fields.set("facets", FacetsRecord { panels: 2, rows, cols, spacing })
+        }
     }
+}
 
+impl Scene {
     pub(super) fn geometry(&self) -> Result<GeometryRecord> {
-        self.fields.require("geometry", "make the scene with vkernel")
+        self.fields.require("geometry", BY_VKERNEL)
     }
 
     /// Whether the surface is a fold, with a response of its own kind.
@@ -76,21 +65,17 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or not those of a fold.
     pub fn fold(&self) -> Result<Fold> {
-        let GeometryRecord::Fold(record) = self.geometry()? else {
+        let GeometryRecord::Fold(FoldRecord { angle_deg, panel: [width, depth], panel1_depth }) =
+            self.geometry()?
+        else {
             let problem =
                 "a fold is needed here, and this is another shape; make the scene with vkernel --angle-deg";
             return Err(Error::field("geometry", problem));
         };
-        let facets: FacetsRecord = self.fields.require("facets", "make the scene with vkernel")?;
-        let grid = FacetGrid { rows: facets.rows, cols: facets.cols };
-        let [width, depth] = record.panel;
-        let spacing = match facets.spacing {
-            None | Some(SpacingRecord::Uniform) => Spacing::Uniform,
-            Some(SpacingRecord::Graded) => Spacing::Graded,
-        };
-        Fold::new(record.angle_deg, width, depth, grid)
-            .and_then(|fold| record.panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth)))
-            .map(|fold| fold.with_spacing(spacing))
+        let facets = self.facet_grid()?;
+        Fold::new(angle_deg, width, depth, facets.grid())
+            .and_then(|fold| panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth)))
+            .map(|fold| fold.with_spacing(facets.spacing()))
             .map_err(|e| Error::field("geometry", e))
     }
 }

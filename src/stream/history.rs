@@ -1,6 +1,7 @@
 //! What made a record: the line of history that each tool adds to a scene.
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Fields;
 use crate::error::Result;
@@ -15,6 +16,17 @@ const NO_MATTER: [(&str, &str, bool); 6] = [
     ("--verbose", "-v", false),
 ];
 
+/// What a tool was called with.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct HistoryRecord {
+    /// The tool.
+    tool: String,
+    /// Its version.
+    version: String,
+    /// Its arguments, those left out that change no record.
+    arguments: Vec<String>,
+}
+
 impl Fields {
     /// Adds the line that says which tool, of which version, with which arguments, made or changed this record. Arguments that
     /// change no record are left out.
@@ -22,10 +34,9 @@ impl Fields {
     /// # Errors
     /// [`crate::Error::Field`] if `history` is not an array.
     pub fn add_history(&mut self, tool: &str) -> Result<()> {
-        let mut history: Vec<Value> = self.get("history")?.unwrap_or_default();
         let arguments = that_matter(std::env::args().skip(1));
-        history.push(json!({ "tool": tool, "version": env!("CARGO_PKG_VERSION"), "arguments": arguments }));
-        self.set("history", history)
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        self.push("history", HistoryRecord { tool: tool.to_owned(), version, arguments })
     }
 }
 

@@ -1,33 +1,85 @@
 //! The scene's light: sun and sky on a fold, or sources around any surface.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
+use super::scene::BY_VKERNEL;
 use crate::error::{Error, Result};
 use crate::geometry::{Light, LightSource};
 
-#[derive(Serialize, Deserialize)]
-struct LightRecord {
+/// Where light comes from.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "needs tilt_deg, slant_deg and sky, or sources; make the scene with vkernel")]
+pub(super) enum LightRecord {
+    /// On a fold.
+    Sun(SunRecord),
+    /// On any other surface.
+    Sources(SourcesRecord),
+}
+
+/// The sun and a uniform sky on a fold.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct SunRecord {
+    /// Angle of the sun off the plane that halves the fold, degrees; above 0 it lights panel 0 more.
     tilt_deg: f64,
+    /// Angle of the sun along the crease, degrees.
     slant_deg: f64,
+    /// Irradiance by the sky of an open plane that faces the sun, relative to the sun's.
+    #[schemars(range(min = 0))]
     sky: f64,
+    /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is not read.
     #[serde(skip_deserializing)]
+    #[schemars(inner(range(min = 0, max = 1)))]
     panel_irradiance: [f64; 2],
 }
 
-#[derive(Serialize, Deserialize)]
-struct SourcesRecord {
+/// Sources around a surface.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct SourcesRecord {
+    /// The sources, at least one; illuminants are in their order, skies aside.
+    #[schemars(length(min = 1))]
     sources: Vec<SourceRecord>,
 }
 
-/// A source as [`LightSource`] has it.
-#[derive(Serialize, Deserialize)]
+/// A source of light.
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 enum SourceRecord {
-    Directional { towards: [f64; 3], irradiance: f64 },
-    Point { at: [f64; 3], irradiance: f64, distance: f64 },
-    UniformSky { irradiance: f64 },
-    OvercastSky { zenith: [f64; 3], irradiance: f64 },
+    /// Parallel light, such as the sun's.
+    Directional {
+        /// Direction towards it.
+        towards: [f64; 3],
+        /// Irradiance of a plane that faces it.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+    },
+    /// A lamp.
+    Point {
+        /// Where it is, in the unit of the vertices.
+        at: [f64; 3],
+        /// Irradiance of a plane that faces it at that distance.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+        /// Distance at which it has that irradiance, in the unit of the vertices.
+        #[schemars(range(min = 0))]
+        distance: f64,
+    },
+    /// Light from everywhere alike, from below as well.
+    UniformSky {
+        /// Irradiance of a plane that nothing hides.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+    },
+    /// The sky of a dull day, brightest in the zenith, dark below the horizon.
+    OvercastSky {
+        /// Direction towards the zenith.
+        zenith: [f64; 3],
+        /// Irradiance of a plane that faces the zenith and that nothing hides.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+    },
+    /// Light of which nothing is known but how much each facet gets.
     Given,
 }
 
@@ -61,16 +113,26 @@ impl SourceRecord {
     }
 }
 
-impl Scene {
-    pub(super) fn set_light(&mut self, light: &Light) -> Result<()> {
-        let (tilt_deg, slant_deg, sky) = (light.tilt_deg(), light.slant_deg(), light.sky());
-        let record = LightRecord { tilt_deg, slant_deg, sky, panel_irradiance: light.panel_irradiance() };
-        self.fields.set("light", record)
+impl From<&Light> for SunRecord {
+    fn from(light: &Light) -> Self {
+        Self {
+            tilt_deg: light.tilt_deg(),
+            slant_deg: light.slant_deg(),
+            sky: light.sky(),
+            panel_irradiance: light.panel_irradiance(),
+        }
     }
+}
 
-    pub(super) fn set_sources(&mut self, sources: &[LightSource]) -> Result<()> {
-        let sources = sources.iter().map(SourceRecord::from).collect();
-        self.fields.set("light", SourcesRecord { sources })
+impl From<&[LightSource]> for SourcesRecord {
+    fn from(sources: &[LightSource]) -> Self {
+        Self { sources: sources.iter().map(SourceRecord::from).collect() }
+    }
+}
+
+impl Scene {
+    fn light_record(&self) -> Result<LightRecord> {
+        self.fields.require("light", BY_VKERNEL)
     }
 
     /// The sun and the sky on a fold.
@@ -79,8 +141,10 @@ impl Scene {
     /// [`Error::Field`] if they are missing or leave a panel unlit, or if there is no fold.
     pub fn light(&self) -> Result<Light> {
         let fold = self.fold()?;
-        let light: LightRecord = self.fields.require("light", "make the scene with vkernel")?;
-        Light::new(&fold, light.tilt_deg, light.slant_deg, light.sky).map_err(|e| Error::field("light", e))
+        let LightRecord::Sun(SunRecord { tilt_deg, slant_deg, sky, .. }) = self.light_record()? else {
+            return Err(Error::field("light", "sources on a fold; make the scene again with vkernel"));
+        };
+        Light::new(&fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
     }
 
     /// The sources around a surface that is no fold.
@@ -88,10 +152,11 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or impossible.
     pub fn sources(&self) -> Result<Vec<LightSource>> {
-        let light: SourcesRecord = self.fields.require("light", "make the scene with vkernel")?;
-        if light.sources.is_empty() {
-            return Err(Error::field("light.sources", "none; make the scene with vkernel"));
+        match self.light_record()? {
+            LightRecord::Sources(SourcesRecord { sources }) if !sources.is_empty() => {
+                sources.into_iter().map(SourceRecord::into_source).collect()
+            }
+            _ => Err(Error::field("light.sources", format!("none; {BY_VKERNEL}"))),
         }
-        light.sources.into_iter().map(SourceRecord::into_source).collect()
     }
 }

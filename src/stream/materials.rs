@@ -1,5 +1,6 @@
 //! Materials: groups of a surface's facets whose reflectance is known, and the model of the others.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
@@ -11,13 +12,14 @@ use crate::geometry::Shape;
 use crate::kernel::surface::lit::LitSurface;
 
 /// A group of facets of known reflectance, on the scene's wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct Material {
     /// The group's name.
     pub group: String,
     /// Built-in name or file.
     pub name: String,
-    /// Reflectance a waveband.
+    /// Reflectance, a number a waveband.
+    #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
 }
 
@@ -38,7 +40,10 @@ impl Scene {
     pub fn materials(&self) -> Result<Vec<Material>> {
         let materials: Vec<Material> = self.fields.get("materials")?.unwrap_or_default();
         let bands = self.grid()?.len();
-        for Material { group, reflectance, .. } in &materials {
+        for (n, Material { group, reflectance, .. }) in materials.iter().enumerate() {
+            if materials[..n].iter().any(|other| other.group == *group) {
+                return Err(Error::field("materials", format!("'{group}' has two reflectances; keep one")));
+            }
             if reflectance.len() != bands || !reflectance.iter().all(|r| (0.0..=1.0).contains(r)) {
                 let problem = format!("that of '{group}' needs a number from 0 to 1 a waveband");
                 return Err(Error::field("materials", problem));

@@ -1,5 +1,6 @@
 //! The model of a scene: its response, its lights and its camera, with a card of known reflectance if a fold has one.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
@@ -14,14 +15,16 @@ use crate::response::Response;
 const PICTURE_TOLERANCE: f64 = 1e-4;
 
 /// A card of known reflectance in the place of one panel, on the scene's wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct ReferencePanel {
-    /// The card's panel, 0 or 1; the other is the sheet.
+    /// The card's panel; the other is the sheet.
     #[serde(default = "panel_1")]
+    #[schemars(range(min = 0, max = 1))]
     panel: usize,
     /// Built-in name or file.
     name: String,
-    /// Reflectance a waveband.
+    /// Reflectance, a number a waveband.
+    #[schemars(inner(range(min = 0, max = 1)))]
     reflectance: Vec<f64>,
 }
 

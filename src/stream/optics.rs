@@ -1,40 +1,41 @@
 //! The scene's camera and illuminants.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
+use super::fields::LARGEST;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{Lighting, OpenLight};
 use crate::geometry::LightSource;
 use crate::spectrum::WavelengthGrid;
 
-/// Largest power or sensitivity that is read: sums and products of such numbers stay finite.
-const LARGEST: f64 = 1e30;
-
 /// A named spectrum on the scene's wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct SpectrumRecord {
     /// Built-in name or file.
     pub name: String,
-    /// Relative power a waveband.
+    /// Relative power, a number a waveband.
+    #[schemars(inner(range(min = 0)))]
     pub power: Vec<f64>,
     /// How it was found between samples, where it was: `sprague` or `linear`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
 }
 
 /// A camera on the scene's wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct CameraRecord {
     /// Built-in name or file.
     pub name: String,
     /// Names of the channels.
     pub channels: Vec<String>,
-    /// Sensitivity, channel by waveband.
+    /// Sensitivity to power, `[channel][waveband]`, in any unit.
+    #[schemars(length(min = 1), inner(inner(range(min = 0))))]
     pub sensitivities: Vec<Vec<f64>>,
     /// How they were found between samples, where they were: `sprague` or `linear`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
 }
 
@@ -79,7 +80,10 @@ impl Scene {
     /// [`Error::Field`] if it is missing or not on the scene's wavelengths.
     pub fn camera(&self) -> Result<CameraRecord> {
         let camera: CameraRecord = self.fields.require("camera", "give --camera to vforward or vextract")?;
-        let bands = self.grid()?.len();
+        let (bands, channels) = (self.grid()?.len(), camera.channels.len());
+        if camera.sensitivities.len() != channels {
+            return Err(Error::field("camera.channels", format!("{channels} names, not one a sensitivity")));
+        }
         if camera.sensitivities.is_empty()
             || camera.sensitivities.iter().any(|channel| channel.len() != bands)
         {

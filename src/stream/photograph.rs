@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Sample;
@@ -10,54 +11,80 @@ use crate::error::Result;
 use crate::image::{FacetMeasurement, Grid, PhotographInfo, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ImageRecord {
+    /// File, as it was named.
     file: String,
+    /// Width of the upright picture, px.
     width: usize,
+    /// Height of the upright picture, px.
     height: usize,
+    /// Format, depth and colours of the file.
     stored_as: String,
+    /// The curve that was undone: linear or srgb.
     transfer: &'static str,
+    /// The stored number that is no light.
     black_level: Levels,
+    /// The stored number that is 1.
     white_level: Levels,
+    /// Of a RAW file: what was read of the sensor.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensor: Option<SensorRecord>,
+    /// What the camera did to the picture, and was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
+    /// How many neighbouring pixels make one independent number, a number a channel, 1 where noise is not shared.
     pixels_sharing_noise: Vec<f64>,
+    /// The camera's maker.
     #[serde(skip_serializing_if = "Option::is_none")]
     make: Option<String>,
+    /// The camera.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<String>,
+    /// Exposure time, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     exposure_s: Option<f64>,
+    /// Focal length over aperture.
     #[serde(skip_serializing_if = "Option::is_none")]
     f_number: Option<f64>,
+    /// ISO sensitivity.
     #[serde(skip_serializing_if = "Option::is_none")]
     iso: Option<u32>,
+    /// How the picture was stored, as EXIF counts it: 1 is upright.
+    #[schemars(range(min = 1, max = 8))]
     orientation: u32,
-    /// By number; null where none was marked.
+    /// Four corners of each panel, [x, y] each, px of the upright picture; null where a panel was not marked.
     panels: Vec<Option<[[f64; 2]; 4]>>,
+    /// Distance from a facet's sides within which pixels are left out, px.
     margin_px: f64,
+    /// Coefficients K1 and K2 of the lens.
     #[serde(skip_serializing_if = "Option::is_none")]
     distortion: Option<[f64; 2]>,
+    /// How corners were moved to the edges around them.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<RefinedRecord>,
+    /// What was wrong with the file but did no harm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
 }
 
-/// How far corners were moved to the edges around them, px, by panel, and where there was no edge.
-#[derive(Clone, Debug, Serialize)]
+/// How corners were moved to the edges around them.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct RefinedRecord {
+    /// How far, px, four corners a panel.
+    #[schemars(inner(inner(range(min = 0))))]
     moved_px: Vec<[f64; 4]>,
+    /// Sides at which no edge was found, and which stayed where they were.
     sides_without_edge: Vec<String>,
 }
 
-/// A level for all channels, or one for each.
-#[derive(Clone, Debug, Serialize)]
+/// A level of the sensor.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 enum Levels {
+    /// For all channels.
     All(f64),
+    /// For each channel.
     Each(Vec<f64>),
 }
 
@@ -71,11 +98,12 @@ impl From<&[f64]> for Levels {
 }
 
 /// What was read of a RAW file's sensor.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 struct SensorRecord {
+    /// Letters of the colour filters from the area's top left corner, row by row: RGGB; absent without filters.
     #[serde(skip_serializing_if = "Option::is_none")]
     mosaic: Option<String>,
-    /// Left, top, width, height, px.
+    /// Left column, top row, width and height of the area read, px of the whole sensor as stored.
     area: [usize; 4],
 }
 

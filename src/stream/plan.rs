@@ -1,13 +1,49 @@
 //! The plan record: what estimates from a scene will be worth.
 
-use serde_json::{Map, Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::estimate::fitted_name;
 use super::fields::{Fields, finite};
+use super::quantities::Quantities;
 use super::scene::Scene;
 use crate::error::Result;
 use crate::estimate::Estimate;
 use crate::estimate::unknowns::Quantity;
+
+/// What estimates of a scene's samples will be worth, before any is taken.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "kind", rename = "plan")]
+#[schemars(extend("x-writer" = "vestimate"))]
+pub(super) struct PlanRecord {
+    /// Name of the scene.
+    scene: String,
+    /// Angle between the panels of a fold, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<f64>,
+    /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
+    reflectances: String,
+    /// Number of them.
+    samples: usize,
+    /// Standard deviation of every facet's value, white being 1.
+    #[schemars(range(min = 0))]
+    noise_sd: f64,
+    /// Root mean square error over the wavelengths to expect of the reflectances.
+    expected_rmse: ExpectedRmse,
+    /// Standard deviation to expect of what is fitted along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expected_sd: Option<Quantities<f64>>,
+}
+
+/// Of several reflectances.
+#[derive(Serialize, JsonSchema)]
+struct ExpectedRmse {
+    /// Mean.
+    #[schemars(range(min = 0))]
+    mean: f64,
+    /// Largest.
+    #[schemars(range(min = 0))]
+    worst: f64,
+}
 
 /// Standard deviations of several estimates.
 #[derive(Clone, Debug, Default)]
@@ -43,23 +79,15 @@ pub fn plan(scene: &Scene, set: &str, noise_sd: f64, expected: &ExpectedError) -
     let mean = expected.reflectance.iter().sum::<f64>() / count;
     let worst = expected.reflectance.iter().copied().fold(0.0, f64::max);
     finite("expected_rmse", [&mean, &worst])?;
-    let mut fields = Fields::of_kind("plan");
-    fields.set("scene", scene.id()?)?;
-    if scene.is_fold()? {
-        fields.set("angle_deg", scene.fold()?.angle_deg())?;
-    }
-    fields.set("reflectances", set)?;
-    fields.set("samples", expected.reflectance.len())?;
-    fields.set("noise_sd", noise_sd)?;
-    fields.set("expected_rmse", json!({ "mean": mean, "worst": worst }))?;
-    let mut sds = Map::new();
-    for (quantity, squares) in &expected.fitted {
-        let sd = (squares / count).sqrt();
-        finite("expected_sd", [&sd])?;
-        sds.insert(fitted_name(*quantity).to_owned(), Value::from(sd));
-    }
-    if !sds.is_empty() {
-        fields.set("expected_sd", sds)?;
-    }
-    Ok(fields)
+    let sds: Vec<_> = expected.fitted.iter().map(|(of, squares)| (*of, (squares / count).sqrt())).collect();
+    finite("expected_sd", sds.iter().map(|(_, sd)| sd))?;
+    Fields::of(&PlanRecord {
+        scene: scene.id()?,
+        angle_deg: if scene.is_fold()? { Some(scene.fold()?.angle_deg()) } else { None },
+        reflectances: set.to_owned(),
+        samples: expected.reflectance.len(),
+        noise_sd,
+        expected_rmse: ExpectedRmse { mean, worst },
+        expected_sd: Quantities::of(sds),
+    })
 }

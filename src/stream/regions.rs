@@ -18,9 +18,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
 
+use super::named::Named;
 use super::{Fields, Sample};
 use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
@@ -44,6 +46,20 @@ pub struct Regions {
     pub image: Option<String>,
     /// Width and height of the picture in which the corners were found, px.
     pub size: Option<[usize; 2]>,
+}
+
+/// Where panels are in a picture: `panel0`, `panel1`, .. have four corners each, [x, y], px of the upright picture, in the order of
+/// `vextract --panel0`.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct RegionsRecord {
+    /// Name of the picture's file.
+    image: String,
+    /// Width of the picture, px.
+    width: usize,
+    /// Height of the picture, px.
+    height: usize,
+    #[serde(flatten)]
+    panels: Named<[[f64; 2]; 4]>,
 }
 
 impl Regions {
@@ -116,17 +132,15 @@ impl Sample {
     pub fn set_panel_regions(
         &mut self,
         image: &Path,
-        size: [usize; 2],
+        [width, height]: [usize; 2],
         panels: &[(usize, Corners)],
     ) -> Result<()> {
-        let mut regions = Fields::default();
-        regions.set("image", image.file_name().unwrap_or_default().to_string_lossy())?;
-        regions.set("width", size[0])?;
-        regions.set("height", size[1])?;
-        for (number, corners) in panels {
-            regions.set(&format!("panel{number}"), json!(corners.map(|corner| [corner.x, corner.y])))?;
-        }
-        self.fields.set("regions", Value::Object(regions.0))
+        let panel = |(number, corners): &(usize, Corners)| {
+            (format!("panel{number}"), corners.map(|corner| [corner.x, corner.y]))
+        };
+        let image = image.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let panels = Named(panels.iter().map(panel).collect());
+        self.fields.set("regions", RegionsRecord { image, width, height, panels })
     }
 }
 

@@ -1,30 +1,39 @@
 //! The scene's response: poles and residues of the bounces.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::finite;
+use super::scene::BY_VKERNEL;
 use crate::error::{Error, Result};
 use crate::response::{ModeSet, Modes, Response, SurfaceResponse};
 
-/// Of a fold with panels alike: one set of modes, residues for the facets of one panel. Otherwise a set for the light on each
-/// panel, residues for the facets of both.
-#[derive(Serialize, Deserialize)]
+/// What all bounces make of light.
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "needs poles and residues; make the scene again with vkernel")]
-enum ResponseRecord {
+pub(super) enum ResponseRecord {
+    /// Of a fold with panels alike: light on either panel, residues for the facets of one.
     Shared(ModesRecord),
-    Separate { panels: [ModesRecord; 2] },
+    /// Of any other fold.
+    Separate {
+        /// Light on panel 0 and light on panel 1, residues for the facets of both.
+        panels: [ModesRecord; 2],
+    },
+    /// Of any other surface.
+    Sources {
+        /// Every source, residues for all facets.
+        sources: Vec<ModesRecord>,
+    },
 }
 
-/// Of any other surface: a set for every source, residues for all facets.
-#[derive(Serialize, Deserialize)]
-struct ResponsesRecord {
-    sources: Vec<ModesRecord>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct ModesRecord {
+/// Poles and residues of the bounces in one light.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct ModesRecord {
+    /// Poles: the share of its light that a mode hands on.
+    #[schemars(inner(range(min = -1, max = 1)))]
     poles: Vec<f64>,
+    /// Residues, `[facet][pole]`.
     residues: Vec<Vec<f64>>,
 }
 
@@ -43,29 +52,45 @@ impl ModesRecord {
         }
         Ok(ModeSet { poles: self.poles, residues: self.residues.concat() })
     }
+}
 
+impl ResponseRecord {
     fn numbers(&self) -> impl Iterator<Item = &f64> {
-        self.poles.iter().chain(self.residues.iter().flatten())
+        let modes = match self {
+            Self::Shared(modes) => std::slice::from_ref(modes),
+            Self::Separate { panels } => panels,
+            Self::Sources { sources } => sources,
+        };
+        modes.iter().flat_map(|modes| modes.poles.iter().chain(modes.residues.iter().flatten()))
+    }
+
+    /// Whether it is made of numbers.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if one is not finite.
+    pub(super) fn check(&self) -> Result<()> {
+        finite("response", self.numbers())
+    }
+}
+
+impl From<&Response> for ResponseRecord {
+    fn from(response: &Response) -> Self {
+        match response.modes() {
+            Modes::Shared(set) => Self::Shared(set.into()),
+            Modes::Separate(sets) => Self::Separate { panels: sets.each_ref().map(Into::into) },
+        }
+    }
+}
+
+impl From<&[SurfaceResponse]> for ResponseRecord {
+    fn from(responses: &[SurfaceResponse]) -> Self {
+        Self::Sources { sources: responses.iter().map(|response| response.modes().into()).collect() }
     }
 }
 
 impl Scene {
-    /// Sets the poles and residues of the bounces.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub(super) fn set_response(&mut self, response: &Response) -> Result<()> {
-        let record = match response.modes() {
-            Modes::Shared(set) => ResponseRecord::Shared(set.into()),
-            Modes::Separate(sets) => ResponseRecord::Separate { panels: sets.each_ref().map(Into::into) },
-        };
-        match &record {
-            ResponseRecord::Shared(modes) => finite("response", modes.numbers())?,
-            ResponseRecord::Separate { panels } => {
-                finite("response", panels.iter().flat_map(ModesRecord::numbers))?;
-            }
-        }
-        self.fields.set("response", record)
+    fn response_record(&self) -> Result<ResponseRecord> {
+        self.fields.require("response", BY_VKERNEL)
     }
 
     /// Poles and residues of the bounces.
@@ -73,24 +98,16 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or their shapes disagree.
     pub fn response(&self) -> Result<Response> {
-        let record: ResponseRecord = self.fields.require("response", "make the scene with vkernel")?;
         let facets = self.fold()?.facets().len();
-        Response::new(match record {
+        Response::new(match self.response_record()? {
             ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
             ResponseRecord::Separate { panels: [on_0, on_1] } => {
                 Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
             }
+            ResponseRecord::Sources { .. } => {
+                return Err(Error::field("response", "that of no fold; make the scene again with vkernel"));
+            }
         })
-    }
-
-    /// Sets the poles and residues of every source around a surface.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub(super) fn set_responses(&mut self, responses: &[SurfaceResponse]) -> Result<()> {
-        let sources: Vec<ModesRecord> = responses.iter().map(|response| response.modes().into()).collect();
-        finite("response", sources.iter().flat_map(ModesRecord::numbers))?;
-        self.fields.set("response", ResponsesRecord { sources })
     }
 
     /// Poles and residues of every source around a surface that is no fold.
@@ -98,13 +115,15 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing, or do not fit facets and sources.
     pub fn responses(&self) -> Result<Vec<SurfaceResponse>> {
-        let record: ResponsesRecord = self.fields.require("response", "make the scene with vkernel")?;
+        let ResponseRecord::Sources { sources: modes } = self.response_record()? else {
+            return Err(Error::field("response", "that of a fold; make the scene again with vkernel"));
+        };
         let (facets, sources) = (self.facets()?, self.sources()?.len());
-        if record.sources.len() != sources {
-            let problem = format!("{} for {sources} sources of light", record.sources.len());
+        if modes.len() != sources {
+            let problem = format!("{} for {sources} sources of light", modes.len());
             return Err(Error::field("response.sources", problem));
         }
         let response = |modes: ModesRecord| SurfaceResponse::new(modes.into_modes(facets)?);
-        record.sources.into_iter().map(response).collect()
+        modes.into_iter().map(response).collect()
     }
 }

@@ -1,19 +1,103 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
 
-use super::fields::{Fields, finite};
-use crate::colorimetry::Colour;
+use super::calibration::CalibrationRecord;
+use super::colours::ColoursRecord;
+use super::estimate::EstimateRecord;
+use super::fields::{Fields, LARGEST, finite};
+use super::named::Named;
+use super::photograph::ImageRecord;
+use super::regions::RegionsRecord;
+use super::scores::ColourRecord;
 use crate::error::{Error, Result};
 use crate::forward::bounces::Truncation;
-use crate::plot::spectra::Curve;
-use crate::score::{Group, Score, Statistics, Summary};
-use crate::spectrum::formats::Measured;
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 
-/// Largest value of a exposure that is read: products and squares of such numbers stay finite.
-const LARGEST: f64 = 1e30;
+/// A sheet in the scene above it: the colours of its facets, and what the tools make of them.
+#[derive(Default, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename = "sample")]
+#[schemars(extend("x-writer" = "vforward, vextract"))]
+pub(super) struct SampleRecord {
+    /// Name of the scene.
+    scene: String,
+    /// Name of the sample: that of its spectrum or photograph.
+    id: String,
+    /// Value of a perfect white diffuser that faces the sun, in its strongest channel, if it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    exposure: Option<f64>,
+    /// How a chart or a white card made the photograph's values those of the camera.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    calibration: Option<CalibrationRecord>,
+    /// The photograph.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    image: Option<ImageRecord>,
+    /// Mean value of every facet, linear, white that faces the sun being the exposure. Absent beside an error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    facet_rgb: Option<ColoursRecord>,
+    /// Standard deviation of the same, from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    facet_sd: Option<ColoursRecord>,
+    /// Pixels that were averaged, a number a facet; one that facets share counts by its part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    facet_pixels: Option<Vec<f64>>,
+    /// Pixels left out because a channel is clipped, a number a facet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    facet_clipped: Option<Vec<usize>>,
+    /// Pixels left out because they are not finite or transparent, a number a facet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    facet_not_finite: Option<Vec<usize>>,
+    /// Pixels left out because they do not look like the rest of the facet, a number a facet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    facet_outliers: Option<Vec<usize>>,
+    /// Bounces of light that the facets' values are made of; all if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward"))]
+    bounces: Option<BouncesRecord>,
+    /// The true spectrum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vscore"))]
+    truth: Option<ReflectanceRecord>,
+    /// Where the panels are in the picture that was taken: what `vextract --regions` reads.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward"))]
+    regions: Option<RegionsRecord>,
+    /// The estimated spectrum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vestimate"))]
+    estimate: Option<EstimateRecord>,
+    /// Scores of the estimate by name: rmse, ciede2000, pd, gfc, `angle_deg`, metamerism; `ciede2000_A` and the like under further
+    /// illuminants.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vscore"))]
+    metrics: Option<Named<f64>>,
+    /// Colour of the estimate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vscore"))]
+    colour: Option<ColourRecord>,
+    /// What went wrong with this sample; the tools pass it on as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract, vestimate, vscore"))]
+    error: Option<String>,
+}
+
+/// The first bounces of light, where not all are counted.
+#[derive(Serialize, JsonSchema)]
+struct BouncesRecord {
+    /// Number of bounces.
+    count: u32,
+    /// Largest share of a facet's value that the others would add.
+    #[schemars(range(min = 0, max = 1))]
+    missing: f64,
+}
 
 /// A sample record.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,15 +106,16 @@ pub struct Sample {
     pub fields: Fields,
 }
 
-/// A true or estimated reflectance, on its own wavelengths.
-#[derive(Clone, Debug, Serialize, Deserialize, PartialEq)]
+/// A reflectance on its own wavelengths.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct ReflectanceRecord {
-    /// Wavelengths, nm.
+    /// Wavelengths, nm, increasing.
     pub wavelengths_nm: Vec<f64>,
-    /// Reflectance a wavelength.
+    /// Reflectance, a number a wavelength.
+    #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
     /// How it was found between samples, where it was: `sprague` or `linear`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
 }
 
@@ -54,10 +139,8 @@ impl Sample {
     /// # Errors
     /// As [`Fields::set`].
     pub fn new(scene: &str, id: &str) -> Result<Self> {
-        let mut fields = Fields::of_kind("sample");
-        fields.set("scene", scene)?;
-        fields.set("id", id)?;
-        Ok(Self { fields })
+        let (scene, id) = (scene.to_owned(), id.to_owned());
+        Ok(Self { fields: Fields::of(&SampleRecord { scene, id, ..SampleRecord::default() })? })
     }
 
     /// The sample's name.
@@ -73,9 +156,9 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn set_bounces(&mut self, truncation: &Truncation) -> Result<()> {
-        let Truncation { count, missing } = truncation;
-        finite("bounces.missing", [missing])?;
-        self.fields.set("bounces", json!({ "count": count, "missing": missing }))
+        let Truncation { count, missing } = *truncation;
+        finite("bounces.missing", [&missing])?;
+        self.fields.set("bounces", BouncesRecord { count, missing })
     }
 
     /// Sets the true spectrum.
@@ -85,39 +168,6 @@ impl Sample {
     pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
         finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
         self.fields.set("truth", truth)
-    }
-
-    /// The estimate as a curve to draw; none if there is none.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
-    pub fn curve(&self) -> Result<Option<Curve>> {
-        let Some(estimate) = self.estimated()? else { return Ok(None) };
-        Ok(Some(Curve {
-            name: self.id()?,
-            wavelengths_nm: estimate.wavelengths_nm,
-            reflectance: estimate.reflectance,
-            reflectance_sd: self.estimated_sd()?,
-            truth: self.truth()?.map(|truth| (truth.wavelengths_nm, truth.reflectance)),
-        }))
-    }
-
-    /// The estimate as a file of spectra has it; none if there is none.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
-    pub fn measured(&self) -> Result<Option<Measured>> {
-        let Some(estimate) = self.estimated()? else { return Ok(None) };
-        let (wavelengths_nm, reflectance) = (estimate.wavelengths_nm, estimate.reflectance);
-        let reflectance_sd = self.estimated_sd()?;
-        let lengths = reflectance_sd.iter().map(Vec::len).chain([wavelengths_nm.len()]);
-        if wavelengths_nm.len() < 2 || lengths.into_iter().any(|length| length != reflectance.len()) {
-            return Err(Error::field(
-                "estimate",
-                "not as many values as wavelengths, two or more; estimate it again",
-            ));
-        }
-        Ok(Some(Measured { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd }))
     }
 
     /// The true spectrum, if the sample carries it.
@@ -165,85 +215,4 @@ impl Sample {
     pub fn is_photograph(&self) -> Result<bool> {
         Ok(self.fields.get::<serde::de::IgnoredAny>("image")?.is_some())
     }
-
-    /// Adds scores.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_scores(&mut self, scores: &[Score]) -> Result<()> {
-        finite("metrics", scores.iter().map(|score| &score.value))?;
-        let record = scores.iter().map(|score| (score.name.clone(), json!(score.value)));
-        self.fields.set("metrics", record.collect::<Map<String, Value>>())
-    }
-
-    /// The sample's scores, if it has any.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if they are not numbers.
-    pub fn scores(&self) -> Result<Option<Vec<Score>>> {
-        let record: Option<Map<String, Value>> = self.fields.get("metrics")?;
-        let score = |(name, value): (String, Value)| {
-            let number =
-                value.as_f64().ok_or_else(|| Error::field(format!("metrics.{name}"), "not a number"));
-            number.map(|value| Score { name, value })
-        };
-        record.map(|record| record.into_iter().map(score).collect()).transpose()
-    }
-
-    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations; `exact` if they come from a
-    /// covariance, else they are the largest possible.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_colour(
-        &mut self,
-        (illuminant, observer): (&str, &str),
-        colour: &Colour,
-        sd: Option<&Colour>,
-        exact: bool,
-    ) -> Result<()> {
-        let mut record = json!({ "illuminant": illuminant, "observer": observer });
-        for (ending, Colour { xyz, lab, srgb }) in
-            std::iter::once(("", colour)).chain(sd.map(|sd| ("_sd", sd)))
-        {
-            finite("colour", xyz.iter().chain(lab).chain(srgb))?;
-            for (name, value) in [("xyz", xyz), ("lab", lab), ("srgb", srgb)] {
-                record[format!("{name}{ending}")] = json!(value);
-            }
-        }
-        if sd.is_some() {
-            record["sd_from"] = json!(if exact { "covariance" } else { "reflectance_sd, at most" });
-        }
-        self.fields.set("colour", record)
-    }
-}
-
-/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the same of each group of
-/// samples that share the value of a field, if they are grouped `by` one.
-///
-/// # Errors
-/// As [`Fields::set`].
-pub fn summary(all: &Summary, by: Option<(&str, &[Group])>) -> Result<Fields> {
-    let mut fields = Fields::of_kind("summary");
-    fields.0.extend(summarised(all));
-    if let Some((field, groups)) = by {
-        fields.set("by", field)?;
-        let group = |Group { value, summary }: &Group| {
-            let mut record = Map::new();
-            record.insert("value".to_owned(), json!(value));
-            record.extend(summarised(summary));
-            record
-        };
-        fields.set("groups", groups.iter().map(group).collect::<Vec<_>>())?;
-    }
-    Ok(fields)
-}
-
-fn summarised(summary: &Summary) -> Map<String, Value> {
-    let counts = [("samples", summary.samples()), ("scored", summary.scored())];
-    let counts = counts.into_iter().map(|(name, count)| (name.to_owned(), json!(count)));
-    let statistics = summary.statistics().into_iter().map(|Statistics { name, mean, median, worst }| {
-        (name, json!({ "mean": mean, "median": median, "worst": worst }))
-    });
-    counts.chain(statistics).collect()
 }

@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn a_field_is_found_in_its_group() {
-        let mut fields = Fields::of_kind("sample");
+        let mut fields = Fields::default();
         fields.set("estimate", json!({ "reflectance": [0.5] })).unwrap();
         assert_eq!(find(&fields, "reflectance"), find(&fields, "estimate.reflectance"));
         assert!(find(&fields, "estimate.nothing").is_none());

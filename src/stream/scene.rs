@@ -1,18 +1,92 @@
-//! The scene record: what it is called, how well it is solved, and what was skipped. Its parts have files of their own.
+//! The scene record. Its parts have files of their own.
 
-use serde::Deserialize;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
+use super::accuracy::AccuracyRecord;
+use super::facets::FacetsRecord;
 use super::fields::Fields;
+use super::geometry::GeometryRecord;
+use super::history::HistoryRecord;
+use super::light::LightRecord;
+use super::materials::Material;
+use super::model::ReferencePanel;
+use super::optics::{CameraRecord, SpectrumRecord};
+use super::response::ResponseRecord;
+use super::skipped::SkippedRecord;
 use super::surface::Surface;
 use crate::error::{Error, Result};
 use crate::geometry::{Fold, Light, LightSource};
-use crate::kernel::Method;
-use crate::kernel::mesh::{Accuracy, KernelSource};
 use crate::response::{Response, SurfaceResponse};
 
 /// The stream's format, in every scene.
 const FORMAT: &str = "vfold/1";
+/// What to do where a part of a scene is missing.
+pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
+
+/// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream belong to it.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "kind", rename = "scene")]
+#[schemars(extend("x-writer" = "vkernel"))]
+pub(super) struct SceneRecord {
+    /// Format of the stream.
+    #[schemars(extend("const" = FORMAT))]
+    format: &'static str,
+    /// Name.
+    id: String,
+    /// The surface.
+    geometry: GeometryRecord,
+    /// Where colour is measured.
+    facets: FacetsRecord,
+    /// Where light comes from.
+    light: LightRecord,
+    /// What all bounces make of light, for every reflectance r at once. On a fold, irradiance 1 on a panel becomes
+    /// `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same with `r·poles[k]·residues[i][k]` on that of the other panel; on
+    /// any other surface a source gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
+    response: ResponseRecord,
+    #[serde(flatten)]
+    further: FurtherRecord,
+}
+
+/// What is added to a scene.
+#[derive(Default, Serialize, JsonSchema)]
+struct FurtherRecord {
+    /// How well the bounces are solved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<AccuracyRecord>,
+    /// What need not be computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vkernel, vforward"))]
+    skipped: Option<Vec<SkippedRecord>>,
+    /// The tools that made the scene and all below it, in their order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "all"))]
+    history: Option<Vec<HistoryRecord>>,
+    /// Wavelengths of all spectra of the scene and its samples, nm, increasing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vextract"))]
+    wavelengths_nm: Option<Vec<f64>>,
+    /// The camera.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vextract"))]
+    camera: Option<CameraRecord>,
+    /// Spectra of the light: one for all sources, one for each that is no sky, or, of one source, one for each picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
+    illuminants: Option<Vec<SpectrumRecord>>,
+    /// Spectrum of the sky; that of the first illuminant if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vextract"))]
+    sky_illuminant: Option<SpectrumRecord>,
+    /// A card in the place of one panel of a fold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vestimate"))]
+    reference_panel: Option<ReferencePanel>,
+    /// Groups of facets, of a surface that is no fold, whose reflectance is known; all others are the sheet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vforward, vestimate"))]
+    materials: Option<Vec<Material>>,
+}
 
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,11 +101,15 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn new(id: &str, fold: &Fold, light: &Light, response: &Response) -> Result<Self> {
-        let mut scene = Self::named(id)?;
-        scene.set_fold(fold)?;
-        scene.set_light(light)?;
-        scene.set_response(response)?;
-        Ok(scene)
+        Self::of_record(SceneRecord {
+            format: FORMAT,
+            id: id.to_owned(),
+            geometry: GeometryRecord::Fold(fold.into()),
+            facets: FacetsRecord::Grid(fold.into()),
+            light: LightRecord::Sun(light.into()),
+            response: response.into(),
+            further: FurtherRecord::default(),
+        })
     }
 
     /// The scene of any surface under `sources`, the bounces of each solved.
@@ -44,18 +122,20 @@ impl Scene {
         sources: &[LightSource],
         responses: &[SurfaceResponse],
     ) -> Result<Self> {
-        let mut scene = Self::named(id)?;
-        scene.set_surface(surface)?;
-        scene.set_sources(sources)?;
-        scene.set_responses(responses)?;
-        Ok(scene)
+        Self::of_record(SceneRecord {
+            format: FORMAT,
+            id: id.to_owned(),
+            geometry: surface.into(),
+            facets: FacetsRecord::List(surface.into()),
+            light: LightRecord::Sources(sources.into()),
+            response: responses.into(),
+            further: FurtherRecord::default(),
+        })
     }
 
-    fn named(id: &str) -> Result<Self> {
-        let mut fields = Fields::of_kind("scene");
-        fields.set("format", FORMAT)?;
-        fields.set("id", id)?;
-        Ok(Self { fields })
+    fn of_record(record: SceneRecord) -> Result<Self> {
+        record.response.check()?;
+        Ok(Self { fields: Fields::of(&record)? })
     }
 
     /// A scene from its record.
@@ -69,7 +149,7 @@ impl Scene {
                 "format",
                 format!("'{format}' where this version reads '{FORMAT}'; make the scene again with vkernel"),
             )),
-            None => Err(Error::field("format", "missing; make the scene with vkernel")),
+            None => Err(Error::field("format", format!("missing; {BY_VKERNEL}"))),
         }
     }
 
@@ -78,98 +158,6 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if it has none.
     pub fn id(&self) -> Result<String> {
-        self.fields.require("id", "make the scene with vkernel")
+        self.fields.require("id", BY_VKERNEL)
     }
-
-    /// Says how good the response is and which mesh gave it.
-    ///
-    /// # Errors
-    /// As [`Fields::set`].
-    pub fn set_accuracy(&mut self, mesh: &str, tolerance: f64, accuracy: &Accuracy) -> Result<()> {
-        let mut record = json!({
-            "mesh": mesh,
-            "tolerance": tolerance,
-            "unknowns": accuracy.unknowns,
-            "facet_mean_error": accuracy.facet_mean_error,
-            "residual": accuracy.residual,
-        });
-        if let Some(source) = &accuracy.kernel {
-            record["kernel"] = kernel_record(source);
-        }
-        self.fields.set("accuracy", record)
-    }
-
-    /// The mesh on which the bounces were solved, as `vkernel --mesh` names it.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not there.
-    pub fn mesh(&self) -> Result<String> {
-        #[derive(Deserialize)]
-        struct Solved {
-            mesh: String,
-        }
-        let solved: Solved = self.fields.require("accuracy", "make the scene with vkernel")?;
-        Ok(solved.mesh)
-    }
-
-    /// Number of unknowns with which the bounces were solved.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not there.
-    pub fn unknowns(&self) -> Result<usize> {
-        #[derive(Deserialize)]
-        struct Solved {
-            unknowns: usize,
-        }
-        let solved: Solved = self.fields.require("accuracy", "make the scene with vkernel")?;
-        Ok(solved.unknowns)
-    }
-
-    /// Relative error that the response was allowed.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not there or not between 0 and 1.
-    pub fn tolerance(&self) -> Result<f64> {
-        #[derive(Deserialize)]
-        struct Allowed {
-            tolerance: f64,
-        }
-        let accuracy: Allowed = self.fields.require("accuracy", "make the scene with vkernel")?;
-        match accuracy.tolerance {
-            tolerance if tolerance > 0.0 && tolerance < 1.0 => Ok(tolerance),
-            tolerance => {
-                Err(Error::field("accuracy.tolerance", format!("{tolerance} is not between 0 and 1")))
-            }
-        }
-    }
-
-    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if `skipped` is not a list.
-    pub fn set_skipped(&mut self, what: &str, count: usize, why: &str) -> Result<()> {
-        let before: Option<Vec<Value>> = self.fields.get("skipped")?;
-        if before.is_none() && count == 0 {
-            return Ok(());
-        }
-        let mut skipped = before.unwrap_or_default();
-        skipped.retain(|entry| entry["what"] != what);
-        if count > 0 {
-            skipped.push(json!({ "what": what, "count": count, "why": why }));
-        }
-        self.fields.set("skipped", skipped)
-    }
-}
-
-/// The method that found the form factors, with what it was asked for and reached.
-fn kernel_record(source: &KernelSource) -> Value {
-    let method = source.method.to_string();
-    let Method::MonteCarlo(estimate) = source.method else { return json!({ "method": method }) };
-    json!({
-        "method": method,
-        "sampling": estimate.sampling().to_string(),
-        "samples": estimate.samples(),
-        "seed": estimate.seed(),
-        "entry_sd": source.entry_sd,
-    })
 }

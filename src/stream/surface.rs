@@ -1,8 +1,10 @@
 //! The scene's geometry: any surface, as a mesh or as nothing but its kernel.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
+use super::facets::ListRecord;
 use super::geometry::GeometryRecord;
 use crate::error::{Error, Result};
 use crate::geometry::{Group, Shape};
@@ -19,42 +21,17 @@ pub enum Surface {
     },
 }
 
-/// A mesh in full: the exchange between its facets is dense, so that it is small beside its response.
-#[derive(Serialize, Deserialize)]
+/// Flat facets in space, all of them: a mesh is small beside its response.
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct MeshRecord {
+    /// Points, in any unit.
     vertices: Vec<[f64; 3]>,
-    /// Corners, counter-clockwise seen from the reflecting side.
+    /// Three or four vertices of each face, counted from 0, counter-clockwise seen from the reflecting side.
+    #[schemars(inner(length(min = 3, max = 4)))]
     faces: Vec<Vec<usize>>,
-    /// The faces' backs are as many facets again.
+    /// Whether the faces' backs are as many facets again.
     #[serde(default)]
     two_sided: bool,
-}
-
-#[derive(Serialize, Deserialize)]
-struct FacetsRecord {
-    count: usize,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    groups: Vec<GroupRecord>,
-}
-
-/// So many facets from `first` on.
-#[derive(Serialize, Deserialize)]
-struct GroupRecord {
-    name: String,
-    first: usize,
-    count: usize,
-}
-
-impl From<&Group> for GroupRecord {
-    fn from(group: &Group) -> Self {
-        Self { name: group.name.clone(), first: group.facets.start, count: group.facets.len() }
-    }
-}
-
-impl GroupRecord {
-    fn into_group(self) -> Group {
-        Group { name: self.name, facets: self.first..self.first.saturating_add(self.count) }
-    }
 }
 
 impl From<&Shape> for MeshRecord {
@@ -66,33 +43,27 @@ impl From<&Shape> for MeshRecord {
     }
 }
 
-impl Scene {
-    pub(super) fn set_surface(&mut self, surface: &Surface) -> Result<()> {
-        let (geometry, facets) = match surface {
+impl From<&Surface> for GeometryRecord {
+    fn from(surface: &Surface) -> Self {
+        match surface {
+            Surface::Mesh(shape) => Self::Mesh(shape.into()),
+            Surface::Kernel { .. } => Self::Kernel,
+        }
+    }
+}
+
+impl From<&Surface> for ListRecord {
+    fn from(surface: &Surface) -> Self {
+        match surface {
             Surface::Mesh(shape) => {
-                let groups = shape.groups().iter().map(GroupRecord::from).collect();
-                (GeometryRecord::Mesh(shape.into()), FacetsRecord { count: shape.len(), groups })
+                Self { count: shape.len(), groups: shape.groups().iter().map(Into::into).collect() }
             }
-            Surface::Kernel { facets } => {
-                (GeometryRecord::Kernel, FacetsRecord { count: *facets, groups: Vec::new() })
-            }
-        };
-        self.fields.set("geometry", geometry)?;
-        self.fields.set("facets", facets)
+            Surface::Kernel { facets } => Self { count: *facets, groups: Vec::new() },
+        }
     }
+}
 
-    /// Number of facets.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if the scene does not say it.
-    pub fn facets(&self) -> Result<usize> {
-        if self.is_fold()? { Ok(2 * self.fold()?.facets().len()) } else { Ok(self.facets_record()?.count) }
-    }
-
-    fn facets_record(&self) -> Result<FacetsRecord> {
-        self.fields.require("facets", "make the scene with vkernel")
-    }
-
+impl Scene {
     /// The surface in space.
     ///
     /// # Errors
@@ -102,10 +73,10 @@ impl Scene {
             let problem = "a mesh is needed here; make the scene with vkernel --shape";
             return Err(Error::field("geometry", problem));
         };
-        let FacetsRecord { count, groups } = self.facets_record()?;
+        let ListRecord { count, groups } = self.facet_list()?;
         let fronts = record.faces.len();
-        let groups = groups.into_iter().map(GroupRecord::into_group);
-        let groups = groups.filter(|group| group.facets.start < fronts).collect();
+        let groups =
+            groups.into_iter().map(Group::from).filter(|group| group.facets.start < fronts).collect();
         let (shape, _) =
             Shape::new(record.vertices, record.faces, groups).map_err(|e| Error::field("geometry", e))?;
         let shape = if record.two_sided { shape.with_backs()? } else { shape };

@@ -147,13 +147,15 @@ fn warn(args: &Args, sample: &Sample) -> Result<()> {
     if args.common.quiet || !args.has_prior() {
         return Ok(());
     }
-    if let Some(rms) = sample.residual_rms()?.filter(|rms| *rms > MISFIT) {
+    let Some(estimate) = sample.estimate()? else { return Ok(()) };
+    let (id, rms) = (sample.id()?, estimate.residual_rms);
+    if rms > MISFIT {
         let problem = format!("facets are {rms:.0} times further from the model than their noise");
         let remedy = "check angle, corners, light, camera and exposure";
-        cli::say("vestimate", &format!("{}: {problem}; {remedy}", sample.id()?));
+        cli::say("vestimate", &format!("{id}: {problem}; {remedy}"));
     }
-    for name in sample.unsupported()? {
-        cli::say("vestimate", &format!("{}: the facets do not tell {name}; it is as expected", sample.id()?));
+    for name in estimate.unsupported() {
+        cli::say("vestimate", &format!("{id}: the facets do not tell {name}; it is as expected"));
     }
     Ok(())
 }

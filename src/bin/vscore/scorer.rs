@@ -3,7 +3,7 @@
 use vfold::colorimetry::{Colorimeter, ErrorBars, Observer};
 use vfold::score::{Score, goodness_of_fit, pearson_distance, rmse, spectral_angle_deg};
 use vfold::spectrum::{Spectrum, WavelengthGrid};
-use vfold::stream::{ReflectanceRecord, Sample, Scene, Transform};
+use vfold::stream::{EstimateRecord, ReflectanceRecord, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -83,18 +83,12 @@ impl<'a> Scorer<'a> {
         }
     }
 
-    fn add_colour(&self, context: &Context, reflectance: &[f64], sample: &mut Sample) -> Result<()> {
+    fn add_colour(&self, context: &Context, estimate: &EstimateRecord, sample: &mut Sample) -> Result<()> {
         let meter = &context.colorimeters[0];
-        let (covariance, sd) = (sample.estimated_covariance()?, sample.estimated_sd()?);
-        let fits = |values: &Vec<f64>| values.len() == context.grid.len();
-        let off_grid = |field| Error::field(field, "not on the wavelengths of its scene");
-        let errors = match (&covariance, &sd) {
-            (Some(rows), _) if rows.len() == context.grid.len() && rows.iter().all(fits) => {
-                Some(ErrorBars::Covariance(rows))
-            }
-            (Some(_), _) => return Err(off_grid("estimate.covariance")),
-            (None, Some(sd)) if fits(sd) => Some(ErrorBars::Deviations(sd)),
-            (None, Some(_)) => return Err(off_grid("estimate.reflectance_sd")),
+        let EstimateRecord { reflectance, covariance, reflectance_sd: sd, .. } = estimate;
+        let errors = match (covariance, sd) {
+            (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
+            (None, Some(sd)) => Some(ErrorBars::Deviations(sd)),
             (None, None) => None,
         };
         let observer = match self.args.observer {
@@ -120,18 +114,16 @@ impl Transform for Scorer<'_> {
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
-        let Some(estimate) = sample.estimated()? else {
+        let Some(estimate) = sample.estimate()? else {
             return Err(Error::field("estimate", "missing; run the samples through vestimate first"));
         };
-        if estimate.reflectance.len() != context.grid.len()
-            || estimate.wavelengths_nm != context.grid.wavelengths_nm()
-        {
+        if estimate.wavelengths_nm != context.grid.wavelengths_nm() {
             return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
         }
         let truth = self.truth_of(sample, &context.grid)?;
         sample.set_truth(&truth)?;
         sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
-        if self.args.colour { self.add_colour(context, &estimate.reflectance, sample) } else { Ok(()) }
+        if self.args.colour { self.add_colour(context, &estimate, sample) } else { Ok(()) }
     }
 }
 

@@ -1,0 +1,29 @@
+//! The page vfold-stream(5): what is written by hand, with the fields of all records from their types.
+
+use roff::{Roff, bold, italic, roman};
+
+use crate::stream::{FieldOutline, RecordOutline, outline};
+
+/// The page but for the records.
+const PAGE: &str = include_str!("../../man/vfold-stream.5.in");
+
+/// The page in roff.
+pub(super) fn stream_page() -> String {
+    PAGE.replace("@VERSION@", env!("CARGO_PKG_VERSION")).replace("@RECORDS@", records().trim_end())
+}
+
+fn records() -> String {
+    let mut page = Roff::new();
+    for RecordOutline { kind, about, fields } in outline() {
+        page.control("SS", [kind.as_str()]).text([roman(about)]);
+        fields.iter().for_each(|field| add(field, &mut page));
+    }
+    page.to_roff()
+}
+
+fn add(FieldOutline { path, holds, about, writers }: &FieldOutline, page: &mut Roff) {
+    let writers = writers.as_ref().map(|writers| format!(" Written by {writers}.")).unwrap_or_default();
+    page.control("TP", [])
+        .text([bold(path), roman("  "), italic(holds)])
+        .text([roman(format!("{about}{writers}"))]);
+}

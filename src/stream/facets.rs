@@ -1,0 +1,129 @@
+//! The scene's facets: a grid on each panel of a fold, or a list of any others.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Scene;
+use super::scene::BY_VKERNEL;
+use crate::error::{Error, Result};
+use crate::geometry::{FacetGrid, Fold, Group, Spacing};
+
+/// Where colour is measured.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "needs panels, rows and cols, or count; make the scene with vkernel")]
+pub(super) enum FacetsRecord {
+    /// Of a fold: panel by panel, on each row by row from the crease.
+    Grid(GridRecord),
+    /// Of any other surface, in its file's order.
+    List(ListRecord),
+}
+
+/// A grid of facets on each panel of a fold: panel by panel, row by row from the crease, column by column along it.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct GridRecord {
+    /// Number of panels.
+    #[schemars(extend("const" = 2))]
+    panels: usize,
+    /// Rows of a panel, counted from the crease.
+    #[schemars(range(min = 1))]
+    rows: usize,
+    /// Columns of a panel, counted along the crease.
+    #[schemars(range(min = 1))]
+    cols: usize,
+    /// Depths of the rows; uniform if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spacing: Option<SpacingRecord>,
+}
+
+/// How deep rows are.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum SpacingRecord {
+    Uniform,
+    Graded,
+}
+
+/// Facets one after the other; those of the backs, if a surface reflects on both sides, after those of the fronts.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct ListRecord {
+    /// Number of facets.
+    #[schemars(range(min = 1))]
+    pub count: usize,
+    /// Facets with a name of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<GroupRecord>,
+}
+
+/// A group of facets, one after the other.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct GroupRecord {
+    /// Name; groups of the same name are one.
+    name: String,
+    /// The first facet, counted from 0.
+    first: usize,
+    /// Number of facets.
+    count: usize,
+}
+
+impl From<&Fold> for GridRecord {
+    fn from(fold: &Fold) -> Self {
+        let FacetGrid { rows, cols } = fold.facets();
+        let spacing = match fold.spacing() {
+            Spacing::Uniform => None,
+            Spacing::Graded => Some(SpacingRecord::Graded),
+        };
+        Self { panels: 2, rows, cols, spacing }
+    }
+}
+
+impl GridRecord {
+    pub(super) fn grid(&self) -> FacetGrid {
+        FacetGrid { rows: self.rows, cols: self.cols }
+    }
+
+    pub(super) fn spacing(&self) -> Spacing {
+        match self.spacing {
+            None | Some(SpacingRecord::Uniform) => Spacing::Uniform,
+            Some(SpacingRecord::Graded) => Spacing::Graded,
+        }
+    }
+}
+
+impl From<&Group> for GroupRecord {
+    fn from(group: &Group) -> Self {
+        Self { name: group.name.clone(), first: group.facets.start, count: group.facets.len() }
+    }
+}
+
+impl From<GroupRecord> for Group {
+    fn from(GroupRecord { name, first, count }: GroupRecord) -> Self {
+        Self { name, facets: first..first.saturating_add(count) }
+    }
+}
+
+impl Scene {
+    /// Number of facets.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the scene does not say it.
+    pub fn facets(&self) -> Result<usize> {
+        if self.is_fold()? { Ok(2 * self.fold()?.facets().len()) } else { Ok(self.facet_list()?.count) }
+    }
+
+    pub(super) fn facet_grid(&self) -> Result<GridRecord> {
+        match self.fields.require("facets", BY_VKERNEL)? {
+            FacetsRecord::Grid(grid) if grid.panels == 2 => Ok(grid),
+            _ => Err(Error::field("facets", "not those of a fold; make the scene again with vkernel")),
+        }
+    }
+
+    pub(super) fn facet_list(&self) -> Result<ListRecord> {
+        match self.fields.require("facets", BY_VKERNEL)? {
+            FacetsRecord::List(list) => Ok(list),
+            FacetsRecord::Grid(_) => Err(Error::field(
+                "facets",
+                "those of a fold on another surface; make the scene again with vkernel",
+            )),
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Scores of a sample, its colour, and the summary of many.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Sample;
+use super::fields::{Fields, finite};
+use super::named::Named;
+use crate::colorimetry::Colour;
+use crate::error::Result;
+use crate::score::{Group, Score, Statistics, Summary};
+
+/// Colour of the estimate.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct ColourRecord {
+    /// Name of the illuminant.
+    illuminant: String,
+    /// Field of view of the standard observer: 2 degrees or 10 degrees.
+    observer: String,
+    /// Tristimulus values, those of a perfect white diffuser being Y = 100.
+    xyz: [f64; 3],
+    /// CIELAB: L*, a*, b*.
+    lab: [f64; 3],
+    /// sRGB, 0 to 1 on a display, beyond where it cannot show the colour.
+    srgb: [f64; 3],
+    /// Standard deviations of `xyz`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    xyz_sd: Option<[f64; 3]>,
+    /// Standard deviations of `lab`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lab_sd: Option<[f64; 3]>,
+    /// Standard deviations of `srgb`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    srgb_sd: Option<[f64; 3]>,
+    /// What standard deviations come from: covariance, or `reflectance_sd`, which allows no more than these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sd_from: Option<String>,
+}
+
+/// What a scored stream ends with: mean, median and worst of every score.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "kind", rename = "summary")]
+#[schemars(extend("x-writer" = "vscore"))]
+pub(super) struct SummaryRecord {
+    #[serde(flatten)]
+    all: CountsRecord,
+    /// The field by which samples are grouped.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    by: Option<String>,
+    /// The groups, in the order in which they came.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    groups: Option<Vec<GroupRecord>>,
+}
+
+/// Samples that share the value of a field.
+#[derive(Serialize, JsonSchema)]
+struct GroupRecord {
+    /// The value, `(none)` where the field is absent.
+    value: String,
+    #[serde(flatten)]
+    summary: CountsRecord,
+}
+
+/// Samples, and their scores by name.
+#[derive(Serialize, JsonSchema)]
+struct CountsRecord {
+    /// Number of samples.
+    samples: usize,
+    /// Number of them that have scores.
+    scored: usize,
+    #[serde(flatten)]
+    scores: Named<StatisticsRecord>,
+}
+
+/// A score over many samples.
+#[derive(Serialize, JsonSchema)]
+struct StatisticsRecord {
+    /// Mean.
+    mean: f64,
+    /// Median.
+    median: f64,
+    /// The largest; of a goodness of fit (gfc) the least.
+    worst: f64,
+}
+
+impl From<&Summary> for CountsRecord {
+    fn from(summary: &Summary) -> Self {
+        let statistics =
+            |Statistics { name, mean, median, worst }| (name, StatisticsRecord { mean, median, worst });
+        let scores = Named(summary.statistics().into_iter().map(statistics).collect());
+        Self { samples: summary.samples(), scored: summary.scored(), scores }
+    }
+}
+
+/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the same of each group of
+/// samples that share the value of a field, if they are grouped `by` one.
+///
+/// # Errors
+/// [`crate::Error::Field`] if it has no form in JSON.
+pub fn summary(all: &Summary, by: Option<(&str, &[Group])>) -> Result<Fields> {
+    let group =
+        |Group { value, summary }: &Group| GroupRecord { value: value.clone(), summary: summary.into() };
+    Fields::of(&SummaryRecord {
+        all: all.into(),
+        by: by.map(|(field, _)| field.to_owned()),
+        groups: by.map(|(_, groups)| groups.iter().map(group).collect()),
+    })
+}
+
+impl Sample {
+    /// Adds scores.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn set_scores(&mut self, scores: &[Score]) -> Result<()> {
+        finite("metrics", scores.iter().map(|score| &score.value))?;
+        let named = scores.iter().map(|score| (score.name.clone(), score.value));
+        self.fields.set("metrics", Named(named.collect()))
+    }
+
+    /// The sample's scores, if it has any.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if they are not numbers.
+    pub fn scores(&self) -> Result<Option<Vec<Score>>> {
+        let metrics: Option<Named<f64>> = self.fields.get("metrics")?;
+        let score = |(name, value)| Score { name, value };
+        Ok(metrics.map(|Named(metrics)| metrics.into_iter().map(score).collect()))
+    }
+
+    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations; `exact` if they come from a
+    /// covariance, else they are the largest possible.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn set_colour(
+        &mut self,
+        (illuminant, observer): (&str, &str),
+        colour: &Colour,
+        sd: Option<&Colour>,
+        exact: bool,
+    ) -> Result<()> {
+        for Colour { xyz, lab, srgb } in std::iter::once(colour).chain(sd) {
+            finite("colour", xyz.iter().chain(lab).chain(srgb))?;
+        }
+        let sd_from = if exact { "covariance" } else { "reflectance_sd, at most" };
+        self.fields.set(
+            "colour",
+            ColourRecord {
+                illuminant: illuminant.to_owned(),
+                observer: observer.to_owned(),
+                xyz: colour.xyz,
+                lab: colour.lab,
+                srgb: colour.srgb,
+                xyz_sd: sd.map(|sd| sd.xyz),
+                lab_sd: sd.map(|sd| sd.lab),
+                srgb_sd: sd.map(|sd| sd.srgb),
+                sd_from: sd.map(|_| sd_from.to_owned()),
+            },
+        )
+    }
+}

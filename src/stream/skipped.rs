@@ -1,0 +1,36 @@
+//! What of a scene need not be computed.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Scene;
+use crate::error::Result;
+
+/// What need not be computed.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct SkippedRecord {
+    /// What, in the plural.
+    what: String,
+    /// How many of them.
+    count: usize,
+    /// Why none is missed.
+    why: String,
+}
+
+impl Scene {
+    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `skipped` is not a list.
+    pub fn set_skipped(&mut self, what: &str, count: usize, why: &str) -> Result<()> {
+        if let Some(mut skipped) = self.fields.get::<Vec<Value>>("skipped")? {
+            skipped.retain(|entry| entry["what"] != what);
+            self.fields.set("skipped", skipped)?;
+        }
+        if count == 0 {
+            return Ok(());
+        }
+        self.fields.push("skipped", SkippedRecord { what: what.to_owned(), count, why: why.to_owned() })
+    }
+}

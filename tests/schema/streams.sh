@@ -1,0 +1,45 @@
+# Leaves streams with every kind of record, and every form of their fields, that the five tools write.
+data=$CARGO_MANIFEST_DIR/tests/data
+
+# folds: even and graded rows, unlike panels, sampled form factors, a card, several pictures, noise, few bounces
+vkernel --angle-deg 50 --facets 3x3 -o scene.ndjson
+vkernel --angle-deg 60 --facets 2x3 --spacing graded --panel1-depth 0.7 --tilt-deg 4 --sky 0.2 -o unlike.ndjson
+vkernel --angle-deg 60 --facets 2x2 --method monte-carlo --sampling cosine --samples 1000 -q -o sampled.ndjson
+vforward unlike.ndjson --reflectance cc24:red --reference-panel cc24:yellow --sky-illuminant daylight:9000 --camera sigma-sd-merrill \
+    --wavelengths-nm 400:680:4 -o card.ndjson
+vforward sampled.ndjson --reflectance 0.5 --bounces 2 --wavelengths-nm 380:780:20 -o few.ndjson
+vforward scene.ndjson --reflectance cc24:red 0.5 --illuminant D65 --illuminant A --noise-sd 1e-3 -o pictures.ndjson
+vestimate pictures.ndjson --save covariance=covariance.npy --trace trace.ndjson -o estimates.ndjson
+vestimate card.ndjson -o card-estimate.ndjson
+vforward scene.ndjson --reflectance cc24:red --noise-sd 1e-3 |
+    vestimate --fit exposure,tilt,sky,angle -q -o fitted.ndjson
+vforward scene.ndjson --reflectance cc24:red | vestimate --prior smooth -o smooth.ndjson
+vestimate scene.ndjson --plan --reflectance cc24:red --fit exposure,tilt,sky,angle -q -o plan.ndjson
+vscore estimates.ndjson --colour --illuminant D65 --illuminant A --metrics rmse,ciede2000,pd,gfc,angle,metamerism --by id -o scored.ndjson
+vscore fitted.ndjson --colour -o scored-fitted.ndjson
+
+# flat sheets
+vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance cc24:red cc24:blue -o flat.ndjson
+vestimate flat.ndjson --method park | vscore -o park.ndjson
+vestimate flat.ndjson --method khan | vscore -o khan.ndjson
+
+# shapes in all lights, a group of which is known; a kernel made elsewhere
+vkernel --shape "$data/shapes/corner.obj" --two-sided --mesh facets --light 1,1,2 --light point:1,1,2 --sky 0.2 --sky-type overcast \
+    -q -o corner.ndjson
+vkernel --folds 2 --angle-deg 80 --facets 2x2 --mesh facets --light 0,0,1 --sky 0.1 --save kernel=K.npy -o accordion.ndjson
+group=$(sed 's/.*"groups":\[{"name":"\([^"]*\)".*/\1/' corner.ndjson)
+vforward corner.ndjson --reflectance cc24:red --material "$group=cc24:white" | vestimate -q | vscore -o corner-scored.ndjson
+vforward --kernel K.npy --reflectance 0.5 -o elsewhere.ndjson
+
+# photographs: rendered, with a white card and corners that are off; one that is no picture among them
+vforward scene.ndjson --reflectance cc24:orange --exposure 0.5 --render fold.exr -o rendered.ndjson 2>corners
+eval "set -- $(grep -o -- '--panel0.*"' corners)"
+oiiotool fold.exr --fill:color=0.45,0.45,0.45 60x40+10+10 --attrib Make vfold -d uint16 -o card.tif
+echo no picture > bad.tif
+vextract card.tif bad.tif --scene scene.ndjson --camera canon-5d-mark-ii "$@" --white-region "10,10 70,10 70,50 10,50" \
+    --distortion 0,0 --refine -q -o photographs.ndjson || [ $? = 3 ]
+vextract card.tif --regions rendered.ndjson --scene scene.ndjson --camera canon-5d-mark-ii -q --resume resumed.ndjson
+echo '{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1.6, -0.5, -0.1], [-0.2, 1.5, -0.3], [0, -0.5, 1.5]]}' > camera.json
+vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --undo camera.json --scene scene.ndjson \
+    --camera canon-5d-mark-ii -q -o developed.ndjson
+vestimate photographs.ndjson -q -o photographed.ndjson || [ $? = 3 ]
