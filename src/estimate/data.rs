@@ -141,6 +141,12 @@ impl<'a> FacetData<'a> {
         })
     }
 
+    /// How many numbers are left, and of how many facet values.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.len(), self.count)
+    }
+
     /// Compressed data left of all facet values.
     fn len(&self) -> usize {
         self.values.len()

@@ -173,7 +173,8 @@ fn fit(fitted: &[Fitted]) -> Result<Value> {
 }
 
 /// Field of a fitted number.
-pub(super) fn fitted_name(quantity: Quantity) -> &'static str {
+#[must_use]
+pub fn fitted_name(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Exposure => "exposure",
         Quantity::TiltDeg => "tilt_deg",

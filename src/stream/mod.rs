@@ -39,6 +39,7 @@ mod writer;
 pub use calibration::CalibrationRecord;
 pub use colours::Colours;
 pub use development::read_development;
+pub use estimate::fitted_name;
 pub use fields::{Fields, finite};
 pub use given_kernel::GivenKernel;
 pub use materials::Material;

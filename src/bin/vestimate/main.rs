@@ -3,6 +3,7 @@
 mod estimator;
 mod flat;
 mod plan;
+mod said;
 mod settings;
 
 use std::path::PathBuf;
