@@ -1,14 +1,15 @@
 //! Estimated spectra for the terminal: braille dots, or plain ASCII where the locale has no more.
 
+mod canvas;
+
 use std::env;
 use std::io::{self, Write};
 
 use console::{Style, Term};
 
-use super::spectra::{Curve, highest};
+use super::spectra::Curve;
+use canvas::{Canvas, Cell, ROWS};
 
-/// Lines of a plot, its axis left out.
-const ROWS: usize = 12;
 /// Lines between labels of the reflectance.
 const LABEL_ROWS: usize = 3;
 /// Columns that labels of the reflectance take.
@@ -16,8 +17,6 @@ const MARGIN: usize = 7;
 /// Least and most columns of a plot, and those of what is no terminal.
 const COLUMNS: [usize; 2] = [40, 160];
 const COLUMNS_OF_NO_TERMINAL: usize = 80;
-/// Reflectances at the top, whose quarters have two decimals.
-const TOPS: [f64; 6] = [0.08, 0.12, 0.2, 0.4, 0.6, 0.8];
 /// Columns that a wavelength and the space around it take.
 const LABEL_COLUMNS: f64 = 8.0;
 /// Steps of wavelength, nm, that labels have.
@@ -80,29 +79,10 @@ static ASCII: Glyphs = Glyphs {
     axes: ['|', '-', '+', '+', '+'],
     sample: "**",
 };
-/// The bits of a braille character, row by row.
-const BITS: [[u8; 2]; 4] = [[0, 3], [1, 4], [2, 5], [6, 7]];
-
-/// What a character shows; the curve hides the truth, and that the band.
-#[derive(Clone, Copy, Default)]
-struct Cell {
-    dots: u8,
-    truth: bool,
-    band: bool,
-}
-
-/// The area between the axes.
-struct Canvas {
-    /// From the top.
-    rows: Vec<Vec<Cell>>,
-    ends_nm: [f64; 2],
-    top: f64,
-}
-
 /// The whole plot of a curve: its name and a legend, rows of characters, wavelengths.
 fn text(curve: &Curve, columns: usize, look: &Look) -> String {
     let width = columns.clamp(COLUMNS[0], COLUMNS[1]) - MARGIN - 1;
-    let canvas = Canvas::of(curve, width, look.glyphs);
+    let canvas = Canvas::of(curve, width, look.glyphs.dots);
     let mut text = look.title(curve);
     for (n, row) in canvas.rows.iter().enumerate() {
         let level = canvas.top * (1.0 - n as f64 / ROWS as f64);
@@ -114,95 +94,7 @@ fn text(curve: &Curve, columns: usize, look: &Look) -> String {
         text += row.iter().map(|cell| look.cell(*cell)).collect::<String>().trim_end();
         text.push('\n');
     }
-    text + &canvas.wavelength_axis(look.glyphs)
-}
-
-impl Canvas {
-    fn of(curve: &Curve, width: usize, glyphs: &Glyphs) -> Self {
-        let reach = highest(curve);
-        let top = TOPS.into_iter().find(|top| reach <= *top).unwrap_or(1.0);
-        let [first, last] = [curve.wavelengths_nm.first(), curve.wavelengths_nm.last()];
-        let ends_nm = [first, last].map(|nm| nm.copied().unwrap_or_default());
-        let mut canvas = Self { rows: vec![vec![Cell::default(); width]; ROWS], ends_nm, top };
-        canvas.fill(curve, width);
-        canvas.trace(&curve.wavelengths_nm, &curve.reflectance, width, glyphs.dots);
-        canvas
-    }
-
-    /// The wavelength in the middle of a column of so many.
-    fn nm(&self, column: usize, columns: usize) -> f64 {
-        let [first, last] = self.ends_nm;
-        first + (column as f64 + 0.5) / columns as f64 * (last - first)
-    }
-
-    /// The line, of so many from the top, on which a reflectance lies.
-    fn line(&self, reflectance: f64, lines: usize) -> usize {
-        let from_top = (1.0 - reflectance / self.top) * lines as f64;
-        (from_top.max(0.0) as usize).min(lines - 1)
-    }
-
-    /// Marks the band and the truth.
-    fn fill(&mut self, curve: &Curve, width: usize) {
-        let band = curve.edges();
-        for column in 0..width {
-            let nm = self.nm(column, width);
-            if let Some([low, high]) = &band
-                && let (Some(low), Some(high)) =
-                    (at(&curve.wavelengths_nm, low, nm), at(&curve.wavelengths_nm, high, nm))
-            {
-                let lines = self.line(high, ROWS)..=self.line(low, ROWS);
-                lines.for_each(|line| self.rows[line][column].band = true);
-            }
-            if let Some((wavelengths_nm, reflectance)) = &curve.truth
-                && let Some(reflectance) = at(wavelengths_nm, reflectance, nm)
-            {
-                let line = self.line(reflectance, ROWS);
-                self.rows[line][column].truth = true;
-            }
-        }
-    }
-
-    /// Sets the dots of a curve, each joined to the one before it.
-    fn trace(
-        &mut self,
-        wavelengths_nm: &[f64],
-        reflectance: &[f64],
-        width: usize,
-        [across, down]: [usize; 2],
-    ) {
-        let mut before = None;
-        for column in 0..width * across {
-            let Some(value) = at(wavelengths_nm, reflectance, self.nm(column, width * across)) else {
-                continue;
-            };
-            let line = self.line(value, ROWS * down);
-            let from = before.unwrap_or(line);
-            for line in from.min(line)..=from.max(line) {
-                self.rows[line / down][column / across].dots |= 1 << BITS[line % down][column % across];
-            }
-            before = Some(line);
-        }
-    }
-
-    /// The axis, and the numbers below it.
-    fn wavelength_axis(&self, glyphs: &Glyphs) -> String {
-        let width = self.rows[0].len();
-        let [_, level, corner, _, tick] = glyphs.axes;
-        let [first, last] = self.ends_nm;
-        let mut line = vec![level; width];
-        let mut numbers: Vec<char> = format!("{:<1$}", "  nm", MARGIN + width + 1).chars().collect();
-        for nm in labels_nm(self.ends_nm, width) {
-            let column = (((nm - first) / (last - first) * width as f64) as usize).min(width - 1);
-            line[column] = tick;
-            let number = format!("{nm:.0}");
-            let start = (MARGIN + column)
-                .saturating_sub(number.len() / 2)
-                .min(numbers.len().saturating_sub(number.len()));
-            numbers.iter_mut().skip(start).zip(number.chars()).for_each(|(place, digit)| *place = digit);
-        }
-        let (line, numbers): (String, String) = (line.into_iter().collect(), numbers.into_iter().collect());
-        format!("{:>5} {corner}{line}\n{}\n", "0.00", numbers.trim_end())
-    }
+    text + &look.wavelength_axis(canvas.ends_nm, width)
 }
 
 impl Look {
@@ -220,6 +112,25 @@ impl Look {
 
     fn tick(&self, level: f64) -> String {
         format!("{level:>5.2} {}", self.glyphs.axes[3])
+    }
+
+    /// The axis, and the numbers below it.
+    fn wavelength_axis(&self, ends_nm: [f64; 2], width: usize) -> String {
+        let [_, level, corner, _, tick] = self.glyphs.axes;
+        let [first, last] = ends_nm;
+        let mut line = vec![level; width];
+        let mut numbers: Vec<char> = format!("{:<1$}", "  nm", MARGIN + width + 1).chars().collect();
+        for nm in labels_nm(ends_nm, width) {
+            let column = (((nm - first) / (last - first) * width as f64) as usize).min(width - 1);
+            line[column] = tick;
+            let number = format!("{nm:.0}");
+            let start = (MARGIN + column)
+                .saturating_sub(number.len() / 2)
+                .min(numbers.len().saturating_sub(number.len()));
+            numbers.iter_mut().skip(start).zip(number.chars()).for_each(|(place, digit)| *place = digit);
+        }
+        let (line, numbers): (String, String) = (line.into_iter().collect(), numbers.into_iter().collect());
+        format!("{:>5} {corner}{line}\n{}\n", "0.00", numbers.trim_end())
     }
 
     fn cell(&self, cell: Cell) -> String {
@@ -247,14 +158,6 @@ fn labels_nm([first, last]: [f64; 2], width: usize) -> impl Iterator<Item = f64>
         LABEL_STEPS_NM.into_iter().find(|step| (last - first) / step <= most).unwrap_or(last - first);
     let start = (first / step_nm).ceil();
     (0..width).map(move |n| (start + n as f64) * step_nm).take_while(move |nm| *nm <= last)
-}
-
-/// The value at a wavelength, on the line between its neighbours; none outside.
-fn at(wavelengths_nm: &[f64], values: &[f64], nm: f64) -> Option<f64> {
-    let right = wavelengths_nm.partition_point(|sample| *sample <= nm);
-    let left = right.checked_sub(1)?;
-    let (x, y) = (wavelengths_nm.get(left..=right)?, values.get(left..=right)?);
-    Some(y[0] + (nm - x[0]) / (x[1] - x[0]) * (y[1] - y[0]))
 }
 
 #[cfg(test)]
