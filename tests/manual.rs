@@ -41,8 +41,14 @@ fn man_pages_and_completions_are_up_to_date() {
 
 /// How each shell completes `TOOL --progr` with the file that is checked in.
 const SHELLS: [(&str, &str); 3] = [
-    ("bash", "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T --progr); COMP_CWORD=1; _$T $T --progr $T; echo \\$COMPREPLY\""),
-    ("zsh", "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -o -m 1 -e --progress"),
+    (
+        "bash",
+        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T --progr); COMP_CWORD=1; _$T $T --progr $T; echo \\$COMPREPLY\"",
+    ),
+    (
+        "zsh",
+        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -o -m 1 -e --progress",
+    ),
     ("fish", "fish --no-config -c \"source $C/$T.fish; complete -C '$T --progr'\" | cut -f 1"),
 ];
 
@@ -55,7 +61,8 @@ fn every_shell_loads_its_completions() {
             continue;
         }
         for tool in TOOLS {
-            let script = format!("C='{}/share/completions'\nT={tool}\n{complete}", env!("CARGO_MANIFEST_DIR"));
+            let script =
+                format!("C='{}/share/completions'\nT={tool}\n{complete}", env!("CARGO_MANIFEST_DIR"));
             let run = folder.sh(&script);
             assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("--progress\n", ""), "{shell} {tool}");
         }
