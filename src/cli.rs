@@ -6,7 +6,6 @@ mod materials;
 mod spectra;
 mod stream_page;
 
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -16,6 +15,7 @@ pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
 
 use crate::error::{Error, Result};
+pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
@@ -41,7 +41,8 @@ pub struct Common {
     /// Say what was decided, measured and skipped
     #[arg(short, long, conflicts_with = "quiet")]
     pub verbose: bool,
-    /// Count samples on standard error while they pass; auto: on a terminal, when the records go to a file
+    /// Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go
+    /// to a file
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub progress: ProgressWhen,
     /// Also write a field of the records as an NPY array, samples stacked
@@ -141,11 +142,6 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     }
 }
 
-/// Writes a line to standard error; unlike `eprintln!` it survives a closed one.
-pub fn say(tool: &str, message: &str) {
-    let _ = writeln!(io::stderr(), "{tool}: {message}");
-}
-
 fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
     let what = match what {
         ListWhat::Cameras => What::Cameras,
@@ -162,7 +158,7 @@ fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> 
     }
 }
 
-/// Parses the name of a drawing.
+/// Parses the name of a drawing, `-` being the terminal.
 ///
 /// # Errors
 /// A message for the command line, if it ends in neither .svg nor .png.
@@ -170,7 +166,8 @@ pub fn drawing(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).as_deref() {
         Some("svg" | "png") => Ok(path),
-        _ => Err("end the name in .svg or .png".to_owned()),
+        _ if text == "-" => Ok(path),
+        _ => Err("end the name in .svg or .png, or write - for the terminal".to_owned()),
     }
 }
 

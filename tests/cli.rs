@@ -170,7 +170,7 @@ fn progress_counts_the_samples_when_asked() {
         "vestimate estimates.ndjson --progress always > out.ndjson; grep -c '\"kind\":\"sample\"' out.ndjson",
     );
     let count = run.stdout.trim();
-    assert!(run.stderr.ends_with(&format!("\rvestimate: {count} samples\n")), "{run:?}");
+    assert_eq!(run.stderr, format!("vestimate: {count} samples\n"));
     let run = after_setup("vestimate estimates.ndjson --progress always --quiet > out.ndjson");
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
 }

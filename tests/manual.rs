@@ -51,6 +51,45 @@ fn schemas() -> Vec<(String, String)> {
     records.map(|(kind, schema)| (format!("share/schema/{kind}.json"), format!("{schema:#}\n"))).collect()
 }
 
+/// How each shell completes `TOOL --progr` with the file that is checked in.
+const SHELLS: [(&str, &str); 3] = [
+    (
+        "bash",
+        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T --progr); COMP_CWORD=1; _$T $T --progr $T; echo \\$COMPREPLY\"",
+    ),
+    (
+        "zsh",
+        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -o -m 1 -e --progress",
+    ),
+    ("fish", "fish --no-config -c \"source $C/$T.fish; complete -C '$T --progr'\" | cut -f 1"),
+];
+
+/// A shell that is not there is left out: `tests/run` brings them.
+#[test]
+fn every_shell_loads_its_completions() {
+    let folder = Workdir::new();
+    for (shell, complete) in SHELLS {
+        if folder.sh(&format!("command -v {shell}")).status != 0 {
+            continue;
+        }
+        for tool in TOOLS {
+            let script =
+                format!("C='{}/share/completions'\nT={tool}\n{complete}", env!("CARGO_MANIFEST_DIR"));
+            let run = folder.sh(&script);
+            assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("--progress\n", ""), "{shell} {tool}");
+        }
+    }
+}
+
+#[test]
+fn man_shows_every_page() {
+    let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("man")).unwrap();
+    for page in pages.map(|page| page.unwrap().path()) {
+        let run = Workdir::new().sh(&format!("groff -k -man -Tutf8 -ww -z '{}'", page.display()));
+        assert!(run.status == 0 && run.stderr.is_empty(), "{}: {run:?}", page.display());
+    }
+}
+
 #[test]
 fn the_overview_is_of_this_version() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("man/vfold.7")).unwrap();

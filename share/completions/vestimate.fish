@@ -9,7 +9,7 @@ sky\t'Amount of skylight, and its colour unless the scene says it'
 angle\t'Angle between the panels'"
 complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
-complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
 complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
@@ -28,7 +28,7 @@ complete -c vestimate -l areas -d 'Areas of the facets [default: those that reci
 complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vestimate -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vestimate -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vestimate -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vestimate -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r

@@ -29,7 +29,7 @@ complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and th
 complete -c vextract -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vextract -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vextract -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vextract -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vextract -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vextract -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r

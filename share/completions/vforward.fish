@@ -24,7 +24,7 @@ complete -c vforward -l areas -d 'Areas of the facets [default: those that recip
 complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vforward -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vforward -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vforward -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vforward -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vforward -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r

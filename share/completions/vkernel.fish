@@ -28,7 +28,7 @@ complete -c vkernel -l zenith -d 'Direction X,Y,Z to the zenith of an overcast s
 complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vkernel -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vkernel -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vkernel -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vkernel -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r

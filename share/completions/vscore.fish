@@ -3,17 +3,17 @@ complete -c vscore -l illuminant -d 'Illuminant of the colour difference; repeat
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
 complete -c vscore -l metrics -d 'What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
 ciede2000\t'Colour difference under each illuminant'
-pd\t'The paper\'s "Pearson distance"'
+pd\t'What the paper calls Pearson distance'
 gfc\t'Goodness of fit coefficient'
 angle\t'Spectral angle'
 metamerism\t'From the first illuminant to each other one'"
 complete -c vscore -l by -d 'Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`' -r
-complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra' -r -F
+complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal' -r -F
 complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vscore -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vscore -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vscore -l progress -d 'Count samples on standard error while they pass; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vscore -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vscore -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r

@@ -127,6 +127,12 @@ impl<'a> FacetData<'a> {
         })
     }
 
+    /// How many numbers are left, and of how many facet values.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.values.len(), self.count)
+    }
+
     /// Root mean square of all residuals, those outside the compressed data included.
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {

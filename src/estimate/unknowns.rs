@@ -24,6 +24,20 @@ pub enum Quantity {
     AngleDeg,
 }
 
+impl Quantity {
+    /// What it is called, unit included.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exposure => "exposure",
+            Self::TiltDeg => "tilt_deg",
+            Self::Sky => "sky",
+            Self::SkyCctK => "sky_cct_k",
+            Self::AngleDeg => "angle_deg",
+        }
+    }
+}
+
 /// A number of the scene, and what is known of it before a picture is taken: it is normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unknown {

@@ -2,5 +2,6 @@
 
 mod figure;
 pub mod spectra;
+mod terminal;
 
 pub use figure::{COLOURS, load_font};

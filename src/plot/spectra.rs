@@ -6,6 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::figure::{COLOURS, Drawn, FONT, Figure, save};
+use super::terminal;
 use crate::error::{Error, Result};
 
 /// Most curves in one drawing: more could not be told apart.
@@ -26,7 +27,7 @@ pub struct Curve {
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// Draws up to eight curves, as SVG or PNG.
+/// Draws up to eight curves, as SVG or PNG; `-` is the terminal.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be written, [`Error::Usage`] if there is nothing to draw.
@@ -34,6 +35,10 @@ pub fn draw(path: &Path, curves: &[Curve]) -> Result<()> {
     let shown = &curves[..curves.len().min(CURVES_MAX)];
     if shown.is_empty() {
         return Err(Error::usage("--plot", "no sample has an estimate to draw", "check the samples' errors"));
+    }
+    if path == Path::new("-") {
+        terminal::draw(shown);
+        return Ok(());
     }
     save(path, &Spectra(shown))
 }
@@ -98,21 +103,27 @@ impl Figure for Spectra<'_> {
 
 /// Outline of two standard deviations to either side of a curve.
 fn band(curve: &Curve) -> Option<Vec<(f64, f64)>> {
-    let sd = curve.reflectance_sd.as_ref()?;
-    let edge = |side: f64| {
-        let reflectance =
-            curve.reflectance.iter().zip(sd).map(move |(r, sd)| (r + side * sd).clamp(0.0, 1.0));
-        points(&curve.wavelengths_nm, reflectance)
-    };
-    Some(edge(2.0).chain(edge(-2.0).collect::<Vec<_>>().into_iter().rev()).collect())
+    let outline = |edge: Vec<f64>| points(&curve.wavelengths_nm, edge.into_iter()).collect::<Vec<_>>();
+    let [low, high] = curve.edges()?.map(outline);
+    Some(high.into_iter().chain(low.into_iter().rev()).collect())
+}
+
+impl Curve {
+    /// Lower and upper edge of its band: two standard deviations to either side.
+    pub(super) fn edges(&self) -> Option<[Vec<f64>; 2]> {
+        let sd = self.reflectance_sd.as_ref()?;
+        let edge = |side: f64| {
+            self.reflectance.iter().zip(sd).map(|(r, sd)| (r + side * sd).clamp(0.0, 1.0)).collect()
+        };
+        Some([-2.0, 2.0].map(edge))
+    }
 }
 
 /// The highest point that a curve, its band or its truth reaches.
-fn highest(curve: &Curve) -> f64 {
-    let sd = |n: usize| curve.reflectance_sd.as_ref().map_or(0.0, |sd| 2.0 * sd[n]);
-    let own = curve.reflectance.iter().enumerate().map(|(n, r)| (r + sd(n)).min(1.0));
+pub(super) fn highest(curve: &Curve) -> f64 {
+    let own = curve.edges().map_or_else(|| curve.reflectance.clone(), |[_, high]| high);
     let truth = curve.truth.iter().flat_map(|(_, reflectance)| reflectance.iter().copied());
-    own.chain(truth).fold(0.05, f64::max)
+    own.into_iter().chain(truth).fold(0.05, f64::max)
 }
 
 fn points<'a>(

@@ -50,12 +50,12 @@ impl<T> Quantities<T> {
     /// Those that are there, with their names.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&'static str, &T)> {
         let all = [
-            ("exposure", &self.exposure),
-            ("angle_deg", &self.angle_deg),
-            ("tilt_deg", &self.tilt_deg),
-            ("sky", &self.sky),
-            ("sky_cct_k", &self.sky_cct_k),
+            (Quantity::Exposure, &self.exposure),
+            (Quantity::AngleDeg, &self.angle_deg),
+            (Quantity::TiltDeg, &self.tilt_deg),
+            (Quantity::Sky, &self.sky),
+            (Quantity::SkyCctK, &self.sky_cct_k),
         ];
-        all.into_iter().filter_map(|(name, one)| Some((name, one.as_ref()?)))
+        all.into_iter().filter_map(|(quantity, one)| Some((quantity.name(), one.as_ref()?)))
     }
 }

@@ -65,6 +65,13 @@ impl Output {
         self.progress = Some(progress);
     }
 
+    /// Says how many samples will be written, where that is known.
+    pub fn expect(&mut self, samples: usize) {
+        if let Some(progress) = &mut self.progress {
+            progress.expect(samples);
+        }
+    }
+
     /// Writes a scene.
     ///
     /// # Errors

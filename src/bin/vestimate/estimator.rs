@@ -1,5 +1,6 @@
 //! Estimates of the samples of a stream.
 
+use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
@@ -13,6 +14,7 @@ use vfold::{Error, Result};
 
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
+use super::said::{self, Deviations};
 use super::settings::{Fit, NoiseSd, Smoothness};
 
 /// The prior whose classes are known.
@@ -137,19 +139,25 @@ impl Transform for Estimator<'_> {
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
         let rgb = sample.facet_rgb()?;
         let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
-        let estimate = match &context.method {
+        let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let sd = self.deviations(context, &rgb, sample)?;
-                let measured = Measured { rgb: &rgb, sd: &sd };
+                let deviations = self.deviations(context, &rgb, sample)?;
+                let measured = Measured { rgb: &rgb, sd: &deviations.sd };
                 let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
-                map::estimate(&data, prior, context.start.as_deref())
+                let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
+                (map::estimate(&data, prior, context.start.as_deref()), how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
-                flat.estimate(&FlatSheet::new(context.scene.facets(), &measured, exposure)?)?
+                let sheet = FlatSheet::new(context.scene.facets(), &measured, exposure)?;
+                (flat.estimate(&sheet)?, flat.to_string())
             }
         };
+        if self.args.common.verbose {
+            let id = sample.id()?;
+            cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(&estimate, exposure)));
+        }
         let (name, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             _ => ("interreflection", self.args.prior()),
@@ -204,41 +212,48 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
-    /// The paper's objective weighs all facets alike, white being 1.
+    /// The paper's objective weighs all facets alike, white being 1; and how it was made.
     fn smooth(
         &self,
         context: &Context,
         sample: &Sample,
         exposure: Exposure,
         smoothness: Smoothness,
-    ) -> Result<Estimate> {
+    ) -> Result<(Estimate, String)> {
         let rgb = sample.facet_rgb()?;
         let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
         let data = FacetData::new(&context.scene, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
-        match smoothness {
-            Smoothness::Weight(weight) => smooth::estimate(&data, weight, start),
+        let (estimate, weight) = match smoothness {
+            Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
                 let noise = self.deviations(context, &rgb, sample)?;
-                smooth::estimate_by_discrepancy(&data, root_mean_square(&noise), start)
+                (
+                    smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
+                    format!("as allowed by {noise}"),
+                )
             }
-        }
+        };
+        Ok((estimate, format!("smoothness {weight}, {}", said::size(&data))))
     }
 
     /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Deviations> {
         let model_error = match self.args.model_error {
             Some(error) => error,
             None if sample.is_photograph()? => MODEL_ERROR,
             None => 0.0,
         };
         if let NoiseSd::All(sd) = self.args.noise_sd {
-            return Ok(deviations(rgb, |_, _| sd, model_error));
+            let sd = deviations(rgb, |_, _| sd, model_error);
+            return Ok(Deviations { sd, model_error, noise_from: "--noise-sd" });
         }
         let Some(said) = sample.facet_sd()? else {
             let noise = unexplained(context.scene.facets(), rgb);
-            return Ok(deviations(rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), model_error));
+            let noise = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
+            let sd = deviations(rgb, noise, model_error);
+            return Ok(Deviations { sd, model_error, noise_from: "what no reflectance explains" });
         };
         if said.len() != rgb.len() {
             return Err(Error::field(
@@ -247,16 +262,12 @@ impl<'a> Estimator<'a> {
             ));
         }
         let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
-        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
+        let sd = deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error);
+        Ok(Deviations { sd, model_error, noise_from: "facet_sd" })
     }
 }
 
 /// The same standard deviation for every facet, white being 1.
 fn alike(rgb: &Colours) -> Colours {
     rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect()
-}
-
-fn root_mean_square(facets: &Colours) -> f64 {
-    let values: Vec<f64> = facets.iter().flatten().flatten().copied().collect();
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }

@@ -1,5 +1,7 @@
 //! `--method park|khan`: flat sheets, whose spectrum is a combination of few components.
 
+use std::fmt;
+
 use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
 use vfold::estimate::components::{FlatSheet, autocorrelation};
@@ -119,6 +121,13 @@ impl FlatContext {
     /// The spectrum of a sheet.
     pub fn estimate(&self, sheet: &FlatSheet) -> Result<Estimate> {
         (self.method.estimate)(sheet, &self.autocorrelation, self.components, self.smoothness)
+    }
+}
+
+impl fmt::Display for FlatContext {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { method, components, basis_name, smoothness, .. } = self;
+        write!(f, "{}, {components} components of {basis_name}, smoothness {smoothness:e}", method.name)
     }
 }
 

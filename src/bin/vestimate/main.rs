@@ -3,6 +3,7 @@
 mod estimator;
 mod flat;
 mod plan;
+mod said;
 mod settings;
 
 use std::path::PathBuf;
@@ -64,8 +65,8 @@ struct Args {
     /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
-    /// Draw estimates, their error bands and true spectra
-    #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
+    /// Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal
+    #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
     #[arg(long, value_name = "FILE.csv|.sp|.spdx")]

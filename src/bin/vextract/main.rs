@@ -143,6 +143,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         out.scene(&scene)?;
         return out.sample(&sample);
     }
+    out.expect(images.len());
     out.scene(&scene)?;
     let kept = out.kept()?;
     batch::measure(&setup, &images, first, kept, |sample| out.sample(&sample))

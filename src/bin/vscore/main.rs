@@ -53,8 +53,8 @@ struct Args {
     /// Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`
     #[arg(long, value_name = "FIELD")]
     by: Option<String>,
-    /// Draw estimates, their error bands and true spectra
-    #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
+    /// Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal
+    #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
     #[arg(long, value_name = "FILE.csv|.sp|.spdx")]

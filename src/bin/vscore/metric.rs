@@ -9,7 +9,7 @@ pub enum Metric {
     Rmse,
     /// Colour difference under each illuminant.
     Ciede2000,
-    /// The paper's "Pearson distance".
+    /// What the paper calls Pearson distance.
     Pd,
     /// Goodness of fit coefficient.
     Gfc,
@@ -38,7 +38,7 @@ pub fn width_and_decimals(name: &str) -> (usize, usize) {
     match name {
         "rmse" => (8, 4),
         "pd" => (10, 5),
-        "gfc" => (10, 5),
+        "gfc" => (8, 5),
         _ => (10, 3),
     }
 }

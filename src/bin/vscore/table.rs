@@ -6,8 +6,14 @@ use vfold::stream::{Output, Sample};
 
 use super::metric::width_and_decimals;
 
+/// Columns of a terminal; a table is wider only if it has too many scores.
+const WIDTH: usize = 80;
+/// Most and least columns for a sample's name.
+const NAME: [usize; 2] = [28, 12];
+
 /// A column a score.
 pub struct Table {
+    name_width: usize,
     columns: Vec<Column>,
 }
 
@@ -23,7 +29,9 @@ impl Table {
             let (width, decimals) = width_and_decimals(&name);
             Column { width: width.max(name.chars().count() + 1), decimals, name }
         };
-        Self { columns: score_names.into_iter().map(column).collect() }
+        let columns: Vec<Column> = score_names.into_iter().map(column).collect();
+        let taken: usize = columns.iter().map(|column| column.width + 1).sum();
+        Self { name_width: WIDTH.saturating_sub(taken).clamp(NAME[1], NAME[0]), columns }
     }
 
     pub fn header(&self, out: &mut Output) -> Result<()> {
@@ -32,7 +40,7 @@ impl Table {
             let heading = format!("{} {light}", metric.to_uppercase());
             format!(" {:>1$}", heading.trim_end(), column.width)
         };
-        out.text(&format!("{:<28}{}", "sample", self.columns.iter().map(heading).collect::<String>()))
+        out.text(&self.named("sample", &self.columns.iter().map(heading).collect::<String>()))
     }
 
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
@@ -43,7 +51,7 @@ impl Table {
                     |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
                 out.text(&self.line(&id, value))
             }
-            (_, error) => out.failed_text(&format!("{id:<28} {}", error.unwrap_or_default())),
+            (_, error) => out.failed_text(&self.named(&id, &format!(" {}", error.unwrap_or_default()))),
         }
     }
 
@@ -77,6 +85,15 @@ impl Table {
             Some(value) => format!(" {value:>0$.1$}", column.width, column.decimals),
             None => format!(" {:>1$}", "-", column.width),
         };
-        format!("{name:<28}{}", self.columns.iter().map(cell).collect::<String>())
+        self.named(name, &self.columns.iter().map(cell).collect::<String>())
+    }
+
+    /// A name before the rest of its line; one that is too long has a line of its own.
+    fn named(&self, name: &str, rest: &str) -> String {
+        let width = self.name_width;
+        if name.chars().count() > width {
+            return format!("{name}\n{:width$}{rest}", "");
+        }
+        format!("{name:<width$}{rest}")
     }
 }

@@ -1,7 +1,8 @@
 //! IES TM-27: one spectrum as XML (`.spdx`).
 //!
-//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". Entities and document types
-//! are refused, so that no small file becomes a large one.
+//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". It has one spectrum and the header
+//! of one product; files of several, which it does not provide for, are read all the same. Entities and document types are refused, so
+//! that no small file becomes a large one.
 
 use std::fmt::Write;
 
@@ -15,7 +16,7 @@ const MAX_NODES: u32 = 1_000_000;
 /// Elements within elements: the standard has three, and a parser that calls itself must not run out of stack.
 const MAX_DEPTH: usize = 64;
 
-/// The spectrum of a TM-27 text.
+/// The spectrum of a TM-27 text; several are called by their number.
 ///
 /// # Errors
 /// [`crate::Error::Table`] with the line that is wrong.
@@ -36,10 +37,26 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         let problem = format!("<{}> where <IESTM2714> should be", root.tag_name().name());
         return Err(place(root).fails(problem, "export the spectrum as IES TM-27"));
     }
-    let mut blocks = children(root, "SpectralDistribution");
-    let (Some(block), None) = (blocks.next(), blocks.next()) else {
-        return Err(place(root).fails("not one <SpectralDistribution>", "give each spectrum its own file"));
-    };
+    let blocks: Vec<Node> = children(root, "SpectralDistribution").collect();
+    let (mut spectra, mut notes) = (Vec::new(), Vec::new());
+    for (n, block) in blocks.iter().enumerate() {
+        let name = if blocks.len() == 1 { "spectrum".to_owned() } else { (n + 1).to_string() };
+        let (spectrum, note) = distribution(name, *block, place)?;
+        spectra.push(spectrum);
+        notes.extend(note.filter(|note| !notes.contains(note)));
+    }
+    if spectra.is_empty() {
+        return Err(place(root).fails("no <SpectralDistribution>", "export the spectrum again"));
+    }
+    Ok(Table { notes, ..Table::new(spectra)? })
+}
+
+/// One spectrum, and what was converted.
+fn distribution<'a>(
+    name: String,
+    block: Node,
+    place: impl Fn(Node) -> Place<'a>,
+) -> Result<(Spectrum, Option<&'static str>)> {
     let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
     for data in children(block, "SpectralData") {
         let at = place(data);
@@ -51,8 +68,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         return Err(place(block).fails(problem, "a spectrum needs at least two wavelengths"));
     }
     let (wavelengths_nm, note) = units::to_nm(place(block), "nm", &wavelengths, place(block).line)?;
-    let spectrum = Spectrum::from_table("spectrum".to_owned(), wavelengths_nm.into(), values);
-    Ok(Table { notes: note.into_iter().collect(), ..Table::new(vec![spectrum])? })
+    Ok((Spectrum::from_table(name, wavelengths_nm.into(), values), note))
 }
 
 fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
@@ -132,6 +148,16 @@ mod tests {
     }
 
     #[test]
+    fn several_are_called_by_their_number() {
+        let two = datum("400", "0.1") + &datum("500", "0.2");
+        let other =
+            format!("<SpectralDistribution>{}</SpectralDistribution></IESTM", two.replace("0.2", "0.3"));
+        let spectra = parse("x.spdx", &file(&two).replace("</IESTM", &other)).unwrap().spectra;
+        let found: Vec<_> = spectra.iter().map(|spectrum| (spectrum.name(), spectrum.values())).collect();
+        assert_eq!(found, [("1", &[0.1, 0.2][..]), ("2", &[0.1, 0.3])]);
+    }
+
+    #[test]
     fn files_that_are_no_spectrum_are_refused() {
         let two = datum("400", "0.1") + &datum("500", "0.2");
         for (text, want) in [
@@ -147,9 +173,10 @@ mod tests {
             ),
             (file(&(two.clone() + &datum("", "1"))), "column 'wavelength': '' is not a number"),
             (file(&(two.clone() + &datum("600", "1e308"))), "no measured number"),
+            ("<IESTM2714/>".to_owned(), "x.spdx:1: no <SpectralDistribution>"),
             (
                 file(&two).replace("</IESTM", "<SpectralDistribution/></IESTM"),
-                "not one <SpectralDistribution>",
+                "x.spdx:5: 0 elements <SpectralData>",
             ),
             (format!("<!DOCTYPE a [<!ENTITY b \"c\">]>{}", file(&two)), "not XML that is read here"),
             (

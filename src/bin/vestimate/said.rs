@@ -1,0 +1,74 @@
+//! What `-v` says of a sample: what was decided, and what came of it.
+
+use std::fmt;
+
+use vfold::estimate::data::FacetData;
+use vfold::estimate::{Estimate, Exposure};
+use vfold::solve::Termination;
+use vfold::stream::Colours;
+
+/// How far each facet may be off, and how that is known.
+pub struct Deviations {
+    /// Facet by channel, white being 1.
+    pub sd: Colours,
+    /// The part that is the model's, relative to the facet's value.
+    pub model_error: f64,
+    /// What tells the part that is noise.
+    pub noise_from: &'static str,
+}
+
+impl Deviations {
+    /// Root mean square.
+    pub fn rms(&self) -> f64 {
+        let values: Vec<f64> = self.sd.iter().flatten().flatten().copied().collect();
+        (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+    }
+}
+
+impl fmt::Display for Deviations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "facets to {:.1e} (noise from {}", self.rms(), self.noise_from)?;
+        if self.model_error > 0.0 {
+            write!(f, ", model {:.1e} of the value", self.model_error)?;
+        }
+        f.write_str(")")
+    }
+}
+
+/// How many numbers are left of how many facet values.
+pub fn size(data: &FacetData) -> String {
+    let (left, values) = data.size();
+    format!("{values} values as {left}")
+}
+
+/// What came of it, in a line.
+pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
+    let ended = match estimate.termination {
+        Termination::Converged { .. } => "converged",
+        Termination::IterationLimit => "stopped at the limit",
+        Termination::NoProgress { .. } => "stopped without progress",
+    };
+    let sd = estimate.reflectance_sd();
+    let iterations = format!("{} iterations, {ended}", estimate.iterations);
+    let misfit = match &sd {
+        Some(_) => format!("misfit {:.2}", estimate.residual_rms),
+        // of a method that weighs all facets alike
+        None => format!("residuals {:.1e} of white", estimate.residual_rms),
+    };
+    let how = match exposure {
+        Exposure::Known(_) => Some("known"),
+        Exposure::Sum => Some("by sums"),
+        // among what was fitted, unless the method does not know how far off it is
+        Exposure::Free => estimate.fitted.is_empty().then_some("fitted"),
+    };
+    let exposure = how.map(|how| format!("exposure {:.4} {how}", estimate.exposure));
+    let fitted = estimate.fitted.iter().map(|one| {
+        let told = if one.supported { "" } else { ", not told by the facets" };
+        format!("{} {:.4} ± {:.4}{told}", one.quantity.name(), one.value, one.sd)
+    });
+    let sd = sd.map(|sd| {
+        let (mean, most) = (sd.iter().sum::<f64>() / sd.len() as f64, sd.iter().copied().fold(0.0, f64::max));
+        format!("reflectance to {mean:.4}, at worst {most:.4}")
+    });
+    [iterations, misfit].into_iter().chain(exposure).chain(fitted).chain(sd).collect::<Vec<_>>().join("; ")
+}
