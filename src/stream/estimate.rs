@@ -205,3 +205,26 @@ impl Sample {
         Ok(Some(Measured { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn other_programs_need_no_more_than_a_spectrum() {
+        let read = |reflectance: &[f64]| {
+            let mut sample = Sample::new("fold", "sheet").unwrap();
+            sample
+                .fields
+                .set("estimate", json!({ "wavelengths_nm": [400, 410], "reflectance": reflectance }))
+                .unwrap();
+            sample.estimate()
+        };
+        assert_eq!(read(&[0.5, 0.6]).unwrap().unwrap().reflectance, [0.5, 0.6]);
+        assert!(read(&[0.5]).unwrap_err().to_string().contains("as many values as wavelengths"));
+    }
+}

@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold, Group, Spacing};
 
 /// Where colour is measured.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "needs panels, rows and cols, or count; make the scene with vkernel")]
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
 pub(super) enum FacetsRecord {
     /// Of a fold: panel by panel, on each row by row from the crease.
     Grid(GridRecord),
@@ -111,19 +111,14 @@ impl Scene {
     }
 
     pub(super) fn facet_grid(&self) -> Result<GridRecord> {
-        match self.fields.require("facets", BY_VKERNEL)? {
-            FacetsRecord::Grid(grid) if grid.panels == 2 => Ok(grid),
-            _ => Err(Error::field("facets", "not those of a fold; make the scene again with vkernel")),
+        let grid: GridRecord = self.fields.require("facets", BY_VKERNEL)?;
+        match grid.panels {
+            2 => Ok(grid),
+            panels => Err(Error::field("facets.panels", format!("{panels}, but a fold has 2"))),
         }
     }
 
     pub(super) fn facet_list(&self) -> Result<ListRecord> {
-        match self.fields.require("facets", BY_VKERNEL)? {
-            FacetsRecord::List(list) => Ok(list),
-            FacetsRecord::Grid(_) => Err(Error::field(
-                "facets",
-                "those of a fold on another surface; make the scene again with vkernel",
-            )),
-        }
+        self.fields.require("facets", BY_VKERNEL)
     }
 }

@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 use crate::geometry::{Light, LightSource};
 
 /// Where light comes from.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "needs tilt_deg, slant_deg and sky, or sources; make the scene with vkernel")]
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
 pub(super) enum LightRecord {
     /// On a fold.
     Sun(SunRecord),
@@ -131,19 +131,13 @@ impl From<&[LightSource]> for SourcesRecord {
 }
 
 impl Scene {
-    fn light_record(&self) -> Result<LightRecord> {
-        self.fields.require("light", BY_VKERNEL)
-    }
-
     /// The sun and the sky on a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing or leave a panel unlit, or if there is no fold.
     pub fn light(&self) -> Result<Light> {
         let fold = self.fold()?;
-        let LightRecord::Sun(SunRecord { tilt_deg, slant_deg, sky, .. }) = self.light_record()? else {
-            return Err(Error::field("light", "sources on a fold; make the scene again with vkernel"));
-        };
+        let SunRecord { tilt_deg, slant_deg, sky, .. } = self.fields.require("light", BY_VKERNEL)?;
         Light::new(&fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
     }
 
@@ -152,11 +146,10 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or impossible.
     pub fn sources(&self) -> Result<Vec<LightSource>> {
-        match self.light_record()? {
-            LightRecord::Sources(SourcesRecord { sources }) if !sources.is_empty() => {
-                sources.into_iter().map(SourceRecord::into_source).collect()
-            }
-            _ => Err(Error::field("light.sources", format!("none; {BY_VKERNEL}"))),
+        let SourcesRecord { sources } = self.fields.require("light", BY_VKERNEL)?;
+        if sources.is_empty() {
+            return Err(Error::field("light.sources", format!("none; {BY_VKERNEL}")));
         }
+        sources.into_iter().map(SourceRecord::into_source).collect()
     }
 }

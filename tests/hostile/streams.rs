@@ -55,6 +55,12 @@ fn streams() {
                 &["-:1", "geometry", "GB"],
             ),
             case("sed 's/\"rows\":2/\"rows\":-2/' good.ndjson | vestimate", 1, &["facets"]),
+            case(
+                "sed 's/\"panels\":2/\"panels\":3/' good.ndjson | vestimate",
+                1,
+                &["-:1", "facets.panels", "a fold"],
+            ),
+            case("sed 's/\"channels\":\\[/&\"X\",/' good.ndjson | vestimate", 1, &["-:1", "camera.channels"]),
             case("sed 's/\"sky\":0/\"sky\":-1/' good.ndjson | vestimate", 1, &["light"]),
             case("sed 's/\"wavelengths_nm\":\\[/&900,/' good.ndjson | vestimate", 1, &["-:1", "wavelength"]),
             case("sed 's/\"power\":\\[/&1,/' good.ndjson | vestimate", 1, &["illuminants", "31 wavebands"]),
