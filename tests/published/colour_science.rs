@@ -42,10 +42,10 @@ for light, observer in ("D65", "CIE 1964 10 Degree Standard Observer"), ("A", "C
     cosine = (truth * estimate).sum(axis=1) / np.sqrt((truth**2).sum(axis=1) * (estimate**2).sum(axis=1))
     agree("rmse", np.sqrt(((truth - estimate) ** 2).mean(axis=1)), 1e-14)
     agree("gfc", cosine, 1e-14)
-    agree("angle_deg", np.degrees(np.arccos(cosine)), 1e-5)
-    agree("xyz", 100 * xyz(estimate), 1e-4)
-    agree("lab", lab(estimate), 1e-4)
-    agree("ciede2000", colour.delta_E(lab(truth), lab(estimate), method="CIE 2000"), 1e-4)
+    agree("angle_deg", np.degrees(np.arccos(cosine)), 1e-9)
+    agree("xyz", 100 * xyz(estimate), 1e-9)
+    agree("lab", lab(estimate), 1e-9)
+    agree("ciede2000", colour.delta_E(lab(truth), lab(estimate), method="CIE 2000"), 1e-9)
 "#;
 
 #[test]
