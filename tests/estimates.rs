@@ -1,4 +1,5 @@
-//! Estimates through the tools against published figures and at the ends of the range of reflectances.
+//! Estimates through the tools at the ends of the range of reflectances, and what is said of their errors; published figures are in
+//! `tests/published`.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -20,33 +21,6 @@ fn scores(script: &str) -> Vec<(String, f64, f64)> {
         (record["id"].as_str().unwrap().to_owned(), metric("rmse"), metric("ciede2000"))
     };
     records.filter(|record| record["kind"] == "sample").map(score).collect()
-}
-
-/// Deeb et al., table 1, "Our Method" on the 24 patches: RMSE 0.017, CIEDE2000 0.29, one light.
-#[test]
-fn one_light_is_better_than_the_paper_on_its_chart() {
-    for camera in ["canon-5d-mark-ii", "sigma-sd-merrill", "nikon-d5100"] {
-        let scores =
-            scores(&format!("vkernel | vforward --reflectance cc24 --camera {camera} | vestimate | vscore"));
-        let mean =
-            |pick: fn(&(String, f64, f64)) -> f64| scores.iter().map(pick).sum::<f64>() / scores.len() as f64;
-        let (rmse, ciede2000) = (mean(|s| s.1), mean(|s| s.2));
-        assert_eq!(scores.len(), 24);
-        assert!(rmse < 0.009 && ciede2000 < 0.15, "{camera}: {rmse:.4} {ciede2000:.3}");
-    }
-}
-
-/// The same with the paper's own estimator: eq. (36), smoothness, interior point.
-#[test]
-fn the_papers_estimator_reaches_the_papers_figures() {
-    for camera in ["canon-5d-mark-ii", "sigma-sd-merrill"] {
-        let scores = scores(&format!(
-            "vkernel | vforward --reflectance cc24 --camera {camera} | vestimate --prior smooth --smoothness 1e-8 | vscore"
-        ));
-        let rmse = scores.iter().map(|s| s.1).sum::<f64>() / 24.0;
-        let ciede2000 = scores.iter().map(|s| s.2).sum::<f64>() / 24.0;
-        assert!(rmse < 0.017 && ciede2000 < 0.29, "{camera}: {rmse:.4} {ciede2000:.3}");
-    }
 }
 
 #[test]

@@ -155,12 +155,6 @@ impl Shape {
         &self.groups
     }
 
-    /// The group of a facet, if it is in one.
-    #[must_use]
-    pub fn group_of(&self, facet: usize) -> Option<usize> {
-        self.groups.iter().position(|group| group.facets.contains(&facet))
-    }
-
     /// Whether the second half of the facets are the backs of the first.
     #[must_use]
     pub fn is_two_sided(&self) -> bool {
