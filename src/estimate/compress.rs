@@ -7,6 +7,9 @@ use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 use crate::solve::Eigen;
 
+/// A picture with less light in all its facets is dark: squares of such numbers are zero.
+const DARKEST: f64 = 1e-100;
+
 /// Facets with a value in every channel; checks the shapes on the way.
 pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
     let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
@@ -29,7 +32,7 @@ pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usiz
     if usable.is_empty() {
         return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
     }
-    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
+    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= DARKEST {
         return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
     }
     Ok(usable)
