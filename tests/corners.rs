@@ -46,7 +46,7 @@ fn is_refused(run: &Ended) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, max_shrink_iters: 8, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 16, max_shrink_iters: 8, ..ProptestConfig::default() })]
 
     #[test]
     fn every_corner_is_right_or_refused(

@@ -14,7 +14,7 @@ fn within(megabytes: usize) -> String {
 
 #[test]
 fn a_line_of_nothing_is_refused() {
-    let (folder, megabytes) = (ready(), size("VFOLD_LINE_MB", 100));
+    let (folder, megabytes) = (ready(), size("VFOLD_LINE_MB", 30));
     for tool in ["vforward --reflectance 0.5", "vestimate", "vscore"] {
         for (fill, end) in [("x", "true"), ("[", "echo"), (" ", "echo")] {
             let ended = sh(
@@ -32,7 +32,7 @@ fn a_line_of_nothing_is_refused() {
 
 #[test]
 fn a_long_record_passes_through() {
-    let (folder, megabytes) = (ready(), size("VFOLD_LINE_MB", 100));
+    let (folder, megabytes) = (ready(), size("VFOLD_LINE_MB", 30));
     let record = format!(
         "{{ printf '{{\"kind\":\"remark\",\"text\":\"'; head -c {megabytes}M /dev/zero | tr '\\0' x; echo '\"}}'; }}"
     );
@@ -48,7 +48,7 @@ fn a_long_record_passes_through() {
 
 #[test]
 fn a_stream_of_crumbs_loses_none() {
-    let (folder, records) = (ready(), size("VFOLD_RECORDS", 200_000));
+    let (folder, records) = (ready(), size("VFOLD_RECORDS", 100_000));
     for tool in ["vforward --reflectance 0.5", "vestimate", "vscore"] {
         let ended = sh(
             &folder,
@@ -69,7 +69,7 @@ fn a_stream_of_crumbs_loses_none() {
 /// Samples that cannot be used are counted one by one, and the status is 3.
 #[test]
 fn a_stream_of_empty_samples_loses_none() {
-    let (folder, records) = (ready(), size("VFOLD_RECORDS", 200_000) / 4);
+    let (folder, records) = (ready(), size("VFOLD_RECORDS", 100_000) / 4);
     let ended = sh(
         &folder,
         &format!(
