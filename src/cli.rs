@@ -106,7 +106,10 @@ pub trait ToolArgs: Parser {
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
 /// carry an `error`.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
-    let args = A::parse();
+    let args = match A::try_parse() {
+        Ok(args) => args,
+        Err(answer) => return answered(A::command().get_name(), &answer),
+    };
     match frame(&args, tool) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::from(3),
@@ -115,6 +118,17 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
             say(A::command().get_name(), &e.to_string());
             ExitCode::from(e.exit_status())
         }
+    }
+}
+
+/// Prints what the parser answers instead of arguments: help and version, which may meet a full disk, or what is wrong.
+fn answered(tool: &str, answer: &clap::Error) -> ExitCode {
+    match answer.print().map_err(Error::Output) {
+        Err(e) if !answer.use_stderr() && !e.is_broken_pipe() => {
+            say(tool, &e.to_string());
+            ExitCode::FAILURE
+        }
+        _ => u8::try_from(answer.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from),
     }
 }
 

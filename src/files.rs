@@ -1,4 +1,4 @@
-//! Files that appear when they are whole: a reader never meets half of one, and a failed run leaves none.
+//! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed leaves none.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -8,56 +8,50 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 
-/// A file under a temporary name in its own folder, which takes its name when it is whole. A pipe or device keeps its name
-/// and takes the bytes as they come.
+/// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes the bytes as
+/// they come.
+///
+/// Until then it has no name at all, so that whatever ends the run, SIGKILL included, leaves nothing behind. On file systems
+/// that know only files with names (NFS, FAT) it is called `.vfold-` and six letters, and stays there if a signal ends the run.
 pub struct Saved {
     target: Target,
     path: PathBuf,
 }
 
 enum Target {
-    Regular(NamedTempFile),
+    #[cfg(target_os = "linux")]
+    Unnamed(File),
+    Named(NamedTempFile),
     Special(File),
 }
 
 impl Saved {
-    /// Opens the temporary file, or the pipe or device.
+    /// Opens the file without its name, or the pipe or device.
     ///
     /// # Errors
     /// [`Error::File`] if the folder cannot be written.
     pub fn new(path: &Path) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
-        let target = match path.metadata() {
+        let (target, path) = match path.metadata() {
             Ok(found) if !found.is_file() => {
-                Target::Special(File::options().write(true).open(path).map_err(failed)?)
+                (Target::Special(File::options().write(true).open(path).map_err(failed)?), path.to_owned())
             }
             // A link to a file stays a link: its target is replaced.
-            Ok(_) => return Self::beside(&path.canonicalize().map_err(failed)?, path),
-            Err(_) => return Self::beside(path, path),
+            Ok(_) => {
+                let replaced = path.canonicalize().map_err(failed)?;
+                (beside(&replaced).map_err(failed)?, replaced)
+            }
+            Err(_) => (beside(path).map_err(failed)?, path.to_owned()),
         };
-        Ok(Self { target, path: path.to_owned() })
-    }
-
-    /// Opens a temporary file beside `path`; errors call it `name`.
-    fn beside(path: &Path, name: &Path) -> Result<Self> {
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".vfold-");
-        // Temporary files are private by default; a result is for whom the umask allows.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        // The error names the temporary file, which nobody asked for: its kind says what is wrong.
-        let file = builder.tempfile_in(folder).map_err(|e| Error::file(name.display(), e.kind().into()))?;
-        Ok(Self { target: Target::Regular(file), path: path.to_owned() })
+        Ok(Self { target, path })
     }
 
     /// The open file.
     pub fn file_mut(&mut self) -> &mut File {
         match &mut self.target {
-            Target::Regular(file) => file.as_file_mut(),
+            Target::Named(file) => file.as_file_mut(),
+            #[cfg(target_os = "linux")]
+            Target::Unnamed(file) => file,
             Target::Special(file) => file,
         }
     }
@@ -78,17 +72,23 @@ impl Saved {
         saved.keep()
     }
 
-    /// Gives the file its name.
+    /// Gives the file its name, once it is on the disk: only then is all known that can go wrong.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be renamed.
-    pub fn keep(self) -> Result<()> {
-        match self.target {
-            Target::Regular(file) => {
-                file.persist(&self.path).map(drop).map_err(|e| Error::file(self.path.display(), e.error))
-            }
-            Target::Special(_) => Ok(()),
+    /// [`Error::File`] if the rest of it cannot be written, or the file not be renamed.
+    pub fn keep(mut self) -> Result<()> {
+        if !matches!(self.target, Target::Special(_)) {
+            self.file_mut().sync_data().map_err(|e| Error::file(self.path.display(), e))?;
         }
+        let named = match self.target {
+            #[cfg(target_os = "linux")]
+            Target::Unnamed(file) => unnamed::name_beside(&file, &self.path),
+            Target::Named(file) => Ok(file.into_temp_path()),
+            Target::Special(_) => return Ok(()),
+        };
+        named
+            .and_then(|named| named.persist(&self.path).map_err(|e| e.error))
+            .map_err(|e| Error::file(self.path.display(), e))
     }
 }
 
@@ -99,6 +99,58 @@ impl Write for Saved {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file_mut().flush()
+    }
+}
+
+/// A file in the folder of `path`: without a name where there can be one, else under a temporary name.
+fn beside(path: &Path) -> io::Result<Target> {
+    #[cfg(target_os = "linux")]
+    if let Some(file) = unnamed::open(folder(path)) {
+        return Ok(Target::Unnamed(file));
+    }
+    let mut builder = temporary();
+    // Temporary files are private by default; a result is for whom the umask allows.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    // The error names the temporary file, which nobody asked for: its kind says what is wrong.
+    builder.tempfile_in(folder(path)).map(Target::Named).map_err(|e| e.kind().into())
+}
+
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".vfold-");
+    builder
+}
+
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+/// Files without a name, which vanish with the process (open(2), `O_TMPFILE`).
+#[cfg(target_os = "linux")]
+mod unnamed {
+    use std::os::fd::AsRawFd;
+
+    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, openat};
+    use tempfile::TempPath;
+
+    use super::{File, Path, PathBuf, folder, io, temporary};
+
+    /// None where the file system has none, or could not name it later.
+    pub(super) fn open(folder: &Path) -> Option<File> {
+        let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+        let file = File::from(openat(CWD, folder, flags, Mode::from_raw_mode(0o666)).ok()?);
+        descriptor(&file).exists().then_some(file)
+    }
+
+    /// Gives it a temporary name: a rename can take the place of another file, a link cannot.
+    pub(super) fn name_beside(file: &File, path: &Path) -> io::Result<TempPath> {
+        let link = |name: &Path| Ok(linkat(CWD, descriptor(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?);
+        temporary().make_in(folder(path), link).map(tempfile::NamedTempFile::into_temp_path)
+    }
+
+    fn descriptor(file: &File) -> PathBuf {
+        format!("/proc/self/fd/{}", file.as_raw_fd()).into()
     }
 }
 

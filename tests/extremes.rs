@@ -11,6 +11,18 @@ use vfold::response::{ModeLight, Response};
 const ANGLES: [f64; 6] = [0.1, 1.0, 10.0, 120.0, 179.0, 179.9];
 const PANELS: [(f64, f64); 3] = [(1.0, 1.0), (1000.0, 1.0), (1.0, 1000.0)];
 
+/// Form factor of one panel to the other, for [`PANELS`]: A. Feingold, *Proc. R. Soc. A* 292 (1966), p. 51, as corrected in J. R.
+/// Howell's catalogue of configuration factors (C-16), with 50 digits by mpmath.
+const PANEL_FACTORS: [(f64, [f64; 3]); 7] = [
+    (0.1, [0.998_261_391_654_143_6, 0.999_126_469_464_638_8, 0.512_115_704_727_333_2]),
+    (1.0, [0.982_997_178_574_648_8, 0.991_265_180_587_520_4, 0.115_940_259_741_160_62]),
+    (45.0, [0.483_347_695_478_877_76, 0.617_171_625_679_696_5, 0.004_059_407_303_680_12]),
+    (90.0, [0.200_043_776_075_403_15, 0.292_782_901_039_901_96, 0.001_282_976_932_813_185]),
+    (135.0, [0.048_309_447_801_817_94, 0.076_085_250_570_414_66, 2.816_171_300_913_018e-4]),
+    (179.0, [2.360_878_311_498_336e-5, 3.805_820_842_860_858e-5, 1.341_008_362_048_113_9e-7]),
+    (179.9, [2.360_866_544_678_867_7e-7, 3.805_844_699_255_524e-7, 1.340_985_421_896_24e-9]),
+];
+
 fn folds(rows: usize, cols: usize) -> impl Iterator<Item = Fold> {
     let shapes = ANGLES.into_iter().flat_map(|angle| PANELS.into_iter().map(move |panel| (angle, panel)));
     shapes.flat_map(move |(angle, (width, depth))| {
@@ -40,6 +52,27 @@ fn facets_keep_the_laws() {
                 assert!((0.0..1.0).contains(&sum), "{fold:?}: row {row} of panel {panel} hands on {sum}");
                 let entries = (0..rows).flat_map(|j| kernel.shifts_from(panel, row, j));
                 assert!(entries.copied().all(|entry| entry >= 0.0), "{fold:?}: row {row}");
+            }
+        }
+    }
+}
+
+#[test]
+fn thin_and_wide_panels_have_feingolds_factors() {
+    for (angle_deg, factors) in PANEL_FACTORS {
+        for ((width, depth), want) in PANELS.into_iter().zip(factors) {
+            for facets in [1, 4, 256] {
+                let kernel = form_factors(
+                    &Fold::new(angle_deg, width, depth, FacetGrid { rows: facets, cols: 4 }).unwrap(),
+                );
+                let all = (0..facets).flat_map(|row| (0..4).map(move |col| (row, col)));
+                let got =
+                    all.map(|(row, col)| kernel.row_sum(0, row, col)).sum::<f64>() / (4 * facets) as f64;
+                let off = (got - want).abs();
+                assert!(
+                    off < 1e-12 && off < 1e-9 * want,
+                    "{angle_deg}° {width}x{depth} in {facets}x4: {got}, {want}"
+                );
             }
         }
     }

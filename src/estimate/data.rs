@@ -89,6 +89,16 @@ pub struct Curvature {
     pub unknowns: DMatrix<f64>,
 }
 
+/// What directions of the model are weighed with: the exposure or, where it is to be found, no less than the brightest facet.
+/// At an exposure below 1 a few more directions are kept than the noise lets through.
+fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
+    let brightest = || measured.rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
+    match exposure {
+        Exposure::Known(exposure) => exposure.max(1.0),
+        Exposure::Free | Exposure::Sum => brightest().max(1.0),
+    }
+}
+
 impl<'a> FacetData<'a> {
     /// Weights and compresses the facets of a sample; directions in which no reflectance moves the data by more than
     /// `cutoff` standard deviations are left out.
@@ -99,7 +109,7 @@ impl<'a> FacetData<'a> {
         let model = scene.facets();
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
-        let samples = sample_terms(model);
+        let samples = brightness(measured, exposure) * sample_terms(model);
         let (mut values, mut models, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
         for channel in 0..channels {
             let (data, sources) = weighted(model, measured, &usable, channel);
@@ -137,6 +147,12 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {
         ((residuals.norm_squared() + self.outside.max(0.0)) / self.count as f64).sqrt()
+    }
+
+    /// The residuals as a share of the data, both without what no reflectance can do, which is noise.
+    #[must_use]
+    pub fn unexplained(&self, residuals: &DVector<f64>) -> f64 {
+        residuals.norm() / self.values.norm().max(f64::MIN_POSITIVE)
     }
 
     /// The scene and what is unknown of it.

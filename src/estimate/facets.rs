@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
-use super::gaussian::{Gaussian, logistic};
+use super::gaussian::{Gaussian, logistic, mean_slope};
 use crate::solve::posterior::{Linearised, Model, Solution};
 
 /// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
@@ -64,16 +64,21 @@ impl Facets<'_> {
         ByLogit { logit, unknowns, residuals, jacobian, second }
     }
 
-    /// Laplace's covariance as a factor, carried from whitened logits to reflectances, unknowns and exposure.
-    pub fn spread(&self, by_unknown: &[f64], solution: &Solution<Second>) -> Option<DMatrix<f64>> {
-        let Second { reflectance, exposure, .. } = &solution.at.second;
-        let bands = reflectance.len();
+    /// Laplace's covariance as a factor, `widened` times as wide, carried from whitened logits to reflectances, unknowns and
+    /// exposure.
+    pub fn spread(
+        &self,
+        by_unknown: &[f64],
+        solution: &Solution<Second>,
+        widened: f64,
+    ) -> Option<DMatrix<f64>> {
+        let exposure = &solution.at.second.exposure;
+        let (logit, _) = self.split(&solution.w);
+        let bands = logit.len();
         let point = bands + by_unknown.len() + 1;
         // Derivatives of the point by logits and unknowns: point by both.
         let mut slopes = DMatrix::zeros(point, point - 1);
-        for (n, r) in reflectance.iter().enumerate() {
-            slopes[(n, n)] = r * (1.0 - r);
-        }
+        (0..bands).for_each(|n| slopes[(n, n)] = 1.0);
         for (n, slope) in (bands..).zip(by_unknown) {
             slopes[(n, n)] = *slope;
         }
@@ -84,6 +89,10 @@ impl Facets<'_> {
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
         spread[(rows, point - 1)] = exposure.sd;
+        spread *= widened;
+        for (mut column, z) in spread.column_iter_mut().zip(&logit) {
+            column *= mean_slope(*z, column.norm());
+        }
         Some(spread)
     }
 }

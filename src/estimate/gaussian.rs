@@ -85,9 +85,27 @@ pub fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
+/// Change of reflectance with its logit, in the mean over one standard deviation `sd` to both sides of `z`. The slope at `z`
+/// itself is nothing near 0 and 1, however little is known of a logit there.
+#[must_use]
+pub fn mean_slope(z: f64, sd: f64) -> f64 {
+    // Below that sd it is the slope at `z`, and digits would cancel. The slope is the same at -z, where they do not.
+    let (z, sd) = (-z.abs(), sd.max(1e-6));
+    (logistic(z + sd) - logistic(z - sd)) / (2.0 * sd)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_logit_that_is_not_known_is_a_reflectance_that_is_not_known() {
+        for z in [-40.0, -3.0, 0.0, 3.0, 40.0] {
+            let slope = logistic(z) * logistic(-z);
+            assert!((mean_slope(z, 1e-9) / slope - 1.0).abs() < 1e-7, "{z}");
+            assert!((1e6 * mean_slope(z, 1e6) - 0.5).abs() < 1e-12, "{z}");
+        }
+    }
 
     #[test]
     fn the_basis_gives_the_covariance() {

@@ -81,6 +81,7 @@ struct Found {
     /// Derivative of each unknown by its standard normal number: how far it was unknown.
     prior_sd: Vec<f64>,
     residual_rms: f64,
+    unexplained: f64,
     trace: Vec<Vec<Iteration>>,
     termination: Termination,
 }
@@ -117,9 +118,10 @@ impl Found {
         Self {
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: facets.spread(&prior_sd, solution).map(|spread| widened * spread),
+            spread: facets.spread(&prior_sd, solution, widened),
             prior_sd,
             residual_rms,
+            unexplained: facets.data.unexplained(&solution.at.residuals),
             trace: vec![solution.trace.clone()],
             termination: solution.termination,
         }
@@ -156,6 +158,7 @@ impl Found {
             spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
             exposure,
             residual_rms: self.residual_rms,
+            unexplained: self.unexplained,
             iterations: self.trace.iter().map(|run| run.len() as u32).sum(),
             trace: self.trace,
             termination: self.termination,

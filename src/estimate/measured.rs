@@ -3,6 +3,9 @@
 use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 
+/// A picture with less light in all its facets is dark: squares of such numbers are zero.
+const DARKEST: f64 = 1e-100;
+
 /// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
 pub struct Measured<'a> {
     /// Values.
@@ -33,7 +36,7 @@ pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usiz
     if usable.is_empty() {
         return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
     }
-    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= 0.0 {
+    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= DARKEST {
         return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
     }
     Ok(usable)

@@ -48,6 +48,8 @@ pub struct Estimate {
     pub fitted: Vec<Fitted>,
     /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
     pub residual_rms: f64,
+    /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
+    pub unexplained: f64,
     /// Iterations.
     pub iterations: u32,
     /// What happened in them, by runs: under all spectra, then under each likely class. Empty from a method that keeps no trace.

@@ -44,6 +44,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         trace: Vec::new(),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
+        unexplained: data.unexplained(&at.residuals),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
         termination: termination(state, run.solver()),
         reflectance,

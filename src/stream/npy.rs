@@ -23,7 +23,7 @@ impl ArrayStack {
     /// # Errors
     /// [`Error::File`] if the folder cannot be written.
     pub fn new(path: &Path) -> Result<Self> {
-        let data = tempfile::tempfile().map_err(|e| Error::file(path.display(), e))?;
+        let data = tempfile::tempfile().map_err(spilled)?;
         Ok(Self { saved: Saved::new(path)?, data, shape: None, count: 0 })
     }
 
@@ -38,7 +38,7 @@ impl ArrayStack {
             return Err(Error::Array { path: self.saved.path().display().to_string(), problem });
         }
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        self.data.write_all(&bytes).map_err(|e| Error::file(self.saved.path().display(), e))?;
+        self.data.write_all(&bytes).map_err(spilled)?;
         self.count += 1;
         Ok(())
     }
@@ -73,6 +73,11 @@ impl ArrayStack {
         drop(out);
         self.saved.keep()
     }
+}
+
+/// Values wait in the system's folder for temporary files until their number is known.
+fn spilled(source: std::io::Error) -> Error {
+    Error::file(std::env::temp_dir().display(), source)
 }
 
 /// Writes a matrix row by row, so that one row at a time is in memory.

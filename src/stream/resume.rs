@@ -125,13 +125,13 @@ impl Resumed {
         Ok(())
     }
 
-    /// Makes sure that the file has what was written and nothing else.
+    /// Makes sure that the file has what was written and nothing else, and that it is on the disk.
     ///
     /// # Errors
     /// [`Error::Record`] if it has more, [`Error::File`] if it cannot be read or cut.
     pub fn finish(mut self) -> Result<()> {
         match self.written.fill_buf().map_err(|e| Error::file(self.path.display(), e))? {
-            [] => self.cut(),
+            [] => self.cut().and_then(|()| self.file.sync_data().map_err(|e| self.failed(e))),
             _ => Err(wrong(&self.path, self.line + 1, "more records than this run makes")),
         }
     }

@@ -146,7 +146,8 @@ impl Output {
         }
     }
 
-    /// Makes all that was written last: flushes, and gives a file its name.
+    /// Makes all that was written last: flushes, and gives files their names. Only once every record is written, so that a
+    /// full disk does not leave arrays of records that are nowhere.
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.
@@ -154,14 +155,15 @@ impl Output {
         if let Some(progress) = &mut self.progress {
             progress.finish();
         }
-        self.saves.finish()?;
         match self.sink {
-            Sink::Stdout(mut out) => out.flush().map_err(Error::Output)?,
+            Sink::Stdout(mut out) => out.flush().map_err(Error::Output).and_then(|()| self.saves.finish())?,
             Sink::File(out) => {
                 let path = out.get_ref().path().display().to_string();
-                out.into_inner().map_err(|e| Error::file(path, e.into_error()))?.keep()?;
+                let file = out.into_inner().map_err(|e| Error::file(path, e.into_error()))?;
+                self.saves.finish()?;
+                file.keep()?;
             }
-            Sink::Resumed(out) => out.finish()?,
+            Sink::Resumed(out) => out.finish().and_then(|()| self.saves.finish())?,
         }
         Ok(self.failed)
     }

@@ -26,6 +26,9 @@ const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 
+/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
+const UNEXPLAINED: f64 = 0.3;
+
 /// Weight of smoothness if none is given.
 const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
 
@@ -158,6 +161,7 @@ impl Transform for Estimator<'_> {
             let id = sample.id()?;
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(&estimate, exposure)));
         }
+        self.refuse_unexplained(context, &rgb, sample, &estimate)?;
         let (name, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             _ => ("interreflection", self.args.prior()),
@@ -210,6 +214,31 @@ impl<'a> Estimator<'a> {
         };
         let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
         Ok(map::estimate(&data, prior, context.start.as_deref()))
+    }
+
+    /// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
+    fn refuse_unexplained(
+        &self,
+        context: &Context,
+        rgb: &Colours,
+        sample: &Sample,
+        estimate: &Estimate,
+    ) -> Result<()> {
+        if estimate.unexplained <= UNEXPLAINED {
+            return Ok(());
+        }
+        let noise = match context.method {
+            SceneMethod::Map(_) => 1.0,
+            _ => self.deviations(context, rgb, sample)?.rms(),
+        };
+        if estimate.residual_rms <= super::MISFIT * noise {
+            return Ok(());
+        }
+        let problem = format!(
+            "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
+            100.0 * estimate.unexplained
+        );
+        Err(Error::field("facet_rgb", problem))
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
