@@ -13,6 +13,9 @@ use crate::estimate::{Estimate, Fitted};
 use crate::solve::Termination;
 use crate::solve::posterior::Iteration;
 
+/// Residuals, in units of their expected size, beyond which the scene cannot be right.
+const MISFIT: f64 = 5.0;
+
 impl Sample {
     /// Adds an estimate, with its covariance (waveband by waveband) if asked to.
     ///
@@ -61,11 +64,23 @@ impl Sample {
         is_done && ["id", "scene", "facet_rgb", "facet_sd", "exposure"].iter().all(same)
     }
 
-    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if what was fitted is not what [`Sample::set_estimate`] writes.
-    pub fn unsupported(&self) -> Result<Vec<String>> {
+    pub fn doubts(&self) -> Result<Vec<String>> {
+        let misfit = self.residual_rms()?.filter(|rms| *rms > MISFIT).map(|rms| {
+            format!(
+                "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
+            )
+        });
+        let untold = self.unsupported()?;
+        let untold = untold.iter().map(|name| format!("the facets do not tell {name}; it is as expected"));
+        Ok(misfit.into_iter().chain(untold).collect())
+    }
+
+    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    fn unsupported(&self) -> Result<Vec<String>> {
         #[derive(Deserialize)]
         struct Fit {
             fit: Option<BTreeMap<String, Supported>>,

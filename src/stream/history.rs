@@ -1,5 +1,6 @@
 //! What made a record: the line of history that each tool adds to a scene.
 
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Fields;
@@ -15,7 +16,26 @@ const NO_MATTER: [(&str, &str, bool); 6] = [
     ("--verbose", "-v", false),
 ];
 
+/// What one tool did.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct HistoryLine {
+    /// The tool.
+    pub tool: String,
+    /// Its version.
+    pub version: String,
+    /// What it was given.
+    pub arguments: Vec<String>,
+}
+
 impl Fields {
+    /// What the tools did, the first one first.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `history` is not a list of such lines.
+    pub fn history(&self) -> Result<Vec<HistoryLine>> {
+        Ok(self.get("history")?.unwrap_or_default())
+    }
+
     /// Adds the line that says which tool, of which version, with which arguments, made or changed this record. Arguments that
     /// change no record are left out.
     ///

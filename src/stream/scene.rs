@@ -14,6 +14,17 @@ use crate::response::{Response, SurfaceResponse};
 /// The stream's format, in every scene.
 const FORMAT: &str = "vfold/1";
 
+/// Work that a scene did not need.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct SkippedRecord {
+    /// What was not computed.
+    pub what: String,
+    /// How many of it.
+    pub count: u64,
+    /// Why not.
+    pub why: String,
+}
+
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -141,6 +152,14 @@ impl Scene {
                 Err(Error::field("accuracy.tolerance", format!("{tolerance} is not between 0 and 1")))
             }
         }
+    }
+
+    /// The work that the scene did not need.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if `skipped` is not a list of it.
+    pub fn skipped(&self) -> Result<Vec<SkippedRecord>> {
+        Ok(self.fields.get("skipped")?.unwrap_or_default())
     }
 
     /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.

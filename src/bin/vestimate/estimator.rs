@@ -2,7 +2,7 @@
 
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::{FacetData, Measured};
-use vfold::estimate::noise::{deviations, unexplained};
+use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{Quantity, SceneModel};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
@@ -18,8 +18,6 @@ use super::settings::{Fit, NoiseSd, Smoothness};
 pub const MUNSELL: &str = "munsell";
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
-/// What a real fold does that the model does not, relative to the facet's value.
-const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 
@@ -158,7 +156,11 @@ impl Transform for Estimator<'_> {
         if self.args.trace.is_some() {
             sample.set_trace(&estimate.trace)?;
         }
-        sample.set_estimate(name, prior, wavelengths_nm, &estimate, with_covariance)
+        sample.set_estimate(name, prior, wavelengths_nm, &estimate, with_covariance)?;
+        match &context.method {
+            SceneMethod::Map(_) => sample.set_noise(&self.noise(sample)?),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => Ok(()),
+        }
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -225,28 +227,22 @@ impl<'a> Estimator<'a> {
         }
     }
 
-    /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
+    /// What facets are worth.
+    fn noise(&self, sample: &Sample) -> Result<Noise> {
+        let sd = match self.args.noise_sd {
+            NoiseSd::All(sd) => Some(sd),
+            NoiseSd::Auto => None,
+        };
         let model_error = match self.args.model_error {
             Some(error) => error,
-            None if sample.is_photograph()? => MODEL_ERROR,
-            None => 0.0,
+            None => Noise::model_error(sample.is_photograph()?),
         };
-        if let NoiseSd::All(sd) = self.args.noise_sd {
-            return Ok(deviations(rgb, |_, _| sd, model_error));
-        }
-        let Some(said) = sample.facet_sd()? else {
-            let noise = unexplained(context.scene.facets(), rgb);
-            return Ok(deviations(rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), model_error));
-        };
-        if said.len() != rgb.len() {
-            return Err(Error::field(
-                "facet_sd",
-                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
-            ));
-        }
-        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
-        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error))
+        Ok(Noise { sd, model_error })
+    }
+
+    /// How far each facet may be off: its noise, and what the model leaves out.
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Colours> {
+        self.noise(sample)?.deviations(context.scene.facets(), rgb, sample.facet_sd()?.as_ref())
     }
 }
 

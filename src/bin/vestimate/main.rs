@@ -15,13 +15,12 @@ use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
+use vfold::colorimetry::Observer;
 use vfold::estimate::Exposure;
-use vfold::plot::spectra::{CURVES_MAX, draw};
+use vfold::plot::{sheet, spectra::CURVES_MAX};
 use vfold::spectrum::formats::{check_ending, write};
+use vfold::spectrum::illuminant;
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
-
-/// Residuals, in units of their expected size, beyond which the scene cannot be right.
-const MISFIT: f64 = 5.0;
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -64,7 +63,8 @@ struct Args {
     /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
-    /// Draw estimates, their error bands and true spectra
+    /// Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single
+    /// sheet what the estimate leaves of its facets
     #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
@@ -119,16 +119,20 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }
-    let (mut curves, mut measured) = (Vec::new(), Vec::new());
+    let (mut sheets, mut measured, mut seen) = (Vec::new(), Vec::new(), None);
+    let daylight = illuminant("D65")?;
     let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     pipe(&mut reader, &estimator, out.kept()?, |mut record| {
+        if let Record::Scene(scene) = &record {
+            seen = args.plot.is_some().then(|| scene.clone());
+        }
         if let Record::Sample(sample) = &mut record {
             warn(args, sample)?;
             if let Some(trace) = &mut trace {
                 sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
             }
-            if args.plot.is_some() && curves.len() < CURVES_MAX {
-                curves.extend(sample.curve()?);
+            if let Some(scene) = seen.as_ref().filter(|_| sheets.len() < CURVES_MAX) {
+                sheets.extend(sample.sheet(scene, &daylight, Observer::Cie1964_10deg)?);
             }
             if args.spectra.is_some() {
                 measured.extend(sample.measured()?);
@@ -137,7 +141,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         out.record(&record)
     })?;
     trace.map_or(Ok(0), Output::finish)?;
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))?;
+    args.plot.as_ref().map_or(Ok(()), |path| sheet::draw(path, &sheets))?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }
 
@@ -147,13 +151,8 @@ fn warn(args: &Args, sample: &Sample) -> Result<()> {
     if args.common.quiet || !args.has_prior() {
         return Ok(());
     }
-    if let Some(rms) = sample.residual_rms()?.filter(|rms| *rms > MISFIT) {
-        let problem = format!("facets are {rms:.0} times further from the model than their noise");
-        let remedy = "check angle, corners, light, camera and exposure";
-        cli::say("vestimate", &format!("{}: {problem}; {remedy}", sample.id()?));
-    }
-    for name in sample.unsupported()? {
-        cli::say("vestimate", &format!("{}: the facets do not tell {name}; it is as expected", sample.id()?));
+    for doubt in sample.doubts()? {
+        cli::say("vestimate", &format!("{}: {doubt}", sample.id()?));
     }
     Ok(())
 }
