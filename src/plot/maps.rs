@@ -10,9 +10,10 @@ use super::scale::{Scale, UNKNOWN};
 use super::text::{GREY, SIZE, SMALL, elided, number, say, style};
 use crate::geometry::Panel;
 
-/// Space for one map, px, and how many stand beside each other.
-const MAP: (u32, u32) = (220, 150);
+/// Space for maps, px, how many stand beside each other in it, and how high they are.
+const WIDTH: u32 = 700;
 const BESIDE: usize = 3;
+const HIGHEST: u32 = 260;
 const GAP: u32 = 20;
 const MARGIN: i32 = 30;
 const TITLE: i32 = 30;
@@ -123,14 +124,20 @@ pub(super) struct Maps<'a> {
 }
 
 impl Maps<'_> {
+    /// Space for one map: few maps are larger.
+    fn space(&self) -> u32 {
+        let beside = self.maps.len().clamp(1, BESIDE) as u32;
+        (WIDTH - (beside - 1) * GAP) / beside
+    }
+
     fn map_size(&self) -> (u32, u32) {
-        Surface::new(self.panels).size(MAP)
+        Surface::new(self.panels).size((self.space(), HIGHEST))
     }
 
     fn corner(&self, map: usize) -> (i32, i32) {
         let (row, column) = ((map / BESIDE) as i32, (map % BESIDE) as u32);
         let down = self.map_size().1 as i32 + 2 * WORDS + 8;
-        (MARGIN + (column * (MAP.0 + GAP)) as i32, TITLE + WORDS + row * down)
+        (MARGIN + (column * (self.space() + GAP)) as i32, TITLE + WORDS + row * down)
     }
 
     fn foot(&self) -> i32 {
@@ -148,7 +155,7 @@ impl Maps<'_> {
     fn words<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, map: usize) -> Drawn<B> {
         let ((x, y), (width, height)) = (self.corner(map), self.map_size());
         let words = style(SMALL, HPos::Left, BLACK);
-        let title = elided(area, &self.maps[map].title, &words, MAP.0);
+        let title = elided(area, &self.maps[map].title, &words, self.space());
         say(area, &title, (x, y - WORDS / 2), &words)?;
         let places = Surface::new(self.panels).places(width);
         let below = y + height as i32 + WORDS / 2 + 1;
@@ -188,7 +195,7 @@ impl Maps<'_> {
 
 impl Figure for Maps<'_> {
     fn size(&self) -> (u32, u32) {
-        (2 * MARGIN as u32 + BESIDE as u32 * MAP.0 + (BESIDE as u32 - 1) * GAP, (self.foot() + FOOT) as u32)
+        (2 * MARGIN as u32 + WIDTH, (self.foot() + FOOT) as u32)
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {

@@ -3,7 +3,8 @@
 use super::Gallery;
 use super::html::Html;
 
-/// System fonts, dark on white, one column; on paper a sample begins on a page of its own.
+/// System fonts, dark on white, one column; on paper a sample begins on a page of its own. Drawings stay legible on narrow screens, where they
+/// scroll.
 const STYLE: &str = "
 :root { color-scheme: light; }
 body { margin: 0; background: #fff; color: #1a1a1a; font: 16px/1.45 system-ui, sans-serif; }
@@ -11,15 +12,17 @@ main { max-width: 62rem; margin: 0 auto; padding: 1rem; }
 h1, h2, h3 { line-height: 1.2; overflow-wrap: anywhere; }
 h2 { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid #1a1a1a; }
 a { color: #00507d; overflow-wrap: anywhere; }
-figure { margin: 1.2rem 0; break-inside: avoid; }
+figure { margin: 1.2rem 0; break-inside: avoid; overflow-x: auto; }
 figure svg, figure img { display: block; max-width: 100%; height: auto; }
+figure svg { min-width: 34rem; }
 figcaption { color: #444; font-size: .9rem; max-width: 48rem; }
 .table { overflow-x: auto; margin: 1.2rem 0; }
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; padding: .3rem 0; }
 th, td { text-align: left; vertical-align: top; padding: .2rem 1rem .2rem 0; border-bottom: 1px solid #ccc; }
 th[scope=row] { font-weight: 400; }
-th, td { overflow-wrap: anywhere; min-width: 4rem; }
+th, td { overflow-wrap: break-word; max-width: 36rem; }
+nav ul { columns: 14rem; padding-left: 1.2rem; }
 .doubt { border-left: 4px solid #d55e00; padding-left: .8rem; }
 @media print {
   body { font-size: 10.5pt; }
@@ -27,7 +30,8 @@ th, td { overflow-wrap: anywhere; min-width: 4rem; }
   section.sample { break-before: page; }
   section.sample h2 { margin-top: 0; border: 0; }
   tr { break-inside: avoid; }
-  .table { overflow: visible; }
+  .table, figure { overflow: visible; }
+  figure svg { min-width: 0; }
   nav { display: none; }
 }
 ";
