@@ -5,8 +5,11 @@ use super::{Gallery, SECTIONS_MAX};
 use crate::error::Result;
 use crate::score::{Statistics, Summary};
 
-/// What is said of all samples together.
-pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Html> {
+/// What is said of all samples together; nothing of a single one that has a section of its own.
+pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Html>> {
+    if summary.samples() == 1 && gallery.seen() == 1 {
+        return Ok(None);
+    }
     let mut parts = vec![Html::element("h2", &[], "All samples"), counts(gallery, summary)];
     if summary.scored() > 0 {
         let row = |one: &Statistics| {
@@ -30,7 +33,7 @@ pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Html> {
         let row = |(name, error): &(String, String)| vec![name.as_str().into(), error.as_str().into()];
         parts.push(Html::table("Samples without a result", &["sample", "why"], failures.iter().map(row)));
     }
-    Ok(Html::element("section", &[("id", "all")], parts))
+    Ok(Some(Html::element("section", &[("id", "all")], parts)))
 }
 
 fn counts(gallery: &Gallery, summary: &Summary) -> Html {

@@ -40,7 +40,8 @@ pub struct View<'a> {
 /// [`crate::Error::File`] if it cannot be written, or an overlay that was asked for cannot be read; [`crate::Error::Field`] if a
 /// record is not what the tools write.
 pub fn write(path: &Path, gallery: &Gallery, summary: &Summary, view: &View) -> Result<()> {
-    let mut sections = vec![batch::section(gallery, summary)?];
+    let mut sections = Vec::new();
+    sections.extend(batch::section(gallery, summary)?);
     for (number, shown) in gallery.in_order().enumerate() {
         sections.push(sample::section(number, shown, view)?);
     }

@@ -48,8 +48,8 @@ pub(super) fn page(gallery: &Gallery, sections: Vec<Html>) -> String {
     let mut main = vec![
         Html::element("h1", &[], "Spectral reflectance of folded sheets"),
         Html::element("p", &[], format!("Estimated from photographs or computed facets by vfold {version}.")),
-        contents(gallery),
     ];
+    main.extend(contents(gallery));
     main.extend(sections);
     let body = Html::element("body", &[], Html::element("main", &[], main));
     let html =
@@ -57,13 +57,14 @@ pub(super) fn page(gallery: &Gallery, sections: Vec<Html>) -> String {
     format!("<!DOCTYPE html>\n{html}\n")
 }
 
-/// Links to the samples.
-fn contents(gallery: &Gallery) -> Html {
+/// Links to the samples, if there are several.
+fn contents(gallery: &Gallery) -> Option<Html> {
     let link = |(number, shown): (usize, &super::Shown)| {
         let name = shown.sample.id().unwrap_or_default();
         let target = format!("#sample-{number}");
         Html::element("li", &[], Html::element("a", &[("href", &target)], name))
     };
     let links: Vec<_> = gallery.in_order().enumerate().map(link).collect();
-    Html::element("nav", &[("aria-label", "samples")], Html::element("ul", &[], links))
+    (links.len() > 1)
+        .then(|| Html::element("nav", &[("aria-label", "samples")], Html::element("ul", &[], links)))
 }

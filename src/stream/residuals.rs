@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::estimate::fitted_name;
 use super::fields::finite;
@@ -38,24 +38,25 @@ struct NoiseRecord {
 }
 
 impl Sample {
-    /// Adds to an estimate what its facets were taken to be worth.
+    /// Adds to an estimate, if there is one, what its facets were taken to be worth.
     ///
     /// # Errors
-    /// [`Error::Field`] if a number is not finite, or there is no estimate.
+    /// [`Error::Field`] if a number is not finite.
     pub fn set_noise(&mut self, noise: &Noise) -> Result<()> {
         finite("estimate.noise", noise.sd.iter().chain([&noise.model_error]))?;
         let from = match noise.sd {
             Some(_) => "flag",
-            None if self.facet_sd()?.is_some() => "facet_sd",
+            None if self.fields.0.get("facet_sd").is_some_and(|sd| !sd.is_null()) => "facet_sd",
             None => "facets",
         };
         let mut record = json!({ "from": from, "model_error": noise.model_error });
         if let Some(sd) = noise.sd {
             record["sd"] = json!(sd);
         }
-        let mut estimate: serde_json::Value = self.fields.require("estimate", "run vestimate")?;
-        estimate["noise"] = record;
-        self.fields.set("estimate", estimate)
+        if let Some(Value::Object(estimate)) = self.fields.0.get_mut("estimate") {
+            estimate.insert("noise".to_owned(), record);
+        }
+        Ok(())
     }
 
     /// Measured minus estimated facets in units of their standard deviations: facet by channel, none for a facet that was not

@@ -1,5 +1,6 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
+mod drawing;
 mod estimator;
 mod flat;
 mod plan;
@@ -9,17 +10,15 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{ArgGroup, Parser};
+use drawing::Drawing;
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
 use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
-use vfold::colorimetry::Observer;
 use vfold::estimate::Exposure;
-use vfold::plot::{sheet, spectra::CURVES_MAX};
 use vfold::spectrum::formats::{check_ending, write};
-use vfold::spectrum::illuminant;
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
@@ -119,29 +118,24 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }
-    let (mut sheets, mut measured, mut seen) = (Vec::new(), Vec::new(), None);
-    let daylight = illuminant("D65")?;
+    let mut drawing = args.plot.as_deref().map(Drawing::new).transpose()?;
+    let mut measured = Vec::new();
     let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     pipe(&mut reader, &estimator, out.kept()?, |mut record| {
-        if let Record::Scene(scene) = &record {
-            seen = args.plot.is_some().then(|| scene.clone());
-        }
         if let Record::Sample(sample) = &mut record {
             warn(args, sample)?;
             if let Some(trace) = &mut trace {
                 sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
             }
-            if let Some(scene) = seen.as_ref().filter(|_| sheets.len() < CURVES_MAX) {
-                sheets.extend(sample.sheet(scene, &daylight, Observer::Cie1964_10deg)?);
-            }
             if args.spectra.is_some() {
                 measured.extend(sample.measured()?);
             }
         }
+        drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record))?;
         out.record(&record)
     })?;
     trace.map_or(Ok(0), Output::finish)?;
-    args.plot.as_ref().map_or(Ok(()), |path| sheet::draw(path, &sheets))?;
+    drawing.as_ref().map_or(Ok(()), Drawing::write)?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }
 
