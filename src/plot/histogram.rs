@@ -83,7 +83,7 @@ fn nice(width: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// NumPy: `np.histogram([.001, .004, .0041, .03], np.arange(0, .033, .002))`.
+    /// NumPy: `np.histogram([.001, .0039, .0041, .0299], np.arange(0, .031, .002))`.
     #[test]
     fn values_are_counted_where_numpy_counts_them() {
         let found = Histogram::of(&[0.001, 0.0039, 0.0041, 0.0299]);

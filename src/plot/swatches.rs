@@ -57,12 +57,15 @@ impl Swatches<'_> {
         let name = elided(area, &sheet.curve.name, &words, NAME.1);
         say(area, &name, (NAME.0, middle), &words)?;
         let Some(colours) = &sheet.colours else { return Ok(()) };
+        let mut right = SWATCH.0;
         for (n, srgb) in std::iter::once(&colours.estimate).chain(&colours.truth).enumerate() {
             let left = SWATCH.0 + SWATCH.1 * n as i32;
             let patch = [(left, top), (left + SWATCH.1, top + TALL)];
             area.draw(&Rectangle::new(patch, screen(*srgb).filled()))?;
+            right = left + SWATCH.1;
         }
-        Ok(())
+        // a white sheet is seen on white paper, and true and estimated colours meet without a line between them
+        area.draw(&Rectangle::new([(SWATCH.0, top), (right, top + TALL)], GREY.stroke_width(1)))
     }
 }
 
