@@ -14,7 +14,7 @@ impl Fields {
     /// # Example
     /// ```
     /// let mut fields = vfold::stream::Fields::of_kind("scene");
-    /// fields.set("wavelengths_nm", [400.0; 61])?;
+    /// fields.set("wavelengths_nm", vec![400.0; 61])?;
     /// fields.set("panel", [1.0, 2.0])?;
     /// let outline = fields.outline("");
     /// let shown: Vec<_> = outline.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
