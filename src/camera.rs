@@ -113,6 +113,13 @@ impl CameraResponse {
         self.weights.iter().map(|channel| channel.iter().sum()).collect()
     }
 
+    /// Channel values of a flat sheet of this reflectance, a number a waveband, facing the light.
+    #[must_use]
+    pub fn of_flat(&self, reflectance: &[f64]) -> Vec<f64> {
+        let value = |channel: &Vec<f64>| channel.iter().zip(reflectance).map(|(w, r)| w * r).sum();
+        self.weights.iter().map(value).collect()
+    }
+
     /// The channel in which white is 1; of several pictures, the first one's.
     #[must_use]
     pub fn reference_channel(&self) -> usize {

@@ -29,11 +29,13 @@
 //! Use runs one way:
 //!
 //! ```text
+//! bin -> report -> stream, plot, score, image, files
 //! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
 //!               stream -> plot, score, progress, files, calibrate, parallel
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> colorimetry, files
+//!               plot -> geometry, image, files
 //!               score, colorimetry -> spectrum -> files                 all -> error
 //! ```
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of
@@ -53,6 +55,7 @@ pub mod kernel;
 pub mod parallel;
 pub mod plot;
 pub mod progress;
+pub mod report;
 pub mod response;
 pub mod score;
 pub mod solve;

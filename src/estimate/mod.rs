@@ -23,6 +23,9 @@ use unknowns::Quantity;
 use crate::solve::Termination;
 use crate::solve::posterior::Iteration;
 
+/// Residuals, in units of their expected size, beyond which the scene cannot be right.
+pub const MISFIT: f64 = 5.0;
+
 /// How the exposure of the picture enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {

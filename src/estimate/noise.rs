@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 use crate::solve::Eigen;
 
@@ -13,6 +14,49 @@ const ROUNDING: f64 = 1e-13;
 
 /// Facet by channel, none for a facet that was not measured.
 pub type FacetValues = Vec<Option<Vec<f64>>>;
+
+/// What an estimate takes facets to be worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Standard deviation of all facets, if it was given: else what the sample says of them, or what no reflectance explains.
+    pub sd: Option<f64>,
+    /// Error of the model, relative to a facet's value.
+    pub model_error: f64,
+}
+
+impl Noise {
+    /// Error of the model, relative to the facet's value, where none was given: what a real fold does that the model does not.
+    #[must_use]
+    pub fn model_error(is_photograph: bool) -> f64 {
+        if is_photograph { 3e-4 } else { 0.0 }
+    }
+
+    /// Standard deviations of facets `rgb`, of which the sample may have `said` some.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it said them of another number of facets.
+    pub fn deviations(
+        &self,
+        model: &FacetModel,
+        rgb: &[Option<Vec<f64>>],
+        said: Option<&FacetValues>,
+    ) -> Result<FacetValues> {
+        if let Some(sd) = self.sd {
+            return Ok(deviations(rgb, |_, _| sd, self.model_error));
+        }
+        let Some(said) = said else {
+            let noise = unexplained(model, rgb);
+            let of_channel = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
+            return Ok(deviations(rgb, of_channel, self.model_error));
+        };
+        if said.len() != rgb.len() {
+            let problem = format!("{} facets, but facet_rgb has {}", said.len(), rgb.len());
+            return Err(Error::field("facet_sd", problem));
+        }
+        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
+        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), self.model_error))
+    }
+}
 
 /// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel, `model_error` relative to
 /// the facet's value, and a millionth of the brightest facet, in quadrature.

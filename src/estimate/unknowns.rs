@@ -83,6 +83,11 @@ impl Unknown {
         }
     }
 
+    /// The number that is normal where the quantity is `value`.
+    fn normal_of(self, value: f64) -> f64 {
+        if self.quantity == Quantity::SkyCctK { 1e6 / value } else { value }
+    }
+
     /// Least value that it can have.
     #[must_use]
     pub fn least(self) -> f64 {
@@ -149,6 +154,20 @@ impl SceneModel {
         self.unknowns[unknown].mean = value;
         self.unknowns[unknown].sd = 0.0;
         self
+    }
+
+    /// The model with its unknowns, in their order and units, known to have these values.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> FacetModel {
+        let amount = |factors: &Vec<Factor>| {
+            let unknowns = self.unknowns.iter().zip(values);
+            factors
+                .iter()
+                .zip(unknowns)
+                .map(|(factor, (unknown, value))| factor.at(unknown.normal_of(*value))[0])
+                .product()
+        };
+        self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
     }
 
     /// Amounts of the sources at `w`, a standard normal number an unknown.

@@ -53,6 +53,18 @@ impl FacetModel {
         &self.sources
     }
 
+    /// The same with each of the sources in another amount.
+    ///
+    /// # Panics
+    /// If there are not as many amounts as sources.
+    #[must_use]
+    pub fn in_amounts(&self, amounts: &[f64]) -> Self {
+        assert_eq!(amounts.len(), self.sources.len(), "an amount a source");
+        let mut scaled = self.clone();
+        scaled.sources.iter_mut().zip(amounts).for_each(|(source, amount)| source.facets *= *amount);
+        scaled
+    }
+
     /// The terms for a spectrum: term by waveband. Never `1/r`: black is a legal reflectance.
     #[must_use]
     pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {

@@ -44,6 +44,7 @@ mod sensor;
 mod shared_noise;
 mod sites;
 mod tally;
+mod thumbnail;
 mod transfer;
 mod write;
 
@@ -69,5 +70,6 @@ pub use preview::write_preview;
 pub use refine::{Marked, Refinement, refine};
 pub use scale::ReadOptions;
 pub use shared_noise::pixels_sharing_noise;
+pub use thumbnail::{Thumbnail, thumbnail};
 pub use transfer::{Transfer, srgb_to_linear};
-pub use write::{write_linear, write_srgb_png};
+pub use write::{png_bytes, write_linear, write_srgb_png};

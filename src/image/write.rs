@@ -3,7 +3,7 @@
 //! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
 //! old file or none.
 
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Cursor, Write};
 use std::path::Path;
 
 use crate::files::Saved;
@@ -59,6 +59,29 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
 /// ```
 pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
     save(path, &eight_bits(path, width, height, rgb)?, ImageFormat::Png)
+}
+
+/// Bytes of a PNG of RGB that is already encoded for display, 8 bits a number.
+///
+/// # Errors
+/// [`Error::Picture`] if there are not width x height x 3 numbers, or none.
+///
+/// # Example
+/// ```
+/// assert!(vfold::image::png_bytes(2, 1, vec![0, 0, 0, 255, 255, 255])?.starts_with(b"\x89PNG"));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
+    let failed = |problem: String| Error::picture(Path::new("drawing"), problem, "draw at least one pixel");
+    let count = rgb.len();
+    let picture: ImageBuffer<Rgb<u8>, _> = ImageBuffer::from_vec(width, height, rgb)
+        .filter(|_| count > 0)
+        .ok_or_else(|| failed(format!("{count} numbers do not fill {width} x {height} RGB pixels")))?;
+    let mut png = Vec::new();
+    picture
+        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
+        .map_err(|error| failed(error.to_string()))?;
+    Ok(png)
 }
 
 /// As [`write_srgb_png`], with a keyword and a text that belongs to it, both ASCII, for programs that read the file.

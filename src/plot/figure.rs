@@ -7,6 +7,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::register_font;
 
+use super::bitmap::Bitmap;
 use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::image::write_srgb_png;
@@ -34,6 +35,34 @@ pub(super) trait Figure {
 
     /// Draws it on an area of that size, white at first.
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
+
+    /// Pictures over it.
+    fn bitmaps(&self) -> Vec<Bitmap<'_>> {
+        Vec::new()
+    }
+}
+
+/// One figure above another, or above none.
+pub(super) struct Above<A, B>(pub A, pub Option<B>);
+
+impl<A: Figure, B: Figure> Figure for Above<A, B> {
+    fn size(&self) -> (u32, u32) {
+        let (width, height) = self.0.size();
+        let (other_width, other_height) = self.1.as_ref().map_or((0, 0), Figure::size);
+        (width.max(other_width), height + other_height)
+    }
+
+    fn draw<D: DrawingBackend>(&self, area: &DrawingArea<D, Shift>) -> Drawn<D> {
+        let (upper, lower) = area.split_vertically(self.0.size().1);
+        self.0.draw(&upper)?;
+        self.1.as_ref().map_or(Ok(()), |other| other.draw(&lower))
+    }
+
+    fn bitmaps(&self) -> Vec<Bitmap<'_>> {
+        let down = (0, self.0.size().1 as i32);
+        let lower = self.1.iter().flat_map(Figure::bitmaps).map(|bitmap| bitmap.moved(down));
+        self.0.bitmaps().into_iter().chain(lower).collect()
+    }
 }
 
 /// Writes a figure as PNG if the name ends so, else as SVG.
@@ -44,21 +73,28 @@ pub(super) fn save(path: &Path, figure: &impl Figure) -> Result<()> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         Some("png") => png(path, figure),
-        _ => Saved::write(path, svg(path, figure)?.as_bytes()),
+        _ => Saved::write(path, svg(figure)?.as_bytes()),
     }
 }
 
-fn svg(path: &Path, figure: &impl Figure) -> Result<String> {
+/// The figure as SVG.
+///
+/// # Errors
+/// [`Error::Numeric`] if it cannot be drawn.
+pub(super) fn svg(figure: &impl Figure) -> Result<String> {
     let mut text = String::new();
-    draw_on(SVGBackend::with_string(&mut text, figure.size()), figure).map_err(|e| undrawable(path, e))?;
+    draw_on(SVGBackend::with_string(&mut text, figure.size()), figure).map_err(undrawable)?;
+    let pictures: String = figure.bitmaps().iter().map(Bitmap::svg).collect::<Result<_>>()?;
+    let end = text.rfind("</svg>").unwrap_or(text.len());
+    text.insert_str(end, &pictures);
     Ok(text)
 }
 
 fn png(path: &Path, figure: &impl Figure) -> Result<()> {
     let (width, height) = figure.size();
     let mut pixels = vec![0; 3 * (width * height) as usize];
-    draw_on(BitMapBackend::with_buffer(&mut pixels, (width, height)), figure)
-        .map_err(|e| undrawable(path, e))?;
+    draw_on(BitMapBackend::with_buffer(&mut pixels, (width, height)), figure).map_err(undrawable)?;
+    figure.bitmaps().iter().for_each(|bitmap| bitmap.paint(&mut pixels, width));
     let rgb: Vec<f64> = pixels.iter().map(|byte| f64::from(*byte) / 255.0).collect();
     write_srgb_png(path, width as usize, height as usize, &rgb)
 }
@@ -78,6 +114,6 @@ fn draw_on<B: DrawingBackend>(backend: B, figure: &impl Figure) -> Drawn<B> {
     area.present()
 }
 
-fn undrawable(path: &Path, error: impl std::fmt::Display) -> Error {
-    Error::Numeric(format!("{}: cannot draw: {error}", path.display()))
+fn undrawable(error: impl std::fmt::Display) -> Error {
+    Error::Numeric(format!("cannot draw: {error}"))
 }

@@ -1,17 +1,14 @@
 //! Estimated spectra with their error bands, and the true ones.
 
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::figure::{COLOURS, Drawn, FONT, Figure, save};
-use super::terminal;
-use crate::error::{Error, Result};
+use super::figure::{COLOURS, Drawn, FONT, Figure};
 
 /// Most curves in one drawing: more could not be told apart.
-pub const CURVES_MAX: usize = 8;
-const SIZE: (u32, u32) = (760, 460);
+pub const CURVES_MAX: usize = COLOURS.len();
+const SIZE: (u32, u32) = (760, 430);
+
 /// One estimated spectrum.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -27,24 +24,8 @@ pub struct Curve {
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// Draws up to eight curves, as SVG or PNG; `-` is the terminal.
-///
-/// # Errors
-/// [`Error::File`] if it cannot be written, [`Error::Usage`] if there is nothing to draw.
-pub fn draw(path: &Path, curves: &[Curve]) -> Result<()> {
-    let shown = &curves[..curves.len().min(CURVES_MAX)];
-    if shown.is_empty() {
-        return Err(Error::usage("--plot", "no sample has an estimate to draw", "check the samples' errors"));
-    }
-    if path == Path::new("-") {
-        terminal::draw(shown);
-        return Ok(());
-    }
-    save(path, &Spectra(shown))
-}
-
-/// Curves over wavelength.
-struct Spectra<'a>(&'a [Curve]);
+/// Curves over wavelength, at least one, in the order of [`COLOURS`]; swatches beneath name them.
+pub(super) struct Spectra<'a>(pub Vec<&'a Curve>);
 
 impl Figure for Spectra<'_> {
     fn size(&self) -> (u32, u32) {
@@ -52,10 +33,10 @@ impl Figure for Spectra<'_> {
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
-        let curves = self.0;
+        let curves = &self.0;
         let ends = curves.iter().flat_map(|curve| curve.wavelengths_nm.iter().copied());
         let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), nm| (a.min(nm), b.max(nm)));
-        let top = curves.iter().map(highest).fold(0.0, f64::max);
+        let top = curves.iter().map(|curve| highest(curve)).fold(0.0, f64::max);
         let mut chart = ChartBuilder::on(area)
             .margin(14)
             .margin_right(24)
@@ -81,23 +62,9 @@ impl Figure for Spectra<'_> {
             }
             let style = colour.stroke_width(2);
             let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
-            chart
-                .draw_series(LineSeries::new(line, style))?
-                .label(&curve.name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(line, style))?;
         }
-        if curves.iter().any(|curve| curve.truth.is_some()) {
-            chart
-                .draw_series(std::iter::empty::<PathElement<(f64, f64)>>())?
-                .label("true (dashed)")
-                .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], BLACK.stroke_width(2)));
-        }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE.mix(0.85))
-            .label_font((FONT, 14))
-            .draw()
+        Ok(())
     }
 }
 

@@ -25,7 +25,7 @@ const LABEL_STEPS_NM: [f64; 6] = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 /// Draws curves on standard error, one below the other, as wide as the terminal.
 ///
 /// A closed standard error is no reason to stop.
-pub fn draw(curves: &[Curve]) {
+pub fn draw<'a>(curves: impl Iterator<Item = &'a Curve>) {
     let terminal = Term::stderr();
     let columns = terminal.size_checked().map_or(COLUMNS_OF_NO_TERMINAL, |(_, columns)| columns.into());
     let look =

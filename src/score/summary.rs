@@ -15,6 +15,12 @@ impl Score {
     pub fn new(name: impl Into<String>, value: f64) -> Self {
         Self { name: name.into(), value }
     }
+
+    /// How bad it is: the value, of a goodness of fit (`gfc`) its negative.
+    #[must_use]
+    pub fn badness(&self) -> f64 {
+        if self.name == "gfc" { -self.value } else { self.value }
+    }
 }
 
 /// Mean, median and worst of a score.
@@ -80,6 +86,11 @@ impl Summary {
     #[must_use]
     pub fn scored(&self) -> usize {
         self.scored
+    }
+
+    /// All values of each score, in the order in which they came.
+    pub fn values(&self) -> impl Iterator<Item = &[f64]> {
+        self.scores.iter().map(|(_, values)| values.as_slice())
     }
 
     /// Mean, median and worst of each score, in the order in which they came.

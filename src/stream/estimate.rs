@@ -7,7 +7,8 @@ use super::fields::finite;
 use super::quantities::Quantities;
 use super::sample::Sample;
 use crate::error::{Error, Result};
-use crate::estimate::{Estimate, Fitted};
+use crate::estimate::noise::Noise;
+use crate::estimate::{Estimate, Fitted, MISFIT};
 use crate::plot::spectra::Curve;
 use crate::solve::Termination;
 use crate::spectrum::formats::Measured;
@@ -27,8 +28,8 @@ pub struct EstimateRecord {
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
     /// Exposure, as known or as found.
-    #[serde(skip_deserializing)]
-    exposure: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) exposure: Option<f64>,
     /// Root mean square of the residuals in units of their expected size: near 1 where the model is good.
     #[serde(default)]
     #[schemars(range(min = 0))]
@@ -45,10 +46,39 @@ pub struct EstimateRecord {
     pub reflectance_sd: Option<Vec<f64>>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    fit: Option<Quantities<FittedRecord>>,
+    pub(super) fit: Option<Quantities<FittedRecord>>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
+    /// What facets were taken to be worth, by a method that weighs them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) noise: Option<NoiseRecord>,
+}
+
+/// How far facets were taken to be off.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub(super) struct NoiseRecord {
+    /// What told it.
+    from: NoiseSource,
+    /// Error of the model, relative to a facet's value.
+    #[schemars(range(min = 0))]
+    pub(super) model_error: f64,
+    /// Standard deviation of all facets, where a flag told it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub(super) sd: Option<f64>,
+}
+
+/// What tells how far facets may be off.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum NoiseSource {
+    /// `vestimate --noise-sd`.
+    Flag,
+    /// The sample's `facet_sd`.
+    FacetSd,
+    /// The facets, by what no reflectance explains of them.
+    Facets,
 }
 
 /// Why a solver stopped.
@@ -74,9 +104,9 @@ enum TerminationRecord {
 
 /// A number of the scene as found, in the unit that its name says.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-struct FittedRecord {
+pub(super) struct FittedRecord {
     /// Value.
-    value: f64,
+    pub(super) value: f64,
     /// Standard deviation.
     #[schemars(range(min = 0))]
     sd: f64,
@@ -110,16 +140,23 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
-    /// Names of the numbers that were to be fitted and of which the facets say nothing.
+    /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
     #[must_use]
-    pub fn unsupported(&self) -> Vec<&'static str> {
-        let fitted = self.fit.iter().flat_map(Quantities::iter);
-        fitted.filter(|(_, one)| !one.supported).map(|(name, _)| name).collect()
+    pub fn doubts(&self) -> Vec<String> {
+        let misfit = Some(self.residual_rms).filter(|rms| *rms > MISFIT).map(|rms| {
+            format!(
+                "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
+            )
+        });
+        let untold = self.fit.iter().flat_map(Quantities::iter).filter(|(_, one)| !one.supported);
+        let untold = untold
+            .map(|(quantity, _)| format!("the facets do not tell {}; it is as expected", quantity.name()));
+        misfit.into_iter().chain(untold).collect()
     }
 }
 
 impl Sample {
-    /// Adds an estimate, with its covariance (waveband by waveband) if asked to.
+    /// Adds an estimate, with what facets were taken to be worth if they were weighed, and its covariance (waveband by waveband) if asked to.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -129,12 +166,14 @@ impl Sample {
         prior: &str,
         wavelengths_nm: &[f64],
         estimate: &Estimate,
+        noise: Option<&Noise>,
         with_covariance: bool,
     ) -> Result<()> {
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
+        finite("estimate.noise", noise.iter().flat_map(|noise| noise.sd.iter().chain([&noise.model_error])))?;
         finite("estimate.fit", estimate.fitted.iter().flat_map(|fitted| [&fitted.value, &fitted.sd]))?;
         let covariance = estimate.covariance().filter(|_| with_covariance);
         let rows = |matrix: nalgebra::DMatrix<f64>| {
@@ -147,15 +186,25 @@ impl Sample {
                 prior: prior.to_owned(),
                 wavelengths_nm: wavelengths_nm.to_vec(),
                 reflectance: estimate.reflectance.clone(),
-                exposure: estimate.exposure,
+                exposure: Some(estimate.exposure),
                 residual_rms: estimate.residual_rms,
                 iterations: estimate.iterations,
                 termination: Some((&estimate.termination).into()),
                 reflectance_sd,
                 fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.quantity, fitted.into()))),
                 covariance: covariance.map(rows),
+                noise: noise.map(|noise| self.noise_record(noise)),
             },
         )
+    }
+
+    fn noise_record(&self, noise: &Noise) -> NoiseRecord {
+        let from = match noise.sd {
+            Some(_) => NoiseSource::Flag,
+            None if self.fields.0.get("facet_sd").is_some_and(|sd| !sd.is_null()) => NoiseSource::FacetSd,
+            None => NoiseSource::Facets,
+        };
+        NoiseRecord { from, model_error: noise.model_error, sd: noise.sd }
     }
 
     /// The estimate; none if the sample has none.

@@ -1,7 +1,7 @@
 //! What made a record: the line of history that each tool adds to a scene.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Fields;
 use crate::error::Result;
@@ -17,17 +17,25 @@ const NO_MATTER: [(&str, &str, bool); 6] = [
 ];
 
 /// What a tool was called with.
-#[derive(Serialize, JsonSchema)]
-pub(super) struct HistoryRecord {
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct HistoryRecord {
     /// The tool.
-    tool: String,
+    pub tool: String,
     /// Its version.
-    version: String,
+    pub version: String,
     /// Its arguments, those left out that change no record.
-    arguments: Vec<String>,
+    pub arguments: Vec<String>,
 }
 
 impl Fields {
+    /// What the tools did, the first one first.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `history` is not a list of such records.
+    pub fn history(&self) -> Result<Vec<HistoryRecord>> {
+        Ok(self.get("history")?.unwrap_or_default())
+    }
+
     /// Adds the line that says which tool, of which version, with which arguments, made or changed this record. Arguments that
     /// change no record are left out.
     ///

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::finite;
+use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{Card, FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Spacing};
@@ -59,6 +60,19 @@ impl Scene {
             self.model_with(&self.response()?, &self.lighting()?)
         } else {
             self.surface_model()
+        }
+    }
+
+    /// The same as one `eye` sees it in all lights.
+    ///
+    /// # Errors
+    /// As [`Scene::model`].
+    pub fn model_seen_by(&self, eye: &CameraResponse) -> Result<FacetModel> {
+        if self.is_fold()? {
+            let lighting = Lighting { light: self.light()?, sun: eye.clone(), sky: eye.clone() };
+            self.model_with(&self.response()?, &lighting)
+        } else {
+            self.surface_model_seen_by(vec![eye.clone(); self.sources()?.len()])
         }
     }
 

@@ -47,8 +47,8 @@ impl<T> Quantities<T> {
         }
     }
 
-    /// Those that are there, with their names.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&'static str, &T)> {
+    /// Those that are there.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Quantity, &T)> {
         let all = [
             (Quantity::Exposure, &self.exposure),
             (Quantity::AngleDeg, &self.angle_deg),
@@ -56,6 +56,6 @@ impl<T> Quantities<T> {
             (Quantity::Sky, &self.sky),
             (Quantity::SkyCctK, &self.sky_cct_k),
         ];
-        all.into_iter().filter_map(|(quantity, one)| Some((quantity.name(), one.as_ref()?)))
+        all.into_iter().filter_map(|(quantity, one)| Some((quantity, one.as_ref()?)))
     }
 }

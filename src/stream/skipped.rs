@@ -1,24 +1,32 @@
 //! What of a scene need not be computed.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::Scene;
 use crate::error::Result;
 
 /// What need not be computed.
-#[derive(Serialize, JsonSchema)]
-pub(super) struct SkippedRecord {
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SkippedRecord {
     /// What, in the plural.
-    what: String,
+    pub what: String,
     /// How many of them.
-    count: usize,
+    pub count: usize,
     /// Why none is missed.
-    why: String,
+    pub why: String,
 }
 
 impl Scene {
+    /// The work that the scene did not need.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `skipped` is not a list of it.
+    pub fn skipped(&self) -> Result<Vec<SkippedRecord>> {
+        Ok(self.fields.get("skipped")?.unwrap_or_default())
+    }
+
     /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.
     ///
     /// # Errors

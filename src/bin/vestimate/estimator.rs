@@ -4,10 +4,10 @@ use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
-use vfold::estimate::noise::{deviations, unexplained};
+use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{Quantity, SceneModel};
-use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
+use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
 use vfold::{Error, Result};
@@ -21,8 +21,6 @@ use super::settings::{Fit, NoiseSd, Smoothness};
 pub const MUNSELL: &str = "munsell";
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
-/// What a real fold does that the model does not, relative to the facet's value.
-const MODEL_ERROR: f64 = 3e-4;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
 
@@ -171,7 +169,11 @@ impl Transform for Estimator<'_> {
         if self.args.trace.is_some() {
             sample.set_trace(&estimate.trace)?;
         }
-        sample.set_estimate(name, prior, wavelengths_nm, &estimate, with_covariance)
+        let noise = match &context.method {
+            SceneMethod::Map(_) => Some(self.noise(sample)?),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => None,
+        };
+        sample.set_estimate(name, prior, wavelengths_nm, &estimate, noise.as_ref(), with_covariance)
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -231,7 +233,7 @@ impl<'a> Estimator<'a> {
             SceneMethod::Map(_) => 1.0,
             _ => self.deviations(context, rgb, sample)?.rms(),
         };
-        if estimate.residual_rms <= super::MISFIT * noise {
+        if estimate.residual_rms <= MISFIT * noise {
             return Ok(());
         }
         let problem = format!(
@@ -267,32 +269,29 @@ impl<'a> Estimator<'a> {
         Ok((estimate, format!("smoothness {weight}, {}", said::size(&data))))
     }
 
-    /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Deviations> {
+    /// What facets are worth.
+    fn noise(&self, sample: &Sample) -> Result<Noise> {
+        let sd = match self.args.noise_sd {
+            NoiseSd::All(sd) => Some(sd),
+            NoiseSd::Auto => None,
+        };
         let model_error = match self.args.model_error {
             Some(error) => error,
-            None if sample.is_photograph()? => MODEL_ERROR,
-            None => 0.0,
+            None => Noise::model_error(sample.is_photograph()?),
         };
-        if let NoiseSd::All(sd) = self.args.noise_sd {
-            let sd = deviations(rgb, |_, _| sd, model_error);
-            return Ok(Deviations { sd, model_error, noise_from: "--noise-sd" });
-        }
-        let Some(said) = sample.facet_sd()? else {
-            let noise = unexplained(context.scene.facets(), rgb);
-            let noise = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
-            let sd = deviations(rgb, noise, model_error);
-            return Ok(Deviations { sd, model_error, noise_from: "what no reflectance explains" });
+        Ok(Noise { sd, model_error })
+    }
+
+    /// How far each facet may be off: its noise, and what the model leaves out.
+    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Deviations> {
+        let (noise, said) = (self.noise(sample)?, sample.facet_sd()?);
+        let noise_from = match (noise.sd, &said) {
+            (Some(_), _) => "--noise-sd",
+            (None, Some(_)) => "facet_sd",
+            (None, None) => "what no reflectance explains",
         };
-        if said.len() != rgb.len() {
-            return Err(Error::field(
-                "facet_sd",
-                format!("{} facets, but facet_rgb has {}", said.len(), rgb.len()),
-            ));
-        }
-        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
-        let sd = deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), model_error);
-        Ok(Deviations { sd, model_error, noise_from: "facet_sd" })
+        let sd = noise.deviations(context.scene.facets(), rgb, said.as_ref())?;
+        Ok(Deviations { sd, model_error: noise.model_error, noise_from })
     }
 }
 

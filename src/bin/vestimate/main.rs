@@ -1,5 +1,6 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
+mod drawing;
 mod estimator;
 mod flat;
 mod plan;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{ArgGroup, Parser};
+use drawing::Drawing;
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
@@ -17,12 +19,8 @@ use settings::{Fit, NoiseSd, Smoothness};
 use vfold::Result;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
-use vfold::plot::spectra::{CURVES_MAX, draw};
 use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
-
-/// Residuals, in units of their expected size, beyond which the scene cannot be right.
-const MISFIT: f64 = 5.0;
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -65,7 +63,8 @@ struct Args {
     /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
-    /// Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal
+    /// Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single
+    /// sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
@@ -120,7 +119,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.planning.plan {
         return args.planning.run(&estimator, &mut reader, out);
     }
-    let (mut curves, mut measured) = (Vec::new(), Vec::new());
+    let mut drawing = args.plot.as_deref().map(Drawing::new).transpose()?;
+    let mut measured = Vec::new();
     let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     pipe(&mut reader, &estimator, out.kept()?, |mut record| {
         if let Record::Sample(sample) = &mut record {
@@ -128,17 +128,15 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             if let Some(trace) = &mut trace {
                 sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
             }
-            if args.plot.is_some() && curves.len() < CURVES_MAX {
-                curves.extend(sample.curve()?);
-            }
             if args.spectra.is_some() {
                 measured.extend(sample.measured()?);
             }
         }
+        drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record))?;
         out.record(&record)
     })?;
     trace.map_or(Ok(0), Output::finish)?;
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))?;
+    drawing.as_ref().map_or(Ok(()), Drawing::write)?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }
 
@@ -149,14 +147,8 @@ fn warn(args: &Args, sample: &Sample) -> Result<()> {
         return Ok(());
     }
     let Some(estimate) = sample.estimate()? else { return Ok(()) };
-    let (id, rms) = (sample.id()?, estimate.residual_rms);
-    if rms > MISFIT {
-        let problem = format!("facets are {rms:.0} times further from the model than their noise");
-        let remedy = "check angle, corners, light, camera and exposure";
-        cli::say("vestimate", &format!("{id}: {problem}; {remedy}"));
-    }
-    for name in estimate.unsupported() {
-        cli::say("vestimate", &format!("{id}: the facets do not tell {name}; it is as expected"));
+    for doubt in estimate.doubts() {
+        cli::say("vestimate", &format!("{}: {doubt}", sample.id()?));
     }
     Ok(())
 }

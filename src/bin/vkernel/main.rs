@@ -4,6 +4,7 @@ mod fold;
 mod light;
 mod shape;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
@@ -81,6 +82,9 @@ struct Args {
     /// Name of the scene
     #[arg(long, default_value = "fold")]
     id: String,
+    /// Draw how much of its light every facet hands to others, and the direct light on it
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing, conflicts_with = "check")]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     shape: ShapeArgs,
     #[command(flatten)]

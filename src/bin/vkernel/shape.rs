@@ -10,6 +10,7 @@ use vfold::kernel::mesh::Mesh;
 use vfold::kernel::surface::SurfaceKernel;
 use vfold::kernel::surface::patches::{Division, patches};
 use vfold::kernel::surface::refinement::{Solved, solve};
+use vfold::plot::surface::draw;
 use vfold::stream::{Output, Scene, Surface, read_shape, write_matrix};
 use vfold::{Error, Result};
 
@@ -61,6 +62,10 @@ impl ShapeArgs {
 pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     check(args)?;
     let shape = shape(args)?;
+    if args.plot.is_some() && shape.panels().is_empty() {
+        let problem = "the facets of this shape form no rows and columns";
+        return Err(Error::usage("--plot", problem, "leave it out, or name groups of facets that do"));
+    }
     let sources = args.light.sources(&shape, args.sky)?;
     let (tolerance, mesh) = (args.tolerance.unwrap_or(TOLERANCE), args.mesh.unwrap_or(Mesh::Auto));
     let solved = solve(&shape, &sources, mesh, tolerance)?;
@@ -74,6 +79,9 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     let mut scene = Scene::of_surface(&args.id, &Surface::Mesh(shape), &sources, &solved.responses)?;
     scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
+    if let Some(path) = &args.plot {
+        draw(path, &scene.surface_light(solved.kernel.facet_row_sums())?)?;
+    }
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;
     }

@@ -5,7 +5,7 @@ mod metric;
 mod scorer;
 mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -16,9 +16,15 @@ use table::Table;
 use vfold::Result;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::colorimetry::Observer;
-use vfold::plot::spectra::{CURVES_MAX, draw};
+use vfold::plot::spectra::CURVES_MAX;
+use vfold::plot::{batch, sheet};
+use vfold::report::{self, Gallery, SECTIONS_MAX, View};
+use vfold::score::Summary;
 use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Kept, Output, Reader, Record, pipe, summary};
+
+/// Most samples that a drawing calls the worst.
+const WORST_MAX: usize = 10;
 
 /// Score estimated spectra against true ones
 #[derive(Parser)]
@@ -28,7 +34,8 @@ use vfold::stream::{Kept, Output, Reader, Record, pipe, summary};
     after_help = "Examples:\n  vkernel | vforward --reflectance cc24 | vestimate | vscore --table\n  \
                   vestimate samples.ndjson | vscore --truth measured.csv --illuminant D50 --plot spectra.svg\n  \
                   vscore estimates.ndjson --illuminant D65 --illuminant A --metrics ciede2000,metamerism --table\n  \
-                  cat angle-*.ndjson | vscore --by geometry.angle_deg --table"
+                  cat angle-*.ndjson | vscore --by geometry.angle_deg --table\n  \
+                  vscore estimates.ndjson --report report.html > scores.ndjson"
 )]
 struct Args {
     /// Estimated samples from vestimate [default: standard input]
@@ -53,9 +60,18 @@ struct Args {
     /// Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`
     #[arg(long, value_name = "FIELD")]
     by: Option<String>,
-    /// Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal
+    /// Draw estimates, their error bands and true spectra, what the sheets look like, flat and folded, and of a single sheet what
+    /// the estimate leaves of its facets; of more than seven samples how scores are spread and which ten are worst; -: spectra on
+    /// standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
+    /// Write a page with all of it and what the tools decided, one file for browsers and printers; of many
+    /// samples the worst 24 are shown. For it and for --plot samples need no truth
+    #[arg(long, value_name = "FILE.html", value_parser = page)]
+    report: Option<PathBuf>,
+    /// Picture of what was measured for --report, {} in the name standing for the sample's [default: what vextract --overlay wrote]
+    #[arg(long, value_name = "FILE.png", requires = "report")]
+    overlay: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
     #[arg(long, value_name = "FILE.csv|.sp|.spdx")]
     spectra: Option<PathBuf>,
@@ -64,6 +80,13 @@ struct Args {
     table: bool,
     #[command(flatten)]
     common: Common,
+}
+
+impl Args {
+    /// Whether there is more to show of a sample than its scores.
+    fn draws(&self) -> bool {
+        self.plot.is_some() || self.report.is_some()
+    }
 }
 
 impl ToolArgs for Args {
@@ -80,17 +103,19 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     let scorer = Scorer::new(args)?;
     let table = args.table.then(|| Table::new(scorer.names.clone()));
-    let (mut groups, mut curves, mut measured) = (Groups::new(args.by.as_deref()), Vec::new(), Vec::new());
+    let (mut groups, mut measured) = (Groups::new(args.by.as_deref()), Vec::new());
+    let mut gallery = gallery(args);
     table.as_ref().map_or(Ok(()), |table| table.header(out))?;
     // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record| {
         match &record {
-            Record::Scene(scene) => groups.enter(scene),
+            Record::Scene(scene) => {
+                groups.enter(scene);
+                gallery.iter_mut().for_each(|gallery| gallery.enter(scene));
+            }
             Record::Sample(sample) => {
                 groups.add(sample)?;
-                if args.plot.is_some() && curves.len() < CURVES_MAX {
-                    curves.extend(sample.curve()?);
-                }
+                gallery.iter_mut().try_for_each(|gallery| gallery.add(sample))?;
                 if args.spectra.is_some() {
                     measured.extend(sample.measured()?);
                 }
@@ -103,13 +128,42 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             (None, record) => out.record(record),
         }
     })?;
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &curves))?;
+    gallery.as_ref().map_or(Ok(()), |gallery| draw(args, gallery, groups.all(), &scorer))?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
     let by = groups.found()?;
     match table {
         Some(table) => table.footer(out, groups.all(), by),
         None => out.fields(&summary(groups.all(), by)?),
     }
+}
+
+/// Where samples are kept for drawings, if there are any.
+fn gallery(args: &Args) -> Option<Gallery> {
+    match (&args.report, &args.plot) {
+        (Some(_), _) => Some(Gallery::new(SECTIONS_MAX)),
+        (None, Some(_)) => Some(Gallery::new(WORST_MAX)),
+        (None, None) => None,
+    }
+}
+
+fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Result<()> {
+    let overlay = args.overlay.clone();
+    let view = View { illuminant: scorer.first_illuminant(), observer: args.observer, overlay };
+    match &args.plot {
+        Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {
+            batch::draw(path, &gallery.batch(all)?)?
+        }
+        Some(path) => sheet::draw(path, &gallery.sheets(&view)?)?,
+        None => {}
+    }
+    args.report.as_ref().map_or(Ok(()), |path| report::write(path, gallery, all, &view))
+}
+
+fn page(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let is_page = ending.is_some_and(|ending| matches!(ending.as_str(), "html" | "htm"));
+    if is_page { Ok(path) } else { Err("end the name in .html".to_owned()) }
 }
 
 fn observer(text: &str) -> std::result::Result<Observer, String> {

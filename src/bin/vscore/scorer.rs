@@ -40,6 +40,11 @@ impl<'a> Scorer<'a> {
         Ok(Self { args, metrics, names, illuminants, truth })
     }
 
+    /// The illuminant of colours that are shown.
+    pub fn first_illuminant(&self) -> &Spectrum {
+        &self.illuminants[0]
+    }
+
     fn scores(&self, context: &Context, truth: &[f64], estimate: &[f64]) -> Vec<Score> {
         let Context { colorimeters, .. } = context;
         let values = self.metrics.iter().flat_map(|metric| match metric {
@@ -58,9 +63,10 @@ impl<'a> Scorer<'a> {
         self.names.iter().zip(values).map(|(name, value)| Score::new(name, value)).collect()
     }
 
-    fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<ReflectanceRecord> {
-        match (self.truth.as_deref(), sample.truth()?) {
-            (Some([one]), _) => ReflectanceRecord::on(one, grid),
+    /// The true spectrum; none only where drawings are asked for, which have more to show.
+    fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<Option<ReflectanceRecord>> {
+        let truth = match (self.truth.as_deref(), sample.truth()?) {
+            (Some([one]), _) => ReflectanceRecord::on(one, grid)?,
             (Some(spectra), _) => {
                 let id = sample.id()?;
                 // A column of a file is called after both: `truth:photo`.
@@ -71,16 +77,18 @@ impl<'a> Scorer<'a> {
                 let found = spectra.iter().find(named).ok_or_else(|| {
                     Error::field("id", format!("--truth has no member '{id}' among its {}", spectra.len()))
                 })?;
-                ReflectanceRecord::on(found, grid)
+                ReflectanceRecord::on(found, grid)?
             }
             (None, Some(truth)) => {
                 let ReflectanceRecord { wavelengths_nm, reflectance, interpolation } = truth;
                 let spectrum = Spectrum::new("truth", wavelengths_nm, reflectance)?.as_reflectance();
                 let on_grid = ReflectanceRecord::on(&spectrum, grid)?;
-                Ok(ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid })
+                ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid }
             }
-            (None, None) => Err(Error::field("truth", "missing; give --truth SPEC")),
-        }
+            (None, None) if self.args.draws() => return Ok(None),
+            (None, None) => return Err(Error::field("truth", "missing; give --truth SPEC")),
+        };
+        Ok(Some(truth))
     }
 
     fn add_colour(&self, context: &Context, estimate: &EstimateRecord, sample: &mut Sample) -> Result<()> {
@@ -120,9 +128,10 @@ impl Transform for Scorer<'_> {
         if estimate.wavelengths_nm != context.grid.wavelengths_nm() {
             return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
         }
-        let truth = self.truth_of(sample, &context.grid)?;
-        sample.set_truth(&truth)?;
-        sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
+        if let Some(truth) = self.truth_of(sample, &context.grid)? {
+            sample.set_truth(&truth)?;
+            sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
+        }
         if self.args.colour { self.add_colour(context, &estimate, sample) } else { Ok(()) }
     }
 }

@@ -51,6 +51,7 @@ impl Table {
                     |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
                 out.text(&self.line(&id, value))
             }
+            (None, None) => out.text(&self.line(&id, |_| None)),
             (_, error) => out.failed_text(&self.named(&id, &format!(" {}", error.unwrap_or_default()))),
         }
     }

@@ -112,6 +112,12 @@ impl SurfaceKernel {
         sums.iter().zip(&self.root_areas).map(|(sum, root)| sum / root).collect()
     }
 
+    /// The same of every facet, over its patches.
+    #[must_use]
+    pub fn facet_row_sums(&self) -> Vec<f64> {
+        self.facet_means(&self.start(&self.row_sums()))
+    }
+
     /// One row of the matrix K of eq. (10) between the patches: the share of the light leaving patch `row` that reaches each.
     #[must_use]
     pub fn matrix_row(&self, row: usize) -> Vec<f64> {

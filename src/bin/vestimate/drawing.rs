@@ -1,0 +1,40 @@
+//! `--plot`: the first samples, as many as one drawing holds.
+
+use std::path::Path;
+
+use vfold::Result;
+use vfold::colorimetry::Observer;
+use vfold::plot::sheet::{self, Sheet};
+use vfold::plot::spectra::CURVES_MAX;
+use vfold::spectrum::{Spectrum, illuminant};
+use vfold::stream::{Record, Scene};
+
+/// What is drawn of a stream.
+pub struct Drawing<'a> {
+    path: &'a Path,
+    daylight: Spectrum,
+    scene: Option<Scene>,
+    sheets: Vec<Sheet>,
+}
+
+impl<'a> Drawing<'a> {
+    pub fn new(path: &'a Path) -> Result<Self> {
+        Ok(Self { path, daylight: illuminant("D65")?, scene: None, sheets: Vec::new() })
+    }
+
+    /// Takes a record.
+    pub fn add(&mut self, record: &Record) -> Result<()> {
+        match (record, &self.scene) {
+            (Record::Scene(scene), _) => self.scene = Some(scene.clone()),
+            (Record::Sample(sample), Some(scene)) if self.sheets.len() < CURVES_MAX => {
+                self.sheets.extend(sample.sheet(scene, &self.daylight, Observer::Cie1964_10deg)?);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    pub fn write(&self) -> Result<()> {
+        sheet::draw(self.path, &self.sheets)
+    }
+}

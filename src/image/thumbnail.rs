@@ -1,0 +1,54 @@
+//! Small copies of pictures, for reports.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::codecs::jpeg::JpegEncoder;
+use image::imageops::FilterType;
+use image::{DynamicImage, ImageReader};
+
+use crate::{Error, Result};
+
+/// Quality of the JPEG, of 100: thin lines stay clean.
+const QUALITY: u8 = 88;
+
+/// A JPEG.
+#[derive(Clone, Debug)]
+pub struct Thumbnail {
+    /// Its bytes.
+    pub jpeg: Vec<u8>,
+    /// Width, px.
+    pub width: u32,
+    /// Height, px.
+    pub height: u32,
+}
+
+/// Reads a picture for the eye, PNG, JPEG or TIFF, and makes a JPEG of it with sides of at most `longest_px`.
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture.
+///
+/// # Example
+/// ```
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("grey.png");
+/// vfold::image::write_srgb_png(&path, 40, 20, &[0.5; 40 * 20 * 3])?;
+/// let small = vfold::image::thumbnail(&path, 10)?;
+/// assert_eq!((small.width, small.height), (10, 5));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
+    let unreadable = |error: image::ImageError| Error::picture(path, error, "give a PNG, JPEG or TIFF");
+    let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
+    let picture = reader.map_err(|e| Error::file(path.display(), e))?.decode().map_err(unreadable)?;
+    let picture = if picture.width().max(picture.height()) > longest_px {
+        picture.resize(longest_px, longest_px, FilterType::Triangle)
+    } else {
+        picture
+    };
+    let rgb = DynamicImage::ImageRgb8(picture.to_rgb8());
+    let mut jpeg = Vec::new();
+    rgb.write_with_encoder(JpegEncoder::new_with_quality(Cursor::new(&mut jpeg), QUALITY))
+        .map_err(unreadable)?;
+    Ok(Thumbnail { jpeg, width: rgb.width(), height: rgb.height() })
+}

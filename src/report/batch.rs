@@ -1,0 +1,47 @@
+//! The section of all samples: how many, how good, which are worst, what failed.
+
+use super::html::Html;
+use super::{Gallery, SECTIONS_MAX};
+use crate::error::Result;
+use crate::score::{Statistics, Summary};
+
+/// What is said of all samples together; nothing of a single one that has a section of its own.
+pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Html>> {
+    if summary.samples() == 1 && gallery.seen() == 1 {
+        return Ok(None);
+    }
+    let mut parts = vec![Html::element("h2", &[], "All samples"), counts(gallery, summary)];
+    if summary.scored() > 0 {
+        let row = |one: &Statistics| {
+            let numbers = [one.mean, one.median, one.worst].map(|value| Html::from(value.to_string()));
+            std::iter::once(Html::from(one.name.as_str())).chain(numbers).collect()
+        };
+        let headings = ["score", "mean", "median", "worst"];
+        parts.push(Html::table("Scores", &headings, summary.statistics().iter().map(row)));
+    }
+    if summary.scored() > 1 {
+        let batch = gallery.batch(summary)?;
+        let words = "histograms of the scores, and the samples of the worst first score";
+        let caption = "How the scores are spread, and the worst samples by the first of them.";
+        parts.push(Html::figure(Html::drawing(&batch.svg()?, words), caption));
+        let row = |(name, value): &(String, f64)| vec![name.as_str().into(), value.to_string().into()];
+        let score = batch.scores.first().map_or("", |(name, ..)| name.as_str());
+        parts.push(Html::table("Worst samples", &["sample", score], batch.worst.iter().map(row)));
+    }
+    let (failures, _) = gallery.failures();
+    if !failures.is_empty() {
+        let row = |(name, error): &(String, String)| vec![name.as_str().into(), error.as_str().into()];
+        parts.push(Html::table("Samples without a result", &["sample", "why"], failures.iter().map(row)));
+    }
+    Ok(Some(Html::element("section", &[("id", "all")], parts)))
+}
+
+fn counts(gallery: &Gallery, summary: &Summary) -> Html {
+    let (_, failed) = gallery.failures();
+    let mut text =
+        format!("{} samples, {} scored, {failed} without a result.", summary.samples(), summary.scored());
+    if gallery.seen() > SECTIONS_MAX {
+        text.push_str(&format!(" Shown below are the worst {SECTIONS_MAX}."));
+    }
+    Html::element("p", &[], text)
+}

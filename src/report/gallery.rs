@@ -1,0 +1,119 @@
+//! What is shown of a stream of any length: the worst samples, and what went wrong.
+
+use std::sync::Arc;
+
+use super::View;
+use crate::error::Result;
+use crate::plot::batch::Batch;
+use crate::plot::sheet::Sheet;
+use crate::score::{Score, Summary, Worst};
+use crate::stream::{Sample, Scene};
+
+/// Most failures that are told.
+const FAILURES_MAX: usize = 24;
+/// Most samples that are called the worst.
+const WORST_MAX: usize = 10;
+
+/// A sample under its scene.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// The sample.
+    pub sample: Sample,
+}
+
+/// Samples to show: all of a few, the worst by the first score of many. Memory holds as many as are shown.
+pub struct Gallery {
+    samples: Worst<Shown>,
+    scene: Option<Arc<Scene>>,
+    failures: Vec<(String, String)>,
+    failed: usize,
+}
+
+impl Gallery {
+    /// An empty one for up to `most` samples.
+    #[must_use]
+    pub fn new(most: usize) -> Self {
+        Self { samples: Worst::new(most), scene: None, failures: Vec::new(), failed: 0 }
+    }
+
+    /// The samples that follow are of this scene.
+    pub fn enter(&mut self, scene: &Scene) {
+        self.scene = Some(Arc::new(scene.clone()));
+    }
+
+    /// Takes a sample.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if its scores are none.
+    pub fn add(&mut self, sample: &Sample) -> Result<()> {
+        if let Some(error) = sample.error()? {
+            self.failed += 1;
+            if self.failures.len() < FAILURES_MAX {
+                self.failures.push((sample.id().unwrap_or_default(), error));
+            }
+            return Ok(());
+        }
+        let Some(scene) = &self.scene else { return Ok(()) };
+        let badness = first_score(sample)?.map_or(f64::NEG_INFINITY, |score| score.badness());
+        self.samples.add(badness, || Shown { scene: Arc::clone(scene), sample: sample.clone() });
+        Ok(())
+    }
+
+    /// Samples without errors.
+    #[must_use]
+    pub fn seen(&self) -> usize {
+        self.samples.seen()
+    }
+
+    /// Those that are shown, in the order in which they came.
+    pub fn in_order(&self) -> impl Iterator<Item = &Shown> {
+        self.samples.in_order()
+    }
+
+    /// Names and errors of the first failures, and how many there were.
+    pub(super) fn failures(&self) -> (&[(String, String)], usize) {
+        (&self.failures, self.failed)
+    }
+
+    /// What can be drawn of those that are shown.
+    ///
+    /// # Errors
+    /// As [`Sample::sheet`].
+    pub fn sheets(&self, view: &View) -> Result<Vec<Sheet>> {
+        let sheets = self.in_order().map(|shown| shown.sheet(view));
+        sheets.filter_map(Result::transpose).collect()
+    }
+
+    /// The scores of all, and the worst ten by the first score.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if scores are none.
+    pub fn batch(&self, summary: &Summary) -> Result<Batch> {
+        let scores = summary.statistics().into_iter().zip(summary.values());
+        let mut worst = Vec::new();
+        for shown in self.samples.ranked().take(WORST_MAX) {
+            worst.extend(first_score(&shown.sample)?.map(|score| (shown.sample.id(), score.value)));
+        }
+        let named = worst.into_iter().map(|(id, value)| Ok((id?, value)));
+        Ok(Batch {
+            samples: summary.samples(),
+            scored: summary.scored(),
+            scores: scores.map(|(score, values)| (score.name, score.mean, values.to_vec())).collect(),
+            worst: named.collect::<Result<_>>()?,
+        })
+    }
+}
+
+impl Shown {
+    /// What can be drawn of it; none without an estimate.
+    pub(super) fn sheet(&self, view: &View) -> Result<Option<Sheet>> {
+        self.sample.sheet(&self.scene, view.illuminant, view.observer)
+    }
+}
+
+/// The score by which samples are ranked.
+fn first_score(sample: &Sample) -> Result<Option<Score>> {
+    Ok(sample.scores()?.and_then(|scores| scores.into_iter().next()))
+}

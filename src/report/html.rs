@@ -1,0 +1,109 @@
+//! Elements of a page. Text becomes part of one by being escaped: names of samples may hold anything.
+
+/// A piece of a page.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Html(String);
+
+impl Html {
+    /// An element with its attributes.
+    pub fn element(name: &str, attributes: &[(&str, &str)], content: impl Into<Self>) -> Self {
+        Self(format!("<{name}{}>{}</{name}>", written(attributes), content.into().0))
+    }
+
+    /// An element that has no content.
+    pub fn empty(name: &str, attributes: &[(&str, &str)]) -> Self {
+        Self(format!("<{name}{}/>", written(attributes)))
+    }
+
+    /// The look of the page.
+    pub fn style(rules: &'static str) -> Self {
+        Self(format!("<style>{rules}</style>"))
+    }
+
+    /// A drawing as `plot` makes it, with words for those who do not see it, in the width that the page has.
+    pub fn drawing(svg: &str, words: &str) -> Self {
+        let described = format!("<svg role=\"img\" aria-label=\"{}\" ", escaped(words));
+        Self(svg.replacen("<svg ", &described, 1))
+    }
+
+    /// Columns under their headings; the first tells what a row is of.
+    pub fn table(caption: &str, headings: &[&str], rows: impl IntoIterator<Item = Vec<Self>>) -> Self {
+        let heading = |text: &&str| Self::element("th", &[("scope", "col")], *text);
+        let head = Self::element("tr", &[], headings.iter().map(heading).collect::<Vec<_>>());
+        let cell = |(column, content): (usize, Self)| match column {
+            0 => Self::element("th", &[("scope", "row")], content),
+            _ => Self::element("td", &[], content),
+        };
+        let row = |cells: Vec<Self>| {
+            Self::element("tr", &[], cells.into_iter().enumerate().map(cell).collect::<Vec<_>>())
+        };
+        let body: Vec<_> = rows.into_iter().map(row).collect();
+        let parts = vec![
+            Self::element("caption", &[], caption),
+            Self::element("thead", &[], head),
+            Self::element("tbody", &[], body),
+        ];
+        Self::element("div", &[("class", "table")], Self::element("table", &[], parts))
+    }
+
+    /// What is drawn, over what it shows.
+    pub fn figure(drawing: Self, caption: &str) -> Self {
+        Self::element("figure", &[], vec![drawing, Self::element("figcaption", &[], caption)])
+    }
+
+    pub fn into_string(self) -> String {
+        self.0
+    }
+}
+
+impl From<&str> for Html {
+    fn from(text: &str) -> Self {
+        Self(escaped(text))
+    }
+}
+
+impl From<String> for Html {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
+impl From<Vec<Self>> for Html {
+    fn from(parts: Vec<Self>) -> Self {
+        Self(parts.into_iter().map(|part| part.0).collect())
+    }
+}
+
+fn written(attributes: &[(&str, &str)]) -> String {
+    attributes.iter().map(|(name, value)| format!(" {name}=\"{}\"", escaped(value))).collect()
+}
+
+/// Text without markup, and without characters that no page may hold.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(' '),
+            _ if letter.is_control() => escaped.push('\u{fffd}'),
+            _ => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_stays_text() {
+        let html = Html::element("p", &[("title", "\" onload=\"x")], "<script>&\0</script>");
+        let expected = "<p title=\"&quot; onload=&quot;x\">&lt;script&gt;&amp;\u{fffd}&lt;/script&gt;</p>";
+        assert_eq!(html.into_string(), expected);
+    }
+}

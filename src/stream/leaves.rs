@@ -1,0 +1,58 @@
+//! What a record says, as a list for readers: whatever tools have put there, known here or not.
+
+use serde_json::Value;
+
+use super::Fields;
+
+/// Most items of a list that are told one by one.
+const LISTED: usize = 6;
+
+impl Fields {
+    /// All single values under the object at a dotted `path` (empty: the whole record), with their dotted names; of long lists how many
+    /// items they have.
+    ///
+    /// # Example
+    /// ```
+    /// let mut fields = vfold::stream::Fields::of_kind("scene");
+    /// fields.set("wavelengths_nm", vec![400.0; 61])?;
+    /// fields.set("panel", [1.0, 2.0])?;
+    /// let leaves = fields.leaves("");
+    /// let shown: Vec<_> = leaves.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    /// assert_eq!(shown, [("kind", "scene"), ("wavelengths_nm", "61 values"), ("panel", "1.0, 2.0")]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn leaves(&self, path: &str) -> Vec<(String, String)> {
+        let mut leaves = Vec::new();
+        if path.is_empty() {
+            self.0.iter().for_each(|(name, value)| walk(name.clone(), value, &mut leaves));
+        } else if let Some(Value::Object(fields)) = self.at(path) {
+            fields.iter().for_each(|(name, value)| walk(name.clone(), value, &mut leaves));
+        }
+        leaves
+    }
+}
+
+fn walk(name: String, value: &Value, leaves: &mut Vec<(String, String)>) {
+    match value {
+        Value::Null => {}
+        Value::Object(fields) => {
+            fields.iter().for_each(|(part, value)| walk(format!("{name}.{part}"), value, leaves));
+        }
+        Value::Array(items) if items.len() > LISTED => {
+            leaves.push((name, format!("{} values", items.len())));
+        }
+        Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_array()) => {
+            let items = items.iter().enumerate();
+            items.for_each(|(n, item)| walk(format!("{name}.{n}"), item, leaves));
+        }
+        Value::Array(items) => {
+            leaves.push((name, items.iter().map(text).collect::<Vec<_>>().join(", ")));
+        }
+        value => leaves.push((name, text(value))),
+    }
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}

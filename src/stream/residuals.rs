@@ -1,0 +1,73 @@
+//! What an estimate leaves of the facets, told anew from the records: scene, estimate and what facets were taken to be worth.
+
+use super::estimate::{EstimateRecord, NoiseRecord};
+use super::quantities::Quantities;
+use super::{Colours, Sample, Scene};
+use crate::error::{Error, Result};
+use crate::estimate::noise::Noise;
+use crate::estimate::unknowns::{Quantity, SceneModel};
+use crate::forward::FacetModel;
+
+/// What is fitted beside spectrum and exposure.
+const FITTED: [Quantity; 4] = [Quantity::TiltDeg, Quantity::Sky, Quantity::SkyCctK, Quantity::AngleDeg];
+
+impl Sample {
+    /// Measured minus estimated facets in units of their standard deviations: facet by channel, none for a facet that was not
+    /// measured; none at all without an estimate.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if estimate and facets do not fit the scene.
+    pub fn residuals(&self, scene: &Scene) -> Result<Option<Colours>> {
+        let Some(estimate) = self.estimate()? else { return Ok(None) };
+        let (model, measured) = (estimate.scene_model(scene)?, self.facet_rgb()?);
+        let noise = match &estimate.noise {
+            Some(NoiseRecord { sd, model_error, .. }) => Noise { sd: *sd, model_error: *model_error },
+            None => Noise { sd: None, model_error: Noise::model_error(self.is_photograph()?) },
+        };
+        let sd = noise.deviations(model.facets(), &measured, self.facet_sd()?.as_ref())?;
+        let fitted = estimate.facets(&estimate.at_fit(&model))?;
+        if fitted.len() != measured.len() {
+            let problem = format!("{} facets for a scene of {}", measured.len(), fitted.len());
+            return Err(Error::field("facet_rgb", problem));
+        }
+        let residuals = measured.iter().zip(&sd).zip(&fitted).map(|((rgb, sd), fitted)| {
+            let of =
+                |((value, sd), fitted): ((&f64, &f64), &f64)| (value - fitted) / sd.max(f64::MIN_POSITIVE);
+            Some(rgb.as_ref()?.iter().zip(sd.as_ref()?).zip(fitted).map(of).collect())
+        });
+        Ok(Some(residuals.collect()))
+    }
+}
+
+impl EstimateRecord {
+    /// What was fitted and has this name.
+    fn fitted(&self, quantity: Quantity) -> Option<f64> {
+        let mut all = self.fit.iter().flat_map(Quantities::iter);
+        all.find(|(one, _)| *one == quantity).map(|(_, fitted)| fitted.value)
+    }
+
+    /// The model that the estimate was made with.
+    fn scene_model(&self, scene: &Scene) -> Result<SceneModel> {
+        let fitted: Vec<_> = FITTED.into_iter().filter(|quantity| self.fitted(*quantity).is_some()).collect();
+        if fitted.is_empty() { Ok(SceneModel::known(scene.model()?)) } else { scene.model_to_fit(&fitted) }
+    }
+
+    /// The model where the estimate is.
+    fn at_fit(&self, model: &SceneModel) -> FacetModel {
+        let value = |quantity| self.fitted(quantity);
+        let values = model.unknowns().iter().map(|unknown| value(unknown.quantity).unwrap_or(unknown.mean));
+        model.with_values(&values.collect::<Vec<f64>>())
+    }
+
+    fn facets(&self, model: &FacetModel) -> Result<Vec<Vec<f64>>> {
+        if self.reflectance.len() != model.bands() {
+            let problem = format!("{} values for {} wavebands", self.reflectance.len(), model.bands());
+            return Err(Error::field("estimate.reflectance", problem));
+        }
+        let exposure = self
+            .exposure
+            .ok_or_else(|| Error::field("estimate.exposure", "missing; estimate the sample again"))?;
+        let rgb = model.facet_rgb(&self.reflectance);
+        Ok(rgb.row_iter().map(|row| row.iter().map(|value| exposure * value).collect()).collect())
+    }
+}
