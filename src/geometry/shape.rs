@@ -7,8 +7,8 @@ use super::faces::{canonical, convex, crowded_edges, flat, is_degenerate};
 use super::polygon::Polygon;
 use crate::error::{Error, Result};
 
-/// Most facets of a shape: the exchange between so many fills a gigabyte.
-pub const FACETS_MAX: usize = 22_000;
+/// Most facets of a shape, and patches of a mesh.
+pub const FACETS_MAX: usize = 100_000;
 
 /// Facets that belong together, a panel of a fold for example.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -178,9 +178,7 @@ fn check_count(count: usize) -> Result<()> {
     if count <= FACETS_MAX {
         return Ok(());
     }
-    let problem =
-        format!("{count} facets; the exchange between more than {FACETS_MAX} takes more than a gigabyte");
-    Err(Error::shape(problem, "give a coarser mesh"))
+    Err(Error::shape(format!("{count} facets"), format!("give a coarser mesh, of at most {FACETS_MAX}")))
 }
 
 #[cfg(test)]

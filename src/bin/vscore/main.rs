@@ -151,7 +151,7 @@ fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Resul
     let view = View { illuminant: scorer.first_illuminant(), observer: args.observer, overlay };
     match &args.plot {
         Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {
-            batch::draw(path, &gallery.batch(all)?)?
+            batch::draw(path, &gallery.batch(all)?)?;
         }
         Some(path) => sheet::draw(path, &gallery.sheets(&view)?)?,
         None => {}

@@ -1,18 +1,24 @@
 //! The form factors of all pairs of patches, each by the formula that suits it.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use rayon::prelude::*;
+
+use super::block::Block;
 use super::casters::{Between, Bounds, Casters};
-use super::patches::Patch;
+use super::site::Site;
 use super::symmetric::Rows;
 use super::{contour, far, partial};
-use crate::geometry::polygon::{Plane, Polygon, Vec3};
 use crate::geometry::shape::Shape;
 
 /// Patches that look for their casters together.
-pub(super) const BLOCK: usize = 32;
+const BLOCK: usize = 32;
 /// Shares of exchange below this are rounding: what is seen along a line of sight that an edge just touches.
 const NOTHING: f64 = 1e-7;
+
+/// Most entries kept: in single precision and with their places a gigabyte.
+const ENTRIES_MAX: usize = 240_000_000;
 
 /// How many pairs of patches were dealt with in which way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,48 +33,14 @@ pub struct Census {
     pub hidden: usize,
 }
 
-/// A patch with what is asked of it for every pair.
-struct Site {
-    polygon: Polygon,
-    plane: Plane,
-    centre: Vec3,
-    radius: f64,
-}
-
-impl Site {
-    fn new(patch: &Patch) -> Self {
-        let (plane, centre) = (patch.polygon.plane(), patch.polygon.centroid());
-        let radius =
-            patch.polygon.corners().iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
-        Self { polygon: patch.polygon.clone(), plane, centre, radius }
-    }
-
-    /// The part of this patch in front of the other's plane.
-    fn in_front_of(&self, other: &Self, margin: f64) -> Option<Polygon> {
-        let height = other.plane.height(&self.centre);
-        if height >= self.radius {
-            return Some(self.polygon.clone());
-        }
-        if height <= -self.radius {
-            return None;
-        }
-        let heights = self.polygon.corners().iter().map(|corner| other.plane.height(corner));
-        let (low, high) =
-            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
-        match (low >= -margin, high > margin) {
-            (_, false) => None,
-            (true, true) => Some(self.polygon.clone()),
-            (false, true) => self.polygon.in_front_of(&other.plane),
-        }
-    }
-}
-
-/// All pairs of patches, block by block.
+/// All pairs of patches, part by part.
 pub(super) struct Assembly {
-    sites: Vec<Site>,
-    casters: Casters,
-    pub(super) bounds: Vec<Bounds>,
+    pub(super) sites: Vec<Site>,
+    pub(super) casters: Casters,
     tolerance: f64,
+    /// Relative error of the rules for pairs that are far apart.
+    truncation: f64,
+    numbers: AtomicUsize,
     averted: AtomicUsize,
     open: AtomicUsize,
     walled: AtomicUsize,
@@ -76,22 +48,36 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    pub(super) fn new(shape: &Shape, patches: &[Patch], tolerance: f64) -> Self {
-        let sites: Vec<Site> = patches.iter().map(Site::new).collect();
-        let bounds = |sites: &[Site]| Bounds::of(sites.iter().flat_map(|site| site.polygon.corners()));
-        let bounds = sites.chunks(BLOCK).map(bounds).collect();
-        let casters = Casters::new(shape.facets(), shape.size());
+    pub(super) fn new(shape: &Shape, sites: Vec<Site>, [tolerance, truncation]: [f64; 2]) -> Self {
         let none = AtomicUsize::default;
         Self {
             sites,
-            casters,
-            bounds,
+            casters: Casters::new(shape.facets(), shape.size()),
             tolerance,
+            truncation,
+            numbers: none(),
             averted: none(),
             open: none(),
             walled: none(),
             hidden: none(),
         }
+    }
+
+    /// Whether there are more entries than are kept: then no more are found.
+    pub(super) fn is_full(&self) -> bool {
+        self.numbers.load(Relaxed) > ENTRIES_MAX
+    }
+
+    pub(super) fn count_averted(&self, pairs: usize) {
+        self.averted.fetch_add(pairs, Relaxed);
+    }
+
+    pub(super) fn count_walled(&self, pairs: usize) {
+        self.walled.fetch_add(pairs, Relaxed);
+    }
+
+    pub(super) fn count_open(&self, pairs: usize) {
+        self.open.fetch_add(pairs, Relaxed);
     }
 
     pub(super) fn census(&self) -> Census {
@@ -100,24 +86,52 @@ impl Assembly {
         Census { averted, open, walled, hidden }
     }
 
-    /// The rows of a block, right of the diagonal.
-    pub(super) fn rows(&self, block: usize) -> Rows {
-        let first = block * BLOCK;
-        let own = first..(first + BLOCK).min(self.sites.len());
-        let mut entries = vec![vec![0.0; self.sites.len() - first]; own.len()];
+    /// All pairs, in strips of rows.
+    pub(super) fn strips(&self) -> Vec<Block> {
+        let count = self.sites.len();
+        let bounds = |sites: &[Site]| Bounds::of(sites.iter().flat_map(|site| site.polygon.corners()));
+        let bounds: Vec<Bounds> = self.sites.chunks(BLOCK).map(bounds).collect();
+        let patches = |block: usize| block * BLOCK..((block + 1) * BLOCK).min(count);
         let all = self.casters.numbers();
-        for (other, bounds) in self.bounds.iter().enumerate().skip(block) {
-            let casters = self.casters.between_boxes(&self.bounds[block], bounds, &all);
-            let others = other * BLOCK..((other + 1) * BLOCK).min(self.sites.len());
-            for (row, i) in entries.iter_mut().zip(own.clone()) {
+        let strip = |block: usize| {
+            let others = (block..bounds.len()).map(|other| {
+                (patches(other), self.casters.between_boxes(&bounds[block], &bounds[other], &all))
+            });
+            self.rows(patches(block), patches(block).start..count, others)
+        };
+        (0..bounds.len()).into_par_iter().map(strip).collect()
+    }
+
+    /// The exchange of patches with others further right, past `casters`; none if there is none.
+    pub(super) fn block(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        casters: &[usize],
+    ) -> Option<Block> {
+        let block = self.rows(rows, columns.clone(), std::iter::once((columns, casters.to_vec())));
+        (!block.entries.is_empty()).then_some(block)
+    }
+
+    /// The exchange right of the diagonal of `rows` with `columns`, given in parts with the casters between.
+    fn rows(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        parts: impl Iterator<Item = (Range<usize>, Vec<usize>)>,
+    ) -> Block {
+        let mut exchange = vec![vec![0.0; columns.len()]; rows.len()];
+        for (others, casters) in parts.take_while(|_| !self.is_full()) {
+            for (row, i) in exchange.iter_mut().zip(rows.clone()) {
                 for j in others.clone().filter(|j| *j > i) {
-                    row[j - first] = self.exchange(i, j, &casters);
+                    row[j - columns.start] = self.exchange(i, j, &casters);
                 }
             }
         }
-        let mut rows = Rows::default();
-        own.zip(&entries).for_each(|(i, entries)| rows.push(i, first, entries));
-        rows
+        let mut entries = Rows::default();
+        rows.clone().zip(&exchange).for_each(|(i, row)| entries.push(i, columns.start, row));
+        self.numbers.fetch_add(entries.len(), Relaxed);
+        Block { rows, columns, entries }
     }
 
     /// `√A_i·K_ij/√A_j`.
@@ -144,7 +158,7 @@ impl Assembly {
             return 0.0;
         }
         let distance = (a.centre - b.centre).norm();
-        let exchange = far::exchange(&part_a, &part_b, [a.radius, b.radius], distance)
+        let exchange = far::exchange(&part_a, &part_b, [a.radius, b.radius], distance, self.truncation)
             .unwrap_or_else(|| contour::exchange(&part_a, &part_b));
         share * exchange.max(0.0) / (a.polygon.area() * b.polygon.area()).sqrt()
     }

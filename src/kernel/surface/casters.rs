@@ -33,8 +33,15 @@ impl Bounds {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
+    /// Largest extent along an axis.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        (self.high - self.low).max()
+    }
+
     /// Least and greatest height of the box over a plane with a unit normal.
-    fn heights(&self, plane: &Plane) -> [f64; 2] {
+    #[must_use]
+    pub fn heights(&self, plane: &Plane) -> [f64; 2] {
         let middle = plane.height(&(0.5 * (self.low + self.high)));
         let reach = 0.5 * (self.high - self.low).dot(&plane.normal.abs());
         [middle - reach, middle + reach]
@@ -60,12 +67,12 @@ pub struct Caster {
 }
 
 impl Caster {
-    /// Whether all of `a` is hidden from all of `b`, or nothing is; none if neither is certain.
+    /// Whether all between the corners `a` is hidden from all between the corners `b`, or nothing is; none if neither is certain.
     ///
-    /// Lines from a polygon on one side of a plane to one on the other cross it in the hull of the crossings of lines between corners.
-    fn hides(&self, a: &Polygon, b: &Polygon, margin: f64) -> Option<bool> {
-        let heights = |polygon: &Polygon| {
-            let heights = polygon.corners().iter().map(|corner| self.plane.height(corner));
+    /// Lines from a hull on one side of a plane to one on the other cross it in the hull of the crossings of lines between corners.
+    fn hides(&self, a: &[Vec3], b: &[Vec3], margin: f64) -> Option<bool> {
+        let heights = |corners: &[Vec3]| {
+            let heights = corners.iter().map(|corner| self.plane.height(corner));
             heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
         };
         let ((low_a, high_a), (low_b, high_b)) = (heights(a), heights(b));
@@ -79,7 +86,7 @@ impl Caster {
             let (h, k) = (self.plane.height(p), self.plane.height(q));
             p + (q - p) * (h / (h - k))
         };
-        let crossings = a.corners().iter().flat_map(|p| b.corners().iter().map(move |q| crossing(p, q)));
+        let crossings = a.iter().flat_map(|p| b.iter().map(move |q| crossing(p, q)));
         self.holds(&crossings.collect::<Vec<_>>(), margin)
     }
 
@@ -129,6 +136,12 @@ impl Casters {
         (0..self.all.len()).collect()
     }
 
+    /// The plane of one of them.
+    #[must_use]
+    pub fn plane(&self, number: usize) -> &Plane {
+        &self.all[number].plane
+    }
+
     /// Those among `candidates` that may stand between things in two boxes: which reach into the box round both, and have not both
     /// on the same side of their plane.
     #[must_use]
@@ -148,13 +161,28 @@ impl Casters {
         let planes = [a.plane(), b.plane()];
         let mut parts = Vec::new();
         for n in self.between_boxes(&box_a, &box_b, candidates) {
-            match self.all[n].hides(a, b, self.margin) {
+            match self.all[n].hides(a.corners(), b.corners(), self.margin) {
                 Some(true) => return Between::Wall,
                 Some(false) => {}
                 None => parts.extend(self.in_front(n, &planes)),
             }
         }
         if parts.is_empty() { Between::Nothing } else { Between::Some(parts) }
+    }
+
+    /// Those of `candidates` that may hide some of all between the corners `a` from some of all between the corners `b`; none if one
+    /// hides all from all.
+    #[must_use]
+    pub fn between_hulls(&self, a: &[Vec3], b: &[Vec3], candidates: &[usize]) -> Option<Vec<usize>> {
+        let mut may = Vec::new();
+        for n in candidates {
+            match self.all[*n].hides(a, b, self.margin) {
+                Some(true) => return None,
+                Some(false) => {}
+                None => may.push(*n),
+            }
+        }
+        Some(may)
     }
 
     /// The parts of all facets in front of a plane: those that may stand between it and a light.

@@ -23,7 +23,7 @@ const SHADOW: usize = 4;
 /// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
 const UNEVEN: f64 = 0.01;
 /// Most cells along a side that anybody asks for: of one facet they are all the patches that there may be.
-const CELLS_MAX: usize = 150;
+const CELLS_MAX: usize = 316;
 /// Most patches of a mesh that was not asked for.
 const PATCHES_MAX: usize = 8000;
 /// The error that is believed, relative to the difference from the coarser mesh, which falls at least by half from one to the next.

@@ -49,14 +49,15 @@ impl Rows {
         self.runs.iter().map(|run| (run.row, run.start, &self.values[run.values.clone()]))
     }
 
-    /// The entry at a row and a column right of it.
-    #[must_use]
-    pub fn get(&self, row: usize, column: usize) -> f64 {
-        let after = self.runs.partition_point(|run| (run.row, run.start) <= (row, column));
-        let Some(run) = after.checked_sub(1).map(|n| &self.runs[n]).filter(|run| run.row == row) else {
-            return 0.0;
-        };
-        self.values[run.values.clone()].get(column - run.start).map_or(0.0, |entry| f64::from(*entry))
+    /// Adds a row of the matrix, as far as these rows or the columns that mirror them have it, to `out`.
+    pub fn add_row(&self, row: usize, out: &mut [f64]) {
+        for (own, start, entries) in self.runs() {
+            if own == row {
+                out[start..].iter_mut().zip(entries).for_each(|(out, entry)| *out += f64::from(*entry));
+            } else if let Some(entry) = row.checked_sub(start).and_then(|n| entries.get(n)) {
+                out[own] += f64::from(*entry);
+            }
+        }
     }
 
     /// Adds the product of these rows, and of the columns that mirror them, with `x` to `out`.
