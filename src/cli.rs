@@ -104,8 +104,16 @@ pub trait ToolArgs: Parser {
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
 /// carry an `error`.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
-    let args = A::parse();
-    match frame(&args, tool) {
+    let done = match A::try_parse() {
+        Ok(args) => frame(&args, tool),
+        Err(help) if !help.use_stderr() => help.print().map(|()| 0).map_err(Error::Output),
+        Err(error) => {
+            let name = A::command().get_name().to_owned();
+            say(&name, &format!("{}; see {name} --help", misuse(&error.render().to_string())));
+            return ExitCode::from(2);
+        }
+    };
+    match done {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::from(3),
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
@@ -114,6 +122,13 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
             ExitCode::from(e.exit_status())
         }
     }
+}
+
+/// What clap says of arguments, on one line: its usage is that of `--help`.
+fn misuse(rendered: &str) -> String {
+    let paragraphs = rendered.trim_start_matches("error: ").split("\n\n");
+    let said = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
+    said.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ")
 }
 
 /// The tool between opening and finishing its output; how many records carry an error.
@@ -142,7 +157,30 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
 
 /// Writes a line to standard error; unlike `eprintln!` it survives a closed one.
 pub fn say(tool: &str, message: &str) {
-    let _ = writeln!(io::stderr(), "{tool}: {message}");
+    let _ = writeln!(io::stderr(), "{tool}: {}", one_line(message));
+}
+
+/// A message as one line that a terminal shows as it is: control characters, which names in files may hold, are escaped, and
+/// what is longer than any message is cut in the middle.
+///
+/// # Example
+/// ```
+/// assert_eq!(vfold::cli::one_line("column 'a\tb\x1b[31m' is no number"), "column 'a\\tb\\u{1b}[31m' is no number");
+/// assert_eq!(vfold::cli::one_line(&"x".repeat(9999)).chars().count(), 2001);
+/// ```
+#[must_use]
+pub fn one_line(message: &str) -> String {
+    const SIDE: usize = 1000;
+    let shown = |letter: char| match letter.is_control() {
+        true => letter.escape_default().collect(),
+        false => letter.to_string(),
+    };
+    let count = message.chars().count();
+    if count <= 2 * SIDE {
+        return message.chars().map(shown).collect();
+    }
+    let (start, end) = (message.chars().take(SIDE), message.chars().skip(count - SIDE));
+    start.chain(['…']).chain(end).map(shown).collect()
 }
 
 fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {

@@ -1,6 +1,7 @@
 //! Scores as a table for the eye.
 
 use vfold::Result;
+use vfold::cli::one_line;
 use vfold::score::{Group, Statistics, Summary};
 use vfold::stream::{Output, Sample};
 
@@ -36,14 +37,14 @@ impl Table {
     }
 
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
-        let id = sample.id()?;
+        let id = one_line(&sample.id()?);
         match (sample.scores()?, sample.error()?) {
             (Some(scores), None) => {
                 let value =
                     |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
                 out.text(&self.line(&id, value))
             }
-            (_, error) => out.failed_text(&format!("{id:<28} {}", error.unwrap_or_default())),
+            (_, error) => out.failed_text(&format!("{id:<28} {}", one_line(&error.unwrap_or_default()))),
         }
     }
 
@@ -51,6 +52,7 @@ impl Table {
     pub fn footer(&self, out: &mut Output, all: &Summary, by: Option<(&str, &[Group])>) -> Result<()> {
         if let Some((field, groups)) = by {
             for Group { value, summary } in groups {
+                let value = one_line(value);
                 out.text(&format!("{field} {value}: {} of {} scored", summary.scored(), summary.samples()))?;
                 self.statistics(out, summary)?;
             }
