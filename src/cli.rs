@@ -6,6 +6,7 @@ mod materials;
 mod spectra;
 
 use std::io::{self, Write};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -105,7 +106,7 @@ pub trait ToolArgs: Parser {
 /// carry an `error`.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
-        Ok(args) => frame(&args, tool),
+        Ok(args) => without_panic(|| frame(&args, tool)),
         Err(help) if !help.use_stderr() => help.print().map(|()| 0).map_err(Error::Output),
         Err(error) => {
             let name = A::command().get_name().to_owned();
@@ -122,6 +123,19 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
             ExitCode::from(e.exit_status())
         }
     }
+}
+
+/// What `run` returns, or an error where it panics; the trace for developers comes if `RUST_BACKTRACE` asks for it.
+fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
+    if std::env::var_os("RUST_BACKTRACE").is_none() {
+        panic::set_hook(Box::new(|_| ()));
+    }
+    let fault = |panic: Box<dyn std::any::Any + Send>| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or_default();
+        Err(Error::Fault(text.to_owned()))
+    };
+    panic::catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(fault)
 }
 
 /// What clap says of arguments, on one line: its usage is that of `--help`.

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -84,13 +85,26 @@ fn is_supported(format: &ImageFormat) -> bool {
     matches!(format, ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg | ImageFormat::OpenExr)
 }
 
-/// The picture and, for PNG and JPEG, its EXIF block.
+/// A picture and, for PNG and JPEG, its EXIF block.
+type PictureAndExif = (DynamicImage, Option<Vec<u8>>);
+
+/// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the file's fault.
 fn decode_as(
     path: &Path,
     file: &mut BufReader<File>,
     length: u64,
     format: ImageFormat,
-) -> Result<(DynamicImage, Option<Vec<u8>>)> {
+) -> Result<PictureAndExif> {
+    let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
+    catch_unwind(AssertUnwindSafe(|| decode_whole(path, file, length, format))).unwrap_or_else(unforeseen)
+}
+
+fn decode_whole(
+    path: &Path,
+    file: &mut BufReader<File>,
+    length: u64,
+    format: ImageFormat,
+) -> Result<PictureAndExif> {
     let mut reader = ImageReader::with_format(file, format);
     reader.limits(limits());
     let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
