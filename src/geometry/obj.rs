@@ -1,12 +1,10 @@
 //! Wavefront OBJ files: vertices, faces in order, objects and groups.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 use tobj::{LoadOptions, Model};
 
-use super::{Group, Shape};
+use super::{Group, Shape, file};
 use crate::error::{Error, Result};
 
 /// Faces of fewer corners are lines and points, which a file may hold beside its surface.
@@ -31,9 +29,9 @@ const CORNERS_MIN: usize = 3;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
-    let file = File::open(path).map_err(|e| Error::file(path.display(), e))?;
+    let mut file = file::open(path)?;
     let no_materials = |_: &Path| Ok(Default::default());
-    let models = tobj::load_obj_buf(&mut BufReader::new(file), &LoadOptions::default(), no_materials);
+    let models = tobj::load_obj_buf(&mut file, &LoadOptions::default(), no_materials);
     let models = models
         .map_err(|e| Error::shape(format!("it is no OBJ file: {e}"), "export the surface again"))
         .and_then(|(models, _)| surface(&models));
