@@ -117,9 +117,9 @@ impl Sample {
     /// The estimated spectrum, on its wavelengths; none if the sample has no estimate.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if it is not a spectrum.
+    /// [`crate::Error::Field`] if it is not a spectrum of numbers from 0 to 1.
     pub fn estimated(&self) -> Result<Option<ReflectanceRecord>> {
-        self.fields.get("estimate")
+        self.reflectance("estimate")
     }
 
     /// The standard deviation of the estimated spectrum, if there is one.

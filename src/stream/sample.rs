@@ -123,9 +123,19 @@ impl Sample {
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
+    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
-        self.fields.get("truth")
+        self.reflectance("truth")
+    }
+
+    /// The reflectance in a field, if it is there.
+    pub(super) fn reflectance(&self, field: &str) -> Result<Option<ReflectanceRecord>> {
+        let record: Option<ReflectanceRecord> = self.fields.get(field)?;
+        let values = record.iter().flat_map(|record| &record.reflectance);
+        match values.into_iter().find(|value| !(0.0..=1.0).contains(*value)) {
+            Some(value) => Err(Error::field(field, format!("{value:e} is no reflectance; it needs 0 to 1"))),
+            None => Ok(record),
+        }
     }
 
     /// Marks the sample as failed.
