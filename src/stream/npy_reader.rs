@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// Largest kernel that is read: one of so many facets has 3 GB.
 const SQUARE_MAX: u64 = 20_000;
 /// Longest header that is read, as by NumPy.
-const HEADER_MAX: usize = 10_000;
+const HEADER_MAX: u64 = 10_000;
 /// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each that is within others.
 const BRACKETS_MAX: usize = 8;
 
@@ -57,11 +57,11 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
     let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
     let mut file = BufReader::new(File::open(path).map_err(failed)?);
     let length = file.get_ref().metadata().map_err(failed)?;
-    let header = header(&mut file).map_err(failed)?;
-    if header.len() > HEADER_MAX || header.iter().filter(|byte| b"([{".contains(byte)).count() > BRACKETS_MAX
-    {
+    let is_plain =
+        |header: &Vec<u8>| header.iter().filter(|byte| b"([{".contains(byte)).count() <= BRACKETS_MAX;
+    let Some(header) = header(&mut file).map_err(failed)?.filter(is_plain) else {
         return Err(wrong("no NPY file of a plain array, by its header; save float64 numbers".to_owned()));
-    }
+    };
     let array = NpyFile::new(Cursor::new(&header).chain(file)).map_err(failed)?;
     let Some([rows, cols]) = extents(array.shape()) else {
         let got = array.shape();
@@ -81,8 +81,8 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
     })
 }
 
-/// What stands before the numbers of an array, or a little more than [`HEADER_MAX`] of it.
-fn header(file: &mut impl Read) -> io::Result<Vec<u8>> {
+/// What stands before the numbers of an array; none if it would be longer than any.
+fn header(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut header = Vec::new();
     file.take(12).read_to_end(&mut header)?;
     // version 1 has two bytes for the length of the rest, later ones four
@@ -91,6 +91,6 @@ fn header(file: &mut impl Read) -> io::Result<Vec<u8>> {
         [.., a, b, c, d] => 12 + u64::from(u32::from_le_bytes([a, b, c, d])),
         _ => 0,
     };
-    file.take(length.saturating_sub(12).min(HEADER_MAX as u64)).read_to_end(&mut header)?;
-    Ok(header)
+    file.take(length.min(HEADER_MAX).saturating_sub(12)).read_to_end(&mut header)?;
+    Ok((length <= HEADER_MAX).then_some(header))
 }
