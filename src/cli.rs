@@ -3,6 +3,7 @@
 mod generate;
 mod kernel;
 mod materials;
+mod outcome;
 mod spectra;
 mod stream_page;
 
@@ -15,12 +16,14 @@ pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
 
 use crate::error::{Error, Result};
+pub use crate::message::one_line;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
 use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
 pub use generate::Generate;
+use outcome::{misuse, without_panic};
 
 /// Flags that all tools have.
 #[derive(Args, Clone, Debug)]
@@ -106,11 +109,16 @@ pub trait ToolArgs: Parser {
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
 /// carry an `error`.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
-    let args = match A::try_parse() {
-        Ok(args) => args,
-        Err(answer) => return answered(A::command().get_name(), &answer),
+    let done = match A::try_parse() {
+        Ok(args) => without_panic(|| frame(&args, tool)),
+        Err(help) if !help.use_stderr() => help.print().map(|()| 0).map_err(Error::Output),
+        Err(error) => {
+            let name = A::command().get_name().to_owned();
+            say(&name, &format!("{}; see {name} --help", misuse(&error.render().to_string())));
+            return ExitCode::from(2);
+        }
     };
-    match frame(&args, tool) {
+    match done {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::from(3),
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
@@ -118,17 +126,6 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
             say(A::command().get_name(), &e.to_string());
             ExitCode::from(e.exit_status())
         }
-    }
-}
-
-/// Prints what the parser answers instead of arguments: help and version, which may meet a full disk, or what is wrong.
-fn answered(tool: &str, answer: &clap::Error) -> ExitCode {
-    match answer.print().map_err(Error::Output) {
-        Err(e) if !answer.use_stderr() && !e.is_broken_pipe() => {
-            say(tool, &e.to_string());
-            ExitCode::FAILURE
-        }
-        _ => u8::try_from(answer.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from),
     }
 }
 

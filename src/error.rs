@@ -162,6 +162,11 @@ pub enum Error {
     /// A computation cannot give a meaningful number.
     #[error("{0}")]
     Numeric(String),
+
+    // ---- ours ----
+    /// The tool came upon something that it was not written for.
+    #[error("a fault of this program: {0}; report it with what it was given")]
+    Fault(String),
 }
 
 impl Error {

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use crate::message::one_line;
+
 /// Runs shorter than this show nothing.
 const DELAY: Duration = Duration::from_millis(500);
 /// How often the line is drawn though nothing happens.
@@ -89,7 +91,7 @@ impl Drop for Progress {
 
 /// Writes a line to standard error, above that of the progress; unlike `eprintln!` it survives a closed one.
 pub fn say(tool: &str, message: &str) {
-    let write = || drop(writeln!(io::stderr(), "{tool}: {message}"));
+    let write = || drop(writeln!(io::stderr(), "{tool}: {}", one_line(message)));
     LINE.get().map_or_else(write, |line| line.suspend(write));
 }
 

@@ -5,6 +5,7 @@
 
 pub mod accordion;
 mod faces;
+mod file;
 pub mod fold;
 pub mod light;
 pub mod merged;

@@ -1,12 +1,12 @@
 //! Wavefront OBJ files: vertices, faces in order, objects and groups.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Read;
+use std::panic::catch_unwind;
 use std::path::Path;
 
-use tobj::{LoadOptions, Model};
+use tobj::{LoadError, LoadOptions, Model};
 
-use super::{Group, Shape};
+use super::{Group, Shape, file};
 use crate::error::{Error, Result};
 
 /// Faces of fewer corners are lines and points, which a file may hold beside its surface.
@@ -31,13 +31,33 @@ const CORNERS_MIN: usize = 3;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
-    let file = File::open(path).map_err(|e| Error::file(path.display(), e))?;
-    let no_materials = |_: &Path| Ok(Default::default());
-    let models = tobj::load_obj_buf(&mut BufReader::new(file), &LoadOptions::default(), no_materials);
-    let models = models
+    let mut bytes = Vec::new();
+    file::open(path)?.read_to_end(&mut bytes).map_err(|e| Error::file(path.display(), e))?;
+    if let Some(line) = line_of_no_index(&bytes) {
+        let problem = format!("line {line}: a face has a corner of no index");
+        return Err(Error::shape(problem, "export the surface again").of_file(path));
+    }
+    let models = parse(&bytes)
         .map_err(|e| Error::shape(format!("it is no OBJ file: {e}"), "export the surface again"))
         .and_then(|(models, _)| surface(&models));
     models.map_err(|e| e.of_file(path))
+}
+
+/// What the file says; the parser computes with indices before it knows whether they are in bounds, and may panic.
+fn parse(bytes: &[u8]) -> tobj::LoadResult {
+    let no_materials = |_: &Path| Ok(Default::default());
+    let read = || tobj::load_obj_buf(&mut &bytes[..], &LoadOptions::default(), no_materials);
+    catch_unwind(read).unwrap_or(Err(LoadError::FaceVertexOutOfBounds))
+}
+
+/// The line of a face with a number of more digits than any index: the parser would take three times it modulo 2⁶⁴.
+fn line_of_no_index(bytes: &[u8]) -> Option<usize> {
+    const DIGITS_MAX: usize = 10;
+    let is_long = |digits: &[u8]| digits.len() > DIGITS_MAX;
+    let is_wrong = |line: &[u8]| {
+        line.trim_ascii_start().starts_with(b"f") && line.split(|byte| !byte.is_ascii_digit()).any(is_long)
+    };
+    bytes.split(|byte| *byte == b'\n').position(is_wrong).map(|line| line + 1)
 }
 
 fn surface(models: &[Model]) -> Result<(Shape, Vec<String>)> {

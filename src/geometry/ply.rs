@@ -1,13 +1,12 @@
 //! PLY files (Stanford polygons), text or binary: vertices and faces; the format has no groups.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Read;
 use std::path::Path;
 
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 
-use super::Shape;
+use super::{Shape, file};
 use crate::error::{Error, Result};
 
 /// Reads a surface; colours, normals and other properties are passed over.
@@ -18,11 +17,10 @@ use crate::error::{Error, Result};
 /// # Errors
 /// [`Error::File`] if the file cannot be read, else [`Error::Shape`] with its name.
 pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
-    let file = File::open(path).map_err(|e| Error::file(path.display(), e))?;
-    surface(&mut BufReader::new(file)).map_err(|e| e.of_file(path))
+    surface(&mut file::open(path)?).map_err(|e| e.of_file(path))
 }
 
-fn surface(file: &mut BufReader<File>) -> Result<(Shape, Vec<String>)> {
+fn surface(file: &mut impl Read) -> Result<(Shape, Vec<String>)> {
     let broken = |problem: String| Error::shape(problem, "export the surface again");
     let parsed = Parser::<DefaultElement>::new().read_ply(file);
     let first_line = |text: String| text.lines().next().unwrap_or_default().trim_end_matches('.').to_owned();

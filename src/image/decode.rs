@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -27,6 +28,8 @@ pub(super) struct Picture {
 pub(super) const MAX_BYTES: u64 = 2 << 30;
 /// Largest width and height, px.
 const MAX_SIDE: u32 = 1 << 16;
+/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other compressions fewer than these.
+const MAX_COMPRESSION: u64 = 1 << 16;
 
 pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";
 pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it again";
@@ -36,7 +39,8 @@ const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 pub(super) fn decode(path: &Path) -> Result<Decoded> {
     let failed = |source| Error::file(path.display(), source);
     let file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.len() > MAX_BYTES {
+    let length = file.metadata().map_err(failed)?.len();
+    if length > MAX_BYTES {
         return Err(Error::picture(path, "the file is larger than 2 GiB", TOO_LARGE));
     }
     let mut file = BufReader::new(file);
@@ -51,7 +55,7 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     let format =
         format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
     if format != ImageFormat::Tiff {
-        let (pixels, block) = decode_as(path, &mut file, format)?;
+        let (pixels, block) = decode_as(path, &mut file, length, format)?;
         if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
             return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
         }
@@ -62,7 +66,7 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
         return Ok(Decoded::Raw);
     }
     file.rewind().map_err(failed)?;
-    let (pixels, _) = decode_as(path, &mut file, format)?;
+    let (pixels, _) = decode_as(path, &mut file, length, format)?;
     Ok(Decoded::Picture(Picture { format, pixels, camera }))
 }
 
@@ -81,12 +85,26 @@ fn is_supported(format: &ImageFormat) -> bool {
     matches!(format, ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg | ImageFormat::OpenExr)
 }
 
-/// The picture and, for PNG and JPEG, its EXIF block.
+/// A picture and, for PNG and JPEG, its EXIF block.
+type PictureAndExif = (DynamicImage, Option<Vec<u8>>);
+
+/// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the file's fault.
 fn decode_as(
     path: &Path,
     file: &mut BufReader<File>,
+    length: u64,
     format: ImageFormat,
-) -> Result<(DynamicImage, Option<Vec<u8>>)> {
+) -> Result<PictureAndExif> {
+    let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
+    catch_unwind(AssertUnwindSafe(|| decode_whole(path, file, length, format))).unwrap_or_else(unforeseen)
+}
+
+fn decode_whole(
+    path: &Path,
+    file: &mut BufReader<File>,
+    length: u64,
+    format: ImageFormat,
+) -> Result<PictureAndExif> {
     let mut reader = ImageReader::with_format(file, format);
     reader.limits(limits());
     let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
@@ -98,6 +116,10 @@ fn decode_as(
     if decoder.total_bytes() > MAX_BYTES {
         let problem = format!("{width} x {height} px would take more than 2 GiB");
         return Err(Error::picture(path, problem, TOO_LARGE));
+    }
+    if decoder.total_bytes() > length.saturating_mul(MAX_COMPRESSION) {
+        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
+        return Err(Error::picture(path, problem, DAMAGED));
     }
     let block = decoder.exif_metadata().ok().flatten();
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| undecodable(path, error))?;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
 use super::quantities::Quantities;
-use super::sample::Sample;
+use super::sample::{Sample, checked};
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
 use crate::estimate::{Estimate, Fitted, MISFIT};
@@ -210,14 +210,15 @@ impl Sample {
     /// The estimate; none if the sample has none.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is no spectrum with as many values as wavelengths.
+    /// [`Error::Field`] if it is no spectrum with as many values as wavelengths, each from 0 to 1.
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
         match self.fields.get::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
                 let problem = "not as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
             }
-            estimate => Ok(estimate),
+            Some(estimate) => checked("estimate", &estimate.reflectance).map(|()| Some(estimate)),
+            None => Ok(None),
         }
     }
 

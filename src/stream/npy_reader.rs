@@ -1,7 +1,7 @@
 //! Arrays as NPY files, read: nothing is taken in before the header agrees with what is needed and with the file's length.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 
 use nalgebra::DMatrix;
@@ -11,6 +11,10 @@ use crate::error::{Error, Result};
 
 /// Largest kernel that is read: one of so many facets has 3 GB.
 const SQUARE_MAX: u64 = 20_000;
+/// Longest header that is read, as by NumPy.
+const HEADER_MAX: u64 = 10_000;
+/// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each that is within others.
+const BRACKETS_MAX: usize = 8;
 
 /// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names.
 ///
@@ -51,23 +55,42 @@ pub fn read_rows(path: &Path, cols: usize) -> Result<DMatrix<f64>> {
 fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]>) -> Result<DMatrix<f64>> {
     let failed = |e| Error::file(path.display(), e);
     let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
-    let file = File::open(path).map_err(failed)?;
-    let length = file.metadata().map_err(failed)?;
-    let array = NpyFile::new(BufReader::new(file)).map_err(failed)?;
+    let mut file = BufReader::new(File::open(path).map_err(failed)?);
+    let length = file.get_ref().metadata().map_err(failed)?;
+    let is_plain =
+        |header: &Vec<u8>| header.iter().filter(|byte| b"([{".contains(byte)).count() <= BRACKETS_MAX;
+    let Some(header) = header(&mut file).map_err(failed)?.filter(is_plain) else {
+        return Err(wrong("no NPY file of a plain array, by its header; save float64 numbers".to_owned()));
+    };
+    let array = NpyFile::new(Cursor::new(&header).chain(file)).map_err(failed)?;
     let Some([rows, cols]) = extents(array.shape()) else {
         let got = array.shape();
         return Err(wrong(format!("an array of shape {got:?}, where {needed}")));
     };
     let order = array.order();
     let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;
-    if length.is_file() && length.len() < 8 * (rows * cols) as u64 {
+    if length.is_file() && length.len() < header.len() as u64 + 8 * (rows * cols) as u64 {
         let problem =
             format!("its header says {rows} x {cols} numbers, which it does not hold; save it again");
         return Err(wrong(problem));
     }
-    let values: Vec<f64> = numbers.collect::<std::io::Result<_>>().map_err(failed)?;
+    let values: Vec<f64> = numbers.collect::<io::Result<_>>().map_err(failed)?;
     Ok(match order {
         Order::C => DMatrix::from_row_slice(rows, cols, &values),
         Order::Fortran => DMatrix::from_vec(rows, cols, values),
     })
+}
+
+/// What stands before the numbers of an array; none if it would be longer than any.
+fn header(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
+    let mut header = Vec::new();
+    file.take(12).read_to_end(&mut header)?;
+    // version 1 has two bytes for the length of the rest, later ones four
+    let length = match header[..] {
+        [.., 1, _, a, b, _, _] => 10 + u64::from(u16::from_le_bytes([a, b])),
+        [.., a, b, c, d] => 12 + u64::from(u32::from_le_bytes([a, b, c, d])),
+        _ => 0,
+    };
+    file.take(length.min(HEADER_MAX).saturating_sub(12)).read_to_end(&mut header)?;
+    Ok((length <= HEADER_MAX).then_some(header))
 }

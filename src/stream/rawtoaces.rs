@@ -3,6 +3,7 @@
 //! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the spectra, `data.main` has their values at each wavelength in nm.
 
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
 use serde::Deserialize;
 
@@ -27,6 +28,9 @@ struct SpectralData {
 struct Main<T> {
     main: T,
 }
+
+/// Wavelengths of light, as in other files.
+const NM: RangeInclusive<f64> = 100.0..=3000.0;
 
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
@@ -74,7 +78,8 @@ fn read(path: &str) -> Result<Table> {
     let count = index.main.len();
     let mut rows = Vec::new();
     for (key, row) in data.main {
-        let nm: f64 = key.parse().map_err(|_| refused(format!("'{key}' is not a wavelength")))?;
+        let nm = key.parse().ok().filter(|nm| NM.contains(nm));
+        let nm: f64 = nm.ok_or_else(|| refused(format!("'{key}' is not a wavelength in nm")))?;
         if row.len() != count {
             return Err(refused(format!("{} numbers at {nm} nm for {count} spectra", row.len())));
         }

@@ -119,6 +119,14 @@ pub struct ReflectanceRecord {
     pub interpolation: Option<String>,
 }
 
+/// Refuses what cannot be the reflectance in a field.
+pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
+    match reflectance.iter().find(|value| !(0.0..=1.0).contains(*value)) {
+        Some(value) => Err(Error::field(field, format!("{value:e} is no reflectance; it needs 0 to 1"))),
+        None => Ok(()),
+    }
+}
+
 impl ReflectanceRecord {
     /// A spectrum on the wavelengths of `grid`.
     ///
@@ -173,9 +181,11 @@ impl Sample {
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
+    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
-        self.fields.get("truth")
+        let truth: Option<ReflectanceRecord> = self.fields.get("truth")?;
+        truth.iter().try_for_each(|truth| checked("truth", &truth.reflectance))?;
+        Ok(truth)
     }
 
     /// Marks the sample as failed.

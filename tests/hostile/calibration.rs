@@ -26,15 +26,11 @@ fn regions() {
         + r#"
         square='[[1,1],[99,1],[99,99],[1,99]]'
         : > empty.json
-        echo '{"panel0": [[1,1],[99,1]' > cut.json
         echo 7 > number.json
         echo '[7]' > numbers.json
-        head -c 100000 /dev/zero | tr '\0' '[' > deep.json
         truncate -s 70M large.json
         echo "{\"panle0\": $square}" > misspelt.json
-        echo '{"panel0": [[1,1],[99,1],[99,99]]}' > three.json
         echo '{"panel0": [[1,1],[99,1],[99,99],[1,"99"]]}' > text.json
-        echo '{"panel0": [[1,1],[99,1],[99,99],[1,NaN]]}' > nan.json
         echo '{"panel0": [[1,1],[99,1],[99,99],[1,1e999]]}' > infinite.json
         echo '{"panel0": [[1,1],[99,1],[1,99],[99,99]]}' > crossed.json
         echo '{"panel0": [[1,1],[9999,1],[9999,99],[1,99]]}' > outside.json
@@ -52,18 +48,13 @@ fn regions() {
     assert_refused(
         &setup,
         &[
-            case("sh extract --regions missing.json", 1, &["missing.json", "No such file"]),
             case("sh extract --regions .", 1, &["directory"]),
             case("sh extract --regions empty.json", 1, &["empty.json", "no regions in it"]),
-            case("sh extract --regions cut.json", 1, &["cut.json:2", "EOF"]),
             case("sh extract --regions number.json", 1, &["number.json", "entry 0", "object"]),
             case("sh extract --regions numbers.json", 1, &["numbers.json", "entry 0", "object"]),
-            case("sh extract --regions deep.json", 1, &["deep.json", "recursion limit"]),
             case("sh extract --regions large.json", 1, &["large.json", "64 MiB"]),
             case("sh extract --regions misspelt.json", 1, &["'panle0'", "panel0, panel1, .., chart, white"]),
-            case("sh extract --regions three.json", 1, &["'panel0'", "length 3", "four corners"]),
             case("sh extract --regions text.json", 1, &["'panel0'", "string", "four corners"]),
-            case("sh extract --regions nan.json", 1, &["nan.json:1", "expected value"]),
             case("sh extract --regions infinite.json", 1, &["infinite.json", "out of range"]),
             case("sh extract --regions crossed.json", 1, &["'panel0'", "cross"]),
             case("sh extract --regions outside.json", 1, &["panel 0", "640 x 480 px"]),

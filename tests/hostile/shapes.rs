@@ -6,12 +6,12 @@ use crate::{assert_refused, case};
 const SETUP: &str = r#"
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.2 0.2 0\nv 1 1 0.5\n' > points
 { cat points; echo 'f 1 2 9'; } > corner.obj
-{ cat points; echo 'f 1 2 3 4 5'; } > fifth.obj
 { cat points; echo 'f 1 2 5 4'; } > notch.obj
 { cat points; echo 'f 1 2 6 4'; } > bent.obj
 { cat points; echo 'f 1 2 2'; } > thin.obj
+{ cat points; echo 'f 1 2 6148914691236517209'; } > modulo.obj
+{ cat points; echo 'f 1/1 2/-4 3/1'; echo 'vt 0 0'; } > before.obj
 cp points bare.obj
-{ cat points; echo 'v 1 nan 0'; echo 'f 1 2 7'; } > nan.obj
 { cat points; echo 'v 1e400 0 0'; echo 'f 1 2 7'; } > far.obj
 { cat points; echo 'f 1 2 3'; echo 'f 1 x 3'; } > letter.obj
 : > empty.obj
@@ -21,13 +21,14 @@ cp noise.obj noise.json
 printf 'ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n' > bomb.ply
 printf 'ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n\0\0\0\0\0\0\0\0\0\0\0\0\377\377\377\377' > long.ply
 printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n1 1\n3 0 1 2\n' > flat.ply
-printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n' > cut.ply
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,2]], "colour": 1}' > more.json
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,1e999]], "facets": [[0,1,2]]}' > huge.json
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,18446744073709551615]]}' > index.json
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,2]], "groups": [{"name": "a", "facets": [7, 18446744073709551615]}]}' > group.json
-printf '[%.0s' $(seq 2000) > deep.json
 echo solid > floor.stl
+truncate -s 20M large.ply
+ln -s /dev/zero endless.obj
+ln -s /dev/zero endless.ply
 mkdir folder.obj
 python3 -c '
 n = 160
@@ -42,28 +43,28 @@ fn shapes() {
         SETUP,
         &[
             case("vkernel --shape corner.obj", 1, &["corner.obj", "vertex"]),
-            case("vkernel --shape fifth.obj", 1, &["fifth.obj", "face 0 has 5 corners", "divide"]),
             case("vkernel --shape notch.obj", 1, &["notch.obj", "face 0 is not convex", "divide"]),
             case("vkernel --shape bent.obj", 1, &["bent.obj", "face 0 is not flat", "divide"]),
+            case("vkernel --shape modulo.obj", 1, &["modulo.obj", "line 7", "no index"]),
+            case("vkernel --shape before.obj", 1, &["before.obj", "no OBJ"]),
             case("vkernel --shape thin.obj", 1, &["thin.obj", "no face"]),
             case("vkernel --shape bare.obj", 1, &["bare.obj", "no face"]),
-            case("vkernel --shape nan.obj", 1, &["nan.obj"]),
             case("vkernel --shape far.obj", 1, &["far.obj"]),
             case("vkernel --shape letter.obj", 1, &["letter.obj"]),
             case("vkernel --shape empty.obj", 1, &["empty.obj", "no face"]),
             case("vkernel --shape noise.obj", 1, &["noise.obj"]),
             case("vkernel --shape noise.ply", 1, &["noise.ply", "no PLY"]),
             case("vkernel --shape noise.json", 1, &["noise.json"]),
-            case("ulimit -v 2000000; vkernel --shape bomb.ply", 1, &["bomb.ply"]),
-            case("ulimit -v 2000000; vkernel --shape long.ply", 1, &["long.ply"]),
+            case("vkernel --shape bomb.ply", 1, &["bomb.ply"]),
+            case("vkernel --shape long.ply", 1, &["long.ply"]),
             case("vkernel --shape flat.ply", 1, &["flat.ply", "lacks x, y or z"]),
-            case("vkernel --shape cut.ply", 1, &["cut.ply"]),
             case("vkernel --shape more.json", 1, &["more.json:1", "colour"]),
             case("vkernel --shape huge.json", 1, &["huge.json:1", "out of range"]),
             case("vkernel --shape index.json", 1, &["index.json", "face 0 has vertex"]),
-            case("vkernel --shape deep.json", 1, &["deep.json:1", "vertices"]),
+            case("vkernel --shape large.ply", 1, &["large.ply", "16 MiB", "coarser"]),
+            case("vkernel --shape endless.obj", 1, &["endless.obj", "no face"]),
+            case("vkernel --shape endless.ply", 1, &["endless.ply", "no PLY"]),
             case("vkernel --shape floor.stl", 1, &["floor.stl", ".obj, .ply or .json"]),
-            case("vkernel --shape missing.obj", 1, &["missing.obj", "No such file"]),
             case("vkernel --shape folder.obj", 1, &["folder.obj"]),
             case("vkernel --shape many.obj", 1, &["many.obj", "25600 facets"]),
             case("vkernel --shape thin.obj --folds 2", 2, &["--shape", "--folds"]),

@@ -14,13 +14,10 @@ fn streams() {
     assert_refused(
         STREAM,
         &[
-            case("vestimate missing.ndjson", 1, &["missing.ndjson", "No such file"]),
             case("echo hello | vestimate", 1, &["-:1", "not a JSON object"]),
             case("echo '[1, 2]' | vscore", 1, &["-:1", "not a JSON object"]),
             case("echo '{}' | vscore", 1, &["-:1", "'kind'"]),
             case("echo | vestimate", 1, &["-:1", "not a JSON object"]),
-            case("head -c 400 good.ndjson | vestimate", 1, &["-:1", "cut"]),
-            case("head -c -9 good.ndjson | vestimate", 1, &["-:2", "cut"]),
             case("head -c -1 good.ndjson | vestimate", 1, &["-:2", "cut"]),
             case("tail -n 1 good.ndjson | vestimate", 1, &["-:1", "sample before any scene"]),
             case("printf '\\0\\377\\n' | vestimate", 1, &["-:1", "not a JSON object"]),
@@ -37,11 +34,6 @@ fn streams() {
                 "sed 's/\"poles\":\\[[^,]*/\"poles\":[-1/' good.ndjson | vestimate",
                 1,
                 &["poles", "(-1, 1)"],
-            ),
-            case(
-                "sed 's/\"residues\":\\[/&[1],/' good.ndjson | vestimate",
-                1,
-                &["response.residues", "facet"],
             ),
             case("sed 's/\"residues\":/\"rest\":/' good.ndjson | vestimate", 1, &["residues"]),
             case(
@@ -62,7 +54,6 @@ fn streams() {
             ),
             case("sed 's/\"channels\":\\[/&\"X\",/' good.ndjson | vestimate", 1, &["-:1", "camera.channels"]),
             case("sed 's/\"sky\":0/\"sky\":-1/' good.ndjson | vestimate", 1, &["light"]),
-            case("sed 's/\"wavelengths_nm\":\\[/&900,/' good.ndjson | vestimate", 1, &["-:1", "wavelength"]),
             case("sed 's/\"power\":\\[/&1,/' good.ndjson | vestimate", 1, &["illuminants", "31 wavebands"]),
             case("sed 's/\"power\":\\[/&-/' good.ndjson | vestimate", 1, &["-:1", "illuminants", "from 0"]),
             case(
@@ -133,7 +124,6 @@ fn samples() {
         (r#"2s/"exposure":1.0/"exposure":"x"/"#, "exposure"),
         (r#"2s/"exposure":1.0/"exposure":0/"#, "a number above 0"),
         (r#"2s/"exposure":1.0/"exposure":-1/"#, "a number above 0"),
-        (r#"2s/"facet_rgb":\[\[/&1e308,/"#, "1e308 cannot be"),
         (r#"2s/"facet_rgb":/"facet_sd":[[1,1,1]],&/"#, "1 facets, but facet_rgb has 8"),
         (r#"2s/"facet_rgb":/"facet_sd":[[-1,1,1]],&/"#, "-1e0 cannot be"),
     ] {

@@ -1,6 +1,7 @@
 //! Scores as a table for the eye.
 
 use vfold::Result;
+use vfold::cli::one_line;
 use vfold::score::{Group, Statistics, Summary};
 use vfold::stream::{Output, Sample};
 
@@ -44,7 +45,7 @@ impl Table {
     }
 
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
-        let id = sample.id()?;
+        let id = one_line(&sample.id()?);
         match (sample.scores()?, sample.error()?) {
             (Some(scores), None) => {
                 let value =
@@ -52,7 +53,9 @@ impl Table {
                 out.text(&self.line(&id, value))
             }
             (None, None) => out.text(&self.line(&id, |_| None)),
-            (_, error) => out.failed_text(&self.named(&id, &format!(" {}", error.unwrap_or_default()))),
+            (_, error) => {
+                out.failed_text(&self.named(&id, &format!(" {}", one_line(&error.unwrap_or_default()))))
+            }
         }
     }
 
@@ -60,6 +63,7 @@ impl Table {
     pub fn footer(&self, out: &mut Output, all: &Summary, by: Option<(&str, &[Group])>) -> Result<()> {
         if let Some((field, groups)) = by {
             for Group { value, summary } in groups {
+                let value = one_line(value);
                 out.text(&format!("{field} {value}: {} of {} scored", summary.scored(), summary.samples()))?;
                 self.statistics(out, summary)?;
             }

@@ -120,8 +120,10 @@ pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectanc
     )
 }
 
+/// A text as XML has it, which knows no control characters.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    let no_xml = |letter: char| letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}');
+    text.replace(no_xml, "_").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

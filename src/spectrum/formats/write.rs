@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::csv::SD_ENDING;
-use super::{cgats, has_ending, tm27};
+use super::{cgats, has_ending, tm27, units};
 use crate::error::{Error, Result};
 use crate::files::Saved;
 
@@ -97,14 +97,18 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample has and that no cell or quoted word is broken by.
+/// Names that no other sample or its standard deviation has, that no cell or quoted word is broken by, and that say no unit.
 fn names(samples: &[Measured]) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut unique = |sample: &Measured| {
-        let plain = sample.name.replace([',', '"', '\n', '\r'], "_");
+        let plain = sample.name.replace(|letter: char| letter.is_control() || ",\"".contains(letter), "_");
+        let plain = if units::says_percent(&plain) { plain.replace('%', "_") } else { plain };
         let numbered = (2..).map(|n| format!("{plain} ({n})"));
-        let name = std::iter::once(plain.clone()).chain(numbered).find(|name| taken.insert(name.clone()));
-        name.unwrap_or(plain)
+        let both = |name: &String| [name.clone(), format!("{name}{SD_ENDING}")];
+        let is_free = |name: &String| both(name).iter().all(|name| !taken.contains(name));
+        let name = std::iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
+        taken.extend(both(&name));
+        name
     };
     samples.iter().map(&mut unique).collect()
 }
@@ -188,8 +192,8 @@ mod tests {
     #[test]
     fn names_are_unique_and_break_no_line() {
         let nm = [400.0, 500.0, 600.0];
-        let samples = ["a,\"b\"", "c", "c", "c (2)"].map(|name| sample(name, nm));
-        assert_eq!(names(&samples), ["a__b_", "c", "c (2)", "c (2) (2)"]);
+        let samples = ["a,\"b\"", "c", "c", "c (2)", "c_sd", "d [%]", "50% e"].map(|name| sample(name, nm));
+        assert_eq!(names(&samples), ["a__b_", "c", "c (2)", "c (2) (2)", "c_sd (2)", "d [_]", "50% e"]);
     }
 
     /// `date -u -d @SECONDS +%FT%TZ`, GNU coreutils.

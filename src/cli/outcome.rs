@@ -1,0 +1,25 @@
+//! How a tool ends where it does not run as asked: panics and wrong usage, each in one line.
+
+use std::panic::{self, AssertUnwindSafe};
+
+use crate::error::{Error, Result};
+
+/// What `run` returns, or an error where it panics; the trace for developers comes if `RUST_BACKTRACE` asks for it.
+pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
+    if std::env::var_os("RUST_BACKTRACE").is_none() {
+        panic::set_hook(Box::new(|_| ()));
+    }
+    let fault = |panic: Box<dyn std::any::Any + Send>| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or_default();
+        Err(Error::Fault(text.to_owned()))
+    };
+    panic::catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(fault)
+}
+
+/// What clap says of arguments, on one line: its usage is that of `--help`.
+pub(super) fn misuse(rendered: &str) -> String {
+    let paragraphs = rendered.trim_start_matches("error: ").split("\n\n");
+    let said = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
+    said.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ")
+}

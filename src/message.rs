@@ -1,0 +1,24 @@
+//! Messages for people, each on a line of its own.
+
+/// A message as one line that a terminal shows as it is: control characters, which names in files may hold, are escaped, and
+/// what is longer than any message is cut in the middle.
+///
+/// # Example
+/// ```
+/// assert_eq!(vfold::message::one_line("column 'a\tb\x1b[31m' is no number"), "column 'a\\tb\\u{1b}[31m' is no number");
+/// assert_eq!(vfold::message::one_line(&"x".repeat(9999)).chars().count(), 2001);
+/// ```
+#[must_use]
+pub fn one_line(message: &str) -> String {
+    const SIDE: usize = 1000;
+    let shown = |letter: char| match letter.is_control() {
+        true => letter.escape_default().collect(),
+        false => letter.to_string(),
+    };
+    let count = message.chars().count();
+    if count <= 2 * SIDE {
+        return message.chars().map(shown).collect();
+    }
+    let (start, end) = (message.chars().take(SIDE), message.chars().skip(count - SIDE));
+    start.chain(['…']).chain(end).map(shown).collect()
+}

@@ -1,0 +1,65 @@
+//! Photographs.
+
+use vfold::image::{
+    Grid, Homography, Photograph, Pixel, Point, ReadOptions, Transfer, measure, pixels_sharing_noise,
+    write_linear,
+};
+
+use super::{assert_finite, taken, with_file};
+
+/// Largest picture that is looked at pixel by pixel.
+const MAX_PIXELS: usize = 1 << 14;
+
+pub fn picture(bytes: &[u8]) {
+    with_file("a", bytes, |path| {
+        let srgb = ReadOptions { transfer: Transfer::Srgb, ..ReadOptions::default() };
+        let Some(photograph) = taken(Photograph::open(path, &ReadOptions::default())) else {
+            assert!(Photograph::open(path, &srgb).is_err());
+            return;
+        };
+        let (width, height) = (photograph.width(), photograph.height());
+        assert!(width > 0 && height > 0);
+        if width * height <= MAX_PIXELS {
+            look_at(&photograph);
+            taken(Photograph::open(path, &srgb)).iter().for_each(look_at);
+        }
+    });
+}
+
+fn look_at(photograph: &Photograph) {
+    let (width, height) = (photograph.width(), photograph.height());
+    let mut lights = Vec::new();
+    for k in 0..width * height {
+        match photograph.pixel(k % width, k / width) {
+            Pixel::Light(light) => lights.extend(light),
+            Pixel::Clipped | Pixel::NotFinite => lights.extend([0.0; 3]),
+        }
+    }
+    assert_finite("pixels", &lights);
+    assert_measured(photograph);
+    assert_read_again(width, height, &lights);
+}
+
+/// Measures a sheet that fills the picture.
+fn assert_measured(photograph: &Photograph) {
+    let (w, h) = (photograph.width() as f64, photograph.height() as f64);
+    let corners = [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)].map(|(x, y)| Point::new(x, y));
+    let outline = Homography::from_unit_square(corners).unwrap();
+    assert_finite("noise", &pixels_sharing_noise(photograph, std::slice::from_ref(&outline)));
+    let facets = taken(measure(photograph, &[Grid::even(outline, [2, 2])], 0.0));
+    for facet in facets.iter().flatten() {
+        assert_finite("facets", facet.mean.iter().chain(&facet.standard_error).flatten());
+    }
+}
+
+/// Light written as OpenEXR is read again, in single precision.
+fn assert_read_again(width: usize, height: usize, lights: &[f64]) {
+    with_file("b.exr", &[], |path| {
+        write_linear(path, width, height, lights).unwrap();
+        let again = Photograph::open(path, &ReadOptions::default()).unwrap();
+        for (k, light) in lights.chunks(3).enumerate() {
+            let wanted = std::array::from_fn(|channel| f64::from(light[channel] as f32));
+            assert_eq!(again.pixel(k % width, k / width), Pixel::Light(wanted));
+        }
+    });
+}

@@ -1,0 +1,116 @@
+//! Streams of records, and what the tools make of them.
+
+use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::estimate::data::FacetData;
+use vfold::estimate::measured::Measured;
+use vfold::estimate::noise::{deviations, unexplained};
+use vfold::estimate::prior::Prior;
+use vfold::estimate::unknowns::{Quantity, SceneModel};
+use vfold::estimate::{Exposure, map};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
+use vfold::stream::{Output, Reader, Record, Sample, Scene};
+use vfold::{Error, Result};
+
+use super::{assert_finite, taken, with_file};
+
+/// Most wavebands of a scene in which samples are estimated.
+const MAX_BANDS: usize = 32;
+
+pub fn stream(bytes: &[u8]) {
+    let records = read(bytes);
+    let mut model = None;
+    for record in &records {
+        match record {
+            Record::Scene(scene) => model = taken(look_at(scene)),
+            Record::Sample(sample) => {
+                taken(look_at_sample(sample));
+                model.as_ref().map(|model| taken(estimate(model, sample)));
+            }
+            Record::Other(_) => {}
+        }
+    }
+    assert_eq!(read(&written(&records)), records);
+}
+
+/// The records up to the first that is none.
+fn read(bytes: &[u8]) -> Vec<Record> {
+    with_file("a.ndjson", bytes, |path| {
+        let mut reader = Reader::open(path.to_str().unwrap()).unwrap();
+        std::iter::from_fn(|| taken(reader.read()).flatten()).collect()
+    })
+}
+
+fn written(records: &[Record]) -> Vec<u8> {
+    with_file("b.ndjson", &[], |path| {
+        let mut out = Output::to(Some(path), &[]).unwrap();
+        for record in records {
+            match record {
+                // a sample whose `error` is no text is refused
+                Record::Sample(sample) => out.fields(&sample.fields),
+                other => out.record(other),
+            }
+            .unwrap();
+        }
+        out.finish().unwrap();
+        std::fs::read(path).unwrap()
+    })
+}
+
+/// What samples need of a scene.
+fn look_at(scene: &Scene) -> Result<(WavelengthGrid, SceneModel)> {
+    for quantity in [Quantity::TiltDeg, Quantity::Sky] {
+        taken(scene.model_to_fit(&[quantity]));
+    }
+    taken(scene.open_light());
+    taken(scene.materials());
+    let (grid, model) = (scene.grid()?, scene.model()?);
+    for reflectance in [0.0, 0.5, 1.0] {
+        let rgb = model.facet_rgb(&vec![reflectance; grid.len()]);
+        Sample::new("scene", "id")?.set_facets(&rows(&rgb), None, 1)?;
+    }
+    Ok((grid, SceneModel::known(model)))
+}
+
+fn rows(rgb: &nalgebra::DMatrix<f64>) -> Vec<Option<Vec<f64>>> {
+    rgb.row_iter().map(|row| Some(row.iter().copied().collect())).collect()
+}
+
+fn look_at_sample(sample: &Sample) -> Result<()> {
+    taken(sample.curve());
+    taken(sample.measured());
+    taken(sample.scores());
+    taken(sample.estimate().map(|estimate| estimate.map(|estimate| estimate.doubts())));
+    let (Some(truth), Some(estimate)) = (sample.truth()?, sample.estimate()?) else { return Ok(()) };
+    let of = |name, nm, values| Spectrum::new(name, nm, values).map(Spectrum::as_reflectance);
+    let (truth, estimate) = (
+        of("truth", truth.wavelengths_nm, truth.reflectance)?,
+        of("estimate", estimate.wavelengths_nm, estimate.reflectance)?,
+    );
+    let grid = WavelengthGrid::uniform(400.0, 700.0, 50.0)?;
+    let meter = Colorimeter::new(&grid, &illuminant("D65")?, Observer::Cie1964_10deg)?;
+    let on = |spectrum: Spectrum| spectrum.on(&grid, Outside::Refuse);
+    assert_finite("CIEDE2000", &[meter.delta_e_2000(&on(truth)?, &on(estimate)?)]);
+    Ok(())
+}
+
+/// The estimate of a sample is a reflectance, or an error says why not.
+fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Result<()> {
+    let rgb = sample.facet_rgb()?;
+    let exposure = sample.exposure()?.map_or(Exposure::Free, Exposure::Known);
+    if grid.len() > MAX_BANDS || rgb.len() > 64 {
+        return Ok(());
+    }
+    let on_grid = |spectrum: &Spectrum| spectrum.on(grid, Outside::Refuse);
+    let spectra: Vec<_> = reflectances("cc24")?.iter().map(on_grid).collect::<Result<_>>()?;
+    let prior = Prior::from_spectra(grid.wavelengths_nm(), &spectra, Some(&[0; 24]))?;
+    let noise = unexplained(scene.facets(), &rgb);
+    let sd = deviations(&rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), 1e-3);
+    let data = FacetData::new(scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
+    let estimate = map::estimate(&data, &prior, None);
+    let mut sample = sample.clone();
+    match sample.set_estimate("interreflection", "cc24", grid.wavelengths_nm(), &estimate, None, true) {
+        Ok(()) => assert!(estimate.reflectance.iter().all(|r| (0.0..=1.0).contains(r))),
+        Err(error) => return Err(Error::field("estimate", error)),
+    }
+    Ok(())
+}
