@@ -9,7 +9,7 @@ sky\t'Amount of skylight, and its colour unless the scene says it'
 angle\t'Angle between the panels'"
 complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
-complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra; -: on standard error, in characters as wide as the terminal' -r -F
+complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
 complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'

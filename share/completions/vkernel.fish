@@ -18,7 +18,7 @@ complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees'
 complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
 complete -c vkernel -l plot -d 'Draw how much of its light every facet hands to others, and the direct light on it' -r -F
-complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 22000' -r -F
+complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for pairs that are near or partly hidden' -r -F
 complete -c vkernel -l folds -d 'Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases' -r
 complete -c vkernel -l ridge-deg -d 'Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]' -r
 complete -c vkernel -l bow-deg -l bow -d 'Panels curved in an arc: degrees by which each turns away from the other between the crease, where the angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough' -r

@@ -13,12 +13,12 @@ impl Fields {
     ///
     /// # Example
     /// ```
-    /// let mut fields = vfold::stream::Fields::of_kind("scene");
+    /// let mut fields = vfold::stream::Sample::new("fold", "sheet")?.fields;
     /// fields.set("wavelengths_nm", vec![400.0; 61])?;
     /// fields.set("panel", [1.0, 2.0])?;
     /// let leaves = fields.leaves("");
     /// let shown: Vec<_> = leaves.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
-    /// assert_eq!(shown, [("kind", "scene"), ("wavelengths_nm", "61 values"), ("panel", "1.0, 2.0")]);
+    /// assert_eq!(shown[2..], [("id", "sheet"), ("wavelengths_nm", "61 values"), ("panel", "1.0, 2.0")]);
     /// # Ok::<(), vfold::Error>(())
     /// ```
     #[must_use]

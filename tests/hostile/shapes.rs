@@ -31,7 +31,7 @@ ln -s /dev/zero endless.obj
 ln -s /dev/zero endless.ply
 mkdir folder.obj
 python3 -c '
-n = 160
+n = 320
 print("\n".join(f"v {i} {j} 0" for i in range(n + 1) for j in range(n + 1)))
 print("\n".join(f"f {i * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 2}" for i in range(n) for j in range(n)))
 ' > many.obj
@@ -66,7 +66,7 @@ fn shapes() {
             case("vkernel --shape endless.ply", 1, &["endless.ply", "no PLY"]),
             case("vkernel --shape floor.stl", 1, &["floor.stl", ".obj, .ply or .json"]),
             case("vkernel --shape folder.obj", 1, &["folder.obj"]),
-            case("vkernel --shape many.obj", 1, &["many.obj", "25600 facets"]),
+            case("vkernel --shape many.obj", 1, &["many.obj", "102400 facets"]),
             case("vkernel --shape thin.obj --folds 2", 2, &["--shape", "--folds"]),
             case("vkernel --two-sided", 2, &["--shape"]),
             case("vkernel --shape thin.obj --check", 2, &["--check"]),

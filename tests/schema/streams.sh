@@ -10,7 +10,7 @@ vforward unlike.ndjson --reflectance cc24:red --reference-panel cc24:yellow --sk
 vforward sampled.ndjson --reflectance 0.5 --bounces 2 --wavelengths-nm 380:780:20 -o few.ndjson
 vforward scene.ndjson --reflectance cc24:red 0.5 --illuminant D65 --illuminant A --noise-sd 1e-3 -o pictures.ndjson
 vestimate pictures.ndjson --save covariance=covariance.npy --trace trace.ndjson -o estimates.ndjson
-vestimate card.ndjson -o card-estimate.ndjson
+vestimate card.ndjson --noise-sd 1e-3 -o card-estimate.ndjson
 vforward scene.ndjson --reflectance cc24:red --noise-sd 1e-3 |
     vestimate --fit exposure,tilt,sky,angle -q -o fitted.ndjson
 vforward scene.ndjson --reflectance cc24:red | vestimate --prior smooth -o smooth.ndjson
