@@ -1,6 +1,6 @@
 //! Drawings for people: each a [`figure`](mod@figure) of its own file, SVG or PNG.
 //!
-//! [`sheet`] draws what is known of one sheet or of a few, [`batch`] how far off many are, [`surface`] what a kernel makes of its
+//! [`sheets`] draws what is known of one sheet or of a few, [`batch`] how far off many are, [`surface`] what a kernel makes of its
 //! facets. They are made of [`spectra`], swatches and maps, in one font and in colours that all readers tell apart.
 
 pub mod batch;
@@ -10,6 +10,7 @@ mod histogram;
 pub mod maps;
 mod scale;
 pub mod sheet;
+pub mod sheets;
 pub mod spectra;
 pub mod surface;
 mod swatches;

@@ -1,18 +1,7 @@
-//! One sheet or a few: spectra, what they look like and, of one sheet, what the estimate leaves of its facets.
+//! What can be drawn of a sheet: its spectrum, what it looks like, what the estimate leaves of its facets.
 
-use std::path::Path;
-
-use super::figure::{Above, save, svg};
-use super::maps::{FacetMap, Maps};
-use super::scale::Scale;
-use super::spectra::{CURVES_MAX, Curve, Spectra};
-use super::swatches::Swatches;
-use super::terminal;
-use crate::error::{Error, Result};
+use super::spectra::Curve;
 use crate::geometry::Panel;
-
-/// Residuals beyond that many standard deviations are on every scale, so that noise looks alike in all drawings.
-const USUAL: f64 = 4.0;
 
 /// What can be drawn of a sample.
 #[derive(Clone, Debug)]
@@ -53,39 +42,6 @@ impl Sheet {
         let folded = self.colours.as_ref()?.folded.as_slice();
         (!folded.is_empty() && !self.panels.is_empty()).then_some(folded)
     }
-
-    /// Spectrum and colours as SVG.
-    ///
-    /// # Errors
-    /// [`Error::Numeric`] if they cannot be drawn.
-    pub fn spectrum_svg(&self) -> Result<String> {
-        svg(&spectra(std::slice::from_ref(self)))
-    }
-
-    /// Maps of the residuals as SVG; none if there are none.
-    ///
-    /// # Errors
-    /// [`Error::Numeric`] if they cannot be drawn.
-    pub fn residuals_svg(&self) -> Result<Option<String>> {
-        self.residual_maps().map(|maps| svg(&maps)).transpose()
-    }
-
-    fn residual_maps(&self) -> Option<Maps<'_>> {
-        let residuals = self.residuals.as_ref().filter(|_| !self.panels.is_empty())?;
-        let values = |channel: usize| {
-            let of = move |facet: &Option<Vec<f64>>| facet.as_ref()?.get(channel).copied();
-            residuals.facets.iter().map(of).collect()
-        };
-        let map =
-            |(channel, name): (usize, &String)| FacetMap { title: name.clone(), values: values(channel) };
-        Some(Maps {
-            title: format!("measured − estimated facets, rms {:.2} standard deviations", residuals.rms()),
-            panels: &self.panels,
-            maps: residuals.channels.iter().enumerate().map(map).collect(),
-            scale: Scale::about_zero(residuals.facets.iter().flatten().flatten().copied(), USUAL),
-            unit: "standard deviations",
-        })
-    }
 }
 
 impl Residuals {
@@ -95,29 +51,4 @@ impl Residuals {
         let all: Vec<f64> = self.facets.iter().flatten().flatten().copied().collect();
         (all.iter().map(|value| value * value).sum::<f64>() / all.len().max(1) as f64).sqrt()
     }
-}
-
-/// Draws up to [`CURVES_MAX`] sheets, as SVG or PNG, a single one with its residuals; `-` is the terminal, which shows spectra alone.
-///
-/// # Errors
-/// [`Error::File`] if it cannot be written, [`Error::Usage`] if there is nothing to draw.
-pub fn draw(path: &Path, sheets: &[Sheet]) -> Result<()> {
-    let shown = &sheets[..sheets.len().min(CURVES_MAX)];
-    let maps = match shown {
-        [] => {
-            let problem = "no sample has an estimate to draw";
-            return Err(Error::usage("--plot", problem, "check the samples' errors"));
-        }
-        [one] => one.residual_maps(),
-        _ => None,
-    };
-    if path == Path::new("-") {
-        terminal::draw(shown.iter().map(|sheet| &sheet.curve));
-        return Ok(());
-    }
-    save(path, &Above(spectra(shown), maps))
-}
-
-fn spectra(sheets: &[Sheet]) -> Above<Spectra<'_>, Swatches<'_>> {
-    Above(Spectra(sheets.iter().map(|sheet| &sheet.curve).collect()), Some(Swatches(sheets)))
 }

@@ -9,6 +9,9 @@ use crate::error::{Error, Result};
 /// Largest number that is read of colours, spectra and exposures: sums, products and squares of such numbers stay finite.
 pub(super) const LARGEST: f64 = 1e30;
 
+/// What to do where a part of a scene is missing.
+pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
+
 /// The fields of one record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fields(pub(super) Map<String, Value>);

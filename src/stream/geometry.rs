@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::scene::BY_VKERNEL;
+use super::fields::BY_VKERNEL;
 use super::surface::MeshRecord;
 use crate::error::{Error, Result};
 use crate::geometry::Fold;

@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::fields::finite;
-use super::scene::BY_VKERNEL;
+use super::fields::{BY_VKERNEL, finite};
 use crate::error::{Error, Result};
 use crate::response::{ModeSet, Modes, Response, SurfaceResponse};
 

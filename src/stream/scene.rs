@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::accuracy::AccuracyRecord;
 use super::facets::FacetsRecord;
-use super::fields::Fields;
+use super::fields::{BY_VKERNEL, Fields};
 use super::geometry::GeometryRecord;
 use super::history::HistoryRecord;
 use super::light::LightRecord;
@@ -21,8 +21,6 @@ use crate::response::{Response, SurfaceResponse};
 
 /// The stream's format, in every scene.
 const FORMAT: &str = "vfold/1";
-/// What to do where a part of a scene is missing.
-pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
 
 /// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream belong to it.
 #[derive(Serialize, JsonSchema)]

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use vfold::Result;
 use vfold::colorimetry::Observer;
-use vfold::plot::sheet::{self, Sheet};
+use vfold::plot::sheet::Sheet;
+use vfold::plot::sheets;
 use vfold::plot::spectra::CURVES_MAX;
 use vfold::spectrum::{Spectrum, illuminant};
 use vfold::stream::{Record, Scene};
@@ -35,6 +36,6 @@ impl<'a> Drawing<'a> {
     }
 
     pub fn write(&self) -> Result<()> {
-        sheet::draw(self.path, &self.sheets)
+        sheets::draw(self.path, &self.sheets)
     }
 }

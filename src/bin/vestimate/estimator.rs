@@ -15,10 +15,8 @@ use vfold::{Error, Result};
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
 use super::said::{self, Deviations};
-use super::settings::{Fit, NoiseSd, Smoothness};
+use super::settings::{Fit, MUNSELL, NoiseSd, Smoothness};
 
-/// The prior whose classes are known.
-pub const MUNSELL: &str = "munsell";
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
 /// Least change that counts, in standard deviations.

@@ -87,7 +87,7 @@ impl FlatEstimator {
             Some(Smoothness::Weight(weight)) => weight,
             _ => method.smoothness,
         };
-        let basis_name = basis.clone().unwrap_or_else(|| super::estimator::MUNSELL.to_owned());
+        let basis_name = basis.clone().unwrap_or_else(|| super::settings::MUNSELL.to_owned());
         let basis = args.common.reflectances(&basis_name)?;
         Ok(Some(Self { method, components: components.map(usize::from), basis, basis_name, smoothness }))
     }

@@ -88,7 +88,7 @@ struct Args {
 impl Args {
     /// What is known of reflectances beforehand.
     fn prior(&self) -> &str {
-        self.prior.as_deref().unwrap_or(estimator::MUNSELL)
+        self.prior.as_deref().unwrap_or(settings::MUNSELL)
     }
 
     /// Whether estimates know how far off they may be.

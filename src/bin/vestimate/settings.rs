@@ -4,6 +4,9 @@ use clap::ValueEnum;
 use vfold::estimate::Exposure;
 use vfold::estimate::unknowns::Quantity;
 
+/// The prior whose classes are known, and the default.
+pub const MUNSELL: &str = "munsell";
+
 /// Where the standard deviations of facets come from.
 #[derive(Clone, Copy)]
 pub enum NoiseSd {

@@ -17,7 +17,7 @@ use vfold::Result;
 use vfold::cli::{self, Common, ToolArgs};
 use vfold::colorimetry::Observer;
 use vfold::plot::spectra::CURVES_MAX;
-use vfold::plot::{batch, sheet};
+use vfold::plot::{batch, sheets};
 use vfold::report::{self, Gallery, SECTIONS_MAX, View};
 use vfold::score::Summary;
 use vfold::spectrum::formats::{check_ending, write};
@@ -153,7 +153,7 @@ fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Resul
         Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {
             batch::draw(path, &gallery.batch(all)?)?;
         }
-        Some(path) => sheet::draw(path, &gallery.sheets(&view)?)?,
+        Some(path) => sheets::draw(path, &gallery.sheets(&view)?)?,
         None => {}
     }
     args.report.as_ref().map_or(Ok(()), |path| report::write(path, gallery, all, &view))
