@@ -1,5 +1,5 @@
 //! Runs every `tests/golden/*.sh` in a fresh folder and compares what it prints with the `.out` beside it: text exactly,
-//! numbers to 1e-9 of the larger (1e-12 near zero; outside JSON also by one unit of the last decimal), or as the script's
+//! numbers to 1e-10 of the larger (1e-12 near zero; outside JSON also by one unit of the last decimal), or as the script's
 //! first line `# tolerance RELATIVE ABSOLUTE` says. `GOLDEN=write cargo test --test golden` rewrites; read the diff.
 
 // a test stops at the first surprise
@@ -35,7 +35,7 @@ impl Tolerance {
     fn of(script: &str) -> Self {
         let first = script.lines().next().unwrap_or_default();
         let Some(numbers) = first.strip_prefix("# tolerance ") else {
-            return Self { relative: 1e-9, absolute: 1e-12 };
+            return Self { relative: 1e-10, absolute: 1e-12 };
         };
         let (relative, absolute) = numbers.split_once(' ').unwrap();
         Self { relative: relative.parse().unwrap(), absolute: absolute.parse().unwrap() }

@@ -1,6 +1,6 @@
-//! A fresh folder in which shell lines run with the five tools first on PATH.
+//! A fresh folder in which shell lines run with the five tools first on PATH: those of the tests, or those in the folder `TOOLS`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
@@ -23,9 +23,10 @@ impl Workdir {
 
     /// Runs a script with `sh -eu`.
     pub fn sh(&self, script: &str) -> Ended {
-        let tools = Path::new(env!("CARGO_BIN_EXE_vkernel")).parent().unwrap();
+        let built = Path::new(env!("CARGO_BIN_EXE_vkernel")).parent().unwrap().to_owned();
+        let tools = std::env::var_os("TOOLS").map_or(built, PathBuf::from);
         let others = std::env::var_os("PATH").unwrap_or_default();
-        let path = std::iter::once(tools.to_owned()).chain(std::env::split_paths(&others));
+        let path = std::iter::once(tools).chain(std::env::split_paths(&others));
         let run = Command::new("sh")
             .args(["-eu", "-c", script])
             .current_dir(self.0.path())
