@@ -17,7 +17,7 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 ///   [0, 1].
 ///
 /// # Errors
-/// [`Error::Picture`] for another ending, a number that is not finite, or if there are not width x height x 3 numbers;
+/// [`Error::Picture`] for another ending, a number that is not finite in single precision, or if there are not width x height x 3 numbers;
 /// [`Error::File`] if the file cannot be written.
 ///
 /// # Example
@@ -125,9 +125,10 @@ fn buffer<T: image::Primitive>(
 where
     Rgb<T>: image::Pixel<Subpixel = T>,
 {
-    if let Some(k) = rgb.iter().position(|value| !value.is_finite()) {
+    // pictures hold single precision at most
+    if let Some(k) = rgb.iter().position(|value| !(*value as f32).is_finite()) {
         let problem = format!("number {k} of the picture's RGB is {}", rgb[k]);
-        return Err(Error::picture(path, problem, "look for zero or infinite input"));
+        return Err(Error::picture(path, problem, "look for zero, infinite or huge input"));
     }
     let size = (u32::try_from(width).ok().zip(u32::try_from(height).ok()))
         .filter(|_| width * height * 3 == rgb.len());

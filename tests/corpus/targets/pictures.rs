@@ -52,10 +52,14 @@ fn assert_measured(photograph: &Photograph) {
     }
 }
 
-/// Light written as OpenEXR is read again, in single precision.
+/// Light written as OpenEXR is read again, in single precision, which it must fit.
 fn assert_read_again(width: usize, height: usize, lights: &[f64]) {
+    let fits = lights.iter().all(|light| (*light as f32).is_finite());
     with_file("b.exr", &[], |path| {
-        write_linear(path, width, height, lights).unwrap();
+        assert_eq!(write_linear(path, width, height, lights).is_ok(), fits);
+        if !fits {
+            return;
+        }
         let again = Photograph::open(path, &ReadOptions::default()).unwrap();
         for (k, light) in lights.chunks(3).enumerate() {
             let wanted = std::array::from_fn(|channel| f64::from(light[channel] as f32));
