@@ -11,6 +11,8 @@ use crate::solve::dot;
 const FUNCTIONS_MAX: usize = 2000;
 /// Share of the tolerance below which a function is left out at first.
 const LEAST_WEIGHT: f64 = 0.1;
+/// Functions that weigh less are rounding.
+const ROUNDING: f64 = 1e-16;
 
 /// The exchange between functions that are each zero outside one part, by Galerkin's method: right for every reflectance of the
 /// parts, so that what is left to do in a waveband has little to do with the number of patches.
@@ -57,6 +59,11 @@ impl ReducedExchange {
             let functions = Functions::of(exchange, &part_of, &starts, least)?;
             if functions.residual(&starts)? <= tolerance {
                 return Ok(functions.reduce(exchange, &starts, tolerance));
+            }
+            if least < ROUNDING {
+                let problem =
+                    format!("the bounces are not found to {tolerance:e}: ask for a larger tolerance");
+                return Err(Error::Numeric(problem));
             }
             least *= 0.1;
         }
