@@ -12,6 +12,7 @@ mod targets;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::ProptestConfig;
+use proptest::test_runner::RngSeed;
 
 /// The kept inputs of a target.
 fn kept(target: &str) -> Vec<PathBuf> {
@@ -21,10 +22,17 @@ fn kept(target: &str) -> Vec<PathBuf> {
     files
 }
 
-/// So many cases, or as many as the environment asks for.
+/// So many cases, the same in every run, or as many as the environment asks for, others in every run: chance looks for faults where
+/// somebody waits for what it finds.
 fn cases(few: u32) -> ProptestConfig {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
-    ProptestConfig { cases: asked.unwrap_or(few), failure_persistence: None, ..ProptestConfig::default() }
+    let rng_seed = if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(0) };
+    ProptestConfig {
+        cases: asked.unwrap_or(few),
+        failure_persistence: None,
+        rng_seed,
+        ..ProptestConfig::default()
+    }
 }
 
 #[test]
