@@ -19,7 +19,7 @@ sys.exit(os.waitstatus_to_exitcode(status))
 
 const SETUP: &str = r"
 export LC_ALL=C.UTF-8 TERM=xterm PYTHONCOERCECLOCALE=0
-unset NO_COLOR CLICOLOR CLICOLOR_FORCE
+unset NO_COLOR CLICOLOR CLICOLOR_FORCE CI
 vkernel --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24:red --noise-sd 1e-3 -o samples.ndjson
 vestimate samples.ndjson -o estimates.ndjson
