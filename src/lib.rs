@@ -52,6 +52,7 @@ pub mod forward;
 pub mod geometry;
 pub mod image;
 pub mod kernel;
+pub mod markup;
 pub mod message;
 pub mod parallel;
 pub mod plot;

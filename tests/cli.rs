@@ -11,21 +11,8 @@ use serde_json::{Value, json};
 
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
-/// Leaves a scene, samples, estimates and a photograph, and a command that knows the photograph's corners.
-const SETUP: &str = concat!(
-    "cp '",
-    env!("CARGO_MANIFEST_DIR"),
-    "/tests/data/photos/a_ideal_magenta_50.exr' photo.exr",
-    r#"
-vkernel --angle-deg 50 --facets 2x2 -o scene.json
-vforward scene.json --reflectance cc24 --noise-sd 1e-3 -o samples.ndjson
-vestimate samples.ndjson -o estimates.ndjson
-extract() {
-    vextract "$@" --scene scene.json --camera canon-5d-mark-ii \
-        --panel0 "332,462 345,77 122,12 104,442" --panel1 "332,462 345,77 485,17 472,446"
-}
-"#
-);
+/// Leaves what the runs need.
+const SETUP: &str = include_str!("common/setup.sh");
 
 /// Each tool at work on what [`SETUP`] leaves.
 const RUNS: [&str; 5] = [

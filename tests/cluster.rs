@@ -3,11 +3,9 @@
 //! A test whose scheduler is not installed says so and passes; `tests/run` installs them.
 
 // a test stops at the first surprise
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
+#![allow(clippy::unwrap_used)]
 
 mod common;
-
-use std::process::Command;
 
 use common::Workdir;
 
@@ -29,12 +27,9 @@ const SETUP: &str = concat!(
     "#
 );
 
+/// Whether a program is there.
 fn is_there(program: &str) -> bool {
-    let found = Command::new("sh").args(["-c", &format!("command -v {program}")]).output().unwrap();
-    if !found.status.success() {
-        eprintln!("{program} is not installed: not tested");
-    }
-    found.status.success()
+    Workdir::new().can(&format!("command -v {program}"), "what it deals out to many machines")
 }
 
 /// Runs a script after [`SETUP`]; it must print `says` and end well.

@@ -10,7 +10,7 @@ use plotters::style::register_font;
 use super::bitmap::Bitmap;
 use crate::error::{Error, Result};
 use crate::files::Saved;
-use crate::image::write_srgb_png;
+use crate::image::png_bytes;
 
 /// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
 pub const COLOURS: [RGBColor; 7] = [
@@ -95,8 +95,7 @@ fn png(path: &Path, figure: &impl Figure) -> Result<()> {
     let mut pixels = vec![0; 3 * (width * height) as usize];
     draw_on(BitMapBackend::with_buffer(&mut pixels, (width, height)), figure).map_err(undrawable)?;
     figure.bitmaps().iter().for_each(|bitmap| bitmap.paint(&mut pixels, width));
-    let rgb: Vec<f64> = pixels.iter().map(|byte| f64::from(*byte) / 255.0).collect();
-    write_srgb_png(path, width as usize, height as usize, &rgb)
+    Saved::write(path, &png_bytes(width, height, pixels)?)
 }
 
 /// Makes the font of all drawings, "sans-serif", known to plotters, which measures text in it; again does no harm.

@@ -5,6 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::figure::{Drawn, FONT};
+use crate::markup::printable;
 
 /// Size of words, px.
 pub(super) const SIZE: i32 = 14;
@@ -63,11 +64,6 @@ pub(super) fn number(value: f64) -> String {
     } else {
         format!("{value:.2e}")
     }
-}
-
-/// The text without characters that no XML may hold or that are no letters.
-fn printable(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Elements of a page. Text becomes part of one by being escaped: names of samples may hold anything.
 
+use crate::markup::escaped;
+
 /// A piece of a page.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Html(String);
@@ -76,24 +78,6 @@ impl From<Vec<Self>> for Html {
 
 fn written(attributes: &[(&str, &str)]) -> String {
     attributes.iter().map(|(name, value)| format!(" {name}=\"{}\"", escaped(value))).collect()
-}
-
-/// Text without markup, and without characters that no page may hold.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            '\n' | '\t' => escaped.push(' '),
-            _ if letter.is_control() => escaped.push('\u{fffd}'),
-            _ => escaped.push(letter),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

@@ -34,6 +34,16 @@ impl Workdir {
             .output();
         Ended::from(run.unwrap())
     }
+
+    /// Whether a line runs, as it does where a program is installed; if not, says what is left out. `tests/run` brings what it can.
+    #[allow(dead_code, clippy::print_stdout)] // for the tests that need more than the tools
+    pub fn can(&self, line: &str, otherwise: &str) -> bool {
+        let can = self.sh(line).status == 0;
+        if !can {
+            println!("left out, '{line}' fails: {otherwise}");
+        }
+        can
+    }
 }
 
 impl From<Output> for Ended {

@@ -1,7 +1,7 @@
 //! Disks that fill up under a file: the old one stays, nothing is left beside it, and one line says so.
 
 use crate::common::Workdir;
-use crate::{RUNS, assert_one_line, can, ready, sh};
+use crate::{RUNS, assert_one_line, ready, sh};
 
 /// Every file that a tool can write, as `old`.
 const FILES: [(&str, &str); 16] = [
@@ -58,7 +58,7 @@ fn a_disk_that_fills_up() {
                 mount -t tmpfs -o size=64k tmpfs disk; {script}'"
         )
     };
-    if !can(&folder, &mounted("true"), "a tmpfs that fills up: no right to mount one") {
+    if !folder.can(&mounted("true"), "a tmpfs that fills up, which takes the right to mount one") {
         return;
     }
     for (tool, run) in FILES {

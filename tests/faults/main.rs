@@ -1,8 +1,8 @@
 //! What machines do to programs: streams that close, disks that fill, signals, files that may not be read, lines and streams
 //! without end. Whatever happens, a file under the wanted name is whole, and the exit status says what became of it.
 
-// a test stops at the first surprise, and says what it leaves out
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+// a test stops at the first surprise
+#![allow(clippy::unwrap_used)]
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -30,22 +30,8 @@ const READERS: [(&str, &str); 3] = [
     ("vscore", "estimates.ndjson"),
 ];
 
-/// Leaves a scene, samples, estimates, a photograph and a command that knows its corners, in a folder that all may enter.
-const SETUP: &str = concat!(
-    "chmod 755 .\ncp '",
-    env!("CARGO_MANIFEST_DIR"),
-    "/tests/data/photos/a_ideal_magenta_50.exr' photo.exr",
-    r#"
-vkernel --angle-deg 50 --facets 2x2 -o scene.json
-vforward scene.json --reflectance cc24 --noise-sd 1e-3 -o samples.ndjson
-vestimate samples.ndjson -o estimates.ndjson
-cat > extract <<'END'
-exec vextract "$@" --scene "${scene:-scene.json}" --camera canon-5d-mark-ii \
-    --panel0 "332,462 345,77 122,12 104,442" --panel1 "332,462 345,77 485,17 472,446"
-END
-extract() { sh extract "$@"; }
-"#
-);
+/// Leaves what the runs need.
+const SETUP: &str = include_str!("../common/setup.sh");
 
 /// A folder after [`SETUP`].
 fn ready() -> Workdir {
@@ -64,13 +50,4 @@ fn sh(folder: &Workdir, script: &str) -> Ended {
 fn assert_one_line(run: &Ended, tool: &str, status: i32, says: &str, script: &str) {
     let is_one = run.stderr.lines().count() == 1 && run.stderr.starts_with(&format!("{tool}: "));
     assert!(run.status == status && is_one && run.stderr.contains(says), "{script}: {run:?}");
-}
-
-/// Whether a script runs at all; if not, a line says what is left out.
-fn can(folder: &Workdir, script: &str, otherwise: &str) -> bool {
-    let can = folder.sh(script).status == 0;
-    if !can {
-        println!("left out: {otherwise}");
-    }
-    can
 }

@@ -1,6 +1,6 @@
 //! Files and folders that may not be read or written.
 
-use crate::{assert_one_line, can, ready, sh};
+use crate::{assert_one_line, ready, sh};
 
 /// Runs that meet a file without rights, and what they call it.
 const RUNS: [(&str, &str, &str); 14] = [
@@ -34,11 +34,7 @@ fn a_file_that_may_not_be_read_or_written() {
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     // Rights mean nothing to a superuser.
     let nobody = "nobody() { if [ $(id -u) = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups \"$@\"; else \"$@\"; fi; }";
-    if !can(
-        &folder,
-        &format!("{nobody}; nobody vkernel --version"),
-        "files that may not be read: nobody cannot run the tools",
-    ) {
+    if !folder.can(&format!("{nobody}; nobody vkernel --version"), "files that may not be read") {
         return;
     }
     for (tool, line, says) in RUNS {

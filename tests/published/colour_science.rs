@@ -51,8 +51,7 @@ for light, observer in ("D65", "CIE 1964 10 Degree Standard Observer"), ("A", "C
 #[test]
 fn all_munsell_chips_are_scored_alike() {
     let folder = Workdir::new();
-    if folder.sh("python3 -c 'import colour'").status != 0 {
-        println!("colour-science is not there: Munsell chips are not judged by it (tests/run brings it)");
+    if !folder.can("python3 -c 'import colour'", "scores of the Munsell chips") {
         return;
     }
     let run = folder.sh(&format!("{ESTIMATES}cat > judge.py <<'END'{JUDGE}END\npython3 judge.py"));

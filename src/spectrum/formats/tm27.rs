@@ -10,6 +10,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::{Place, Spectrum, Table, units};
 use crate::error::Result;
+use crate::markup::escaped;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
@@ -118,12 +119,6 @@ pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectanc
          </IESTM2714>\n",
         escaped(name)
     )
-}
-
-/// A text as XML has it, which knows no control characters.
-fn escaped(text: &str) -> String {
-    let no_xml = |letter: char| letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}');
-    text.replace(no_xml, "_").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]
