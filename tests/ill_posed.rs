@@ -110,3 +110,29 @@ fn brightness_is_no_precision() {
         }
     }
 }
+
+/// What one or two channels see may be spectra of many kinds: the largest error of all patches, in standard deviations a waveband.
+#[test]
+fn few_channels_are_no_precision() {
+    let folder = Workdir::new();
+    let tables = folder.sh(
+        r"
+        { echo wavelength,grey; for nm in $(seq 380 5 780); do echo $nm,1; done; } > one.csv
+        { echo wavelength,short,long
+          for nm in $(seq 380 5 780); do echo $nm,$((nm < 560 ? 9 : 1)),$((nm < 560 ? 1 : 9)); done; } > two.csv",
+    );
+    assert_eq!((tables.status, tables.stderr.as_str()), (0, ""));
+    for camera in ["one.csv", "two.csv"] {
+        for exposure in ["1", "free"] {
+            let line = format!(
+                "vkernel | vforward --camera {camera} --reflectance cc24 --noise-sd 1e-3 | vestimate -q --exposure {exposure}"
+            );
+            let run = folder.sh(&line);
+            assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{line}");
+            let samples: Vec<Value> =
+                run.stdout.lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect();
+            let off = samples.iter().map(|sample| errors(sample)[1]).fold(0.0, f64::max);
+            assert!(samples.len() == 24 && off < 10.0, "{line}: {off}");
+        }
+    }
+}

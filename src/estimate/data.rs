@@ -143,6 +143,12 @@ impl<'a> FacetData<'a> {
         (self.values.len(), self.count)
     }
 
+    /// Channels of the camera in all lights together.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.channels.0.len()
+    }
+
     /// Root mean square of all residuals, those outside the compressed data included.
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {

@@ -1,15 +1,16 @@
 //! The default: the most probable spectrum, given the facets and what is known of reflectances.
 //!
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Which classes the facets may belong to is told from all spectra as one Gaussian and the model linearised where that
-//! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
-//! gives error bars (Laplace's approximation), wider where classes disagree or facets are further from the model than their noise.
+//! Newton's method finds the maximum in whitened z under each class that the facets may belong to ([`starts`](super::starts)), the
+//! evidence there chooses, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or facets
+//! are further from the model than their noise.
 
-use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::data::FacetData;
-use super::facets::{ByLogit, Facets, Second, whitened};
-use super::prior::{Class, Prior};
+use super::facets::{Facets, Second};
+use super::prior::Prior;
+use super::starts::starts;
 use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -22,9 +23,6 @@ const ITERATION_LIMIT: usize = 500;
 /// the maximum under all spectra.
 const SORTING_NOISE: f64 = 1e-3;
 const SORTING_TOLERANCE: f64 = 0.3;
-/// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
-const CLASSES_TRIED: usize = 3;
-const LN_EVIDENCE_LEAST: f64 = -4.0;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
@@ -57,10 +55,9 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
-    let found = starts.into_iter().map(|start| {
+    let found = starts(&all, &sorted.w, prior, inflation).into_iter().map(|start| {
         let facets = Facets { data, gaussian: &start.class.gaussian };
-        let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
+        let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
         let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
         Found::new(&facets, &solution, evidence)
     });
@@ -164,39 +161,4 @@ impl Found {
             termination: self.termination,
         }
     }
-}
-
-/// A class that the facets may belong to, and where to set out under it.
-struct Start<'a> {
-    class: &'a Class,
-    w: DVector<f64>,
-    ln_evidence: f64,
-}
-
-/// The classes of most evidence, the model taken to be linear and the noise inflated.
-fn likely<'a>(prior: &'a Prior, about: &ByLogit, inflation: f64) -> Vec<Start<'a>> {
-    let mut starts: Vec<Start> =
-        prior.classes().iter().filter_map(|class| linear(class, about, inflation)).collect();
-    starts.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
-    starts.truncate(CLASSES_TRIED);
-    let least = starts.first().map_or(0.0, |best| best.ln_evidence + LN_EVIDENCE_LEAST);
-    starts.retain(|start| start.ln_evidence >= least);
-    starts
-}
-
-/// Mean of the linear posterior under a class, and its evidence; none if the numbers are not finite.
-fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<Start<'a>> {
-    let weight = inflation.powi(-2);
-    let gaussian = &class.gaussian;
-    let jacobian = whitened(&about.jacobian, gaussian);
-    let (bands, unknowns) = (about.logit.len(), about.unknowns.len());
-    let residuals = &about.residuals
-        + about.jacobian.columns(0, bands) * (&about.logit - gaussian.mean())
-        + about.jacobian.columns(bands, unknowns) * &about.unknowns;
-    let mut information = weight * (jacobian.transpose() * &jacobian);
-    (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
-    let factor = Cholesky::new(information)?;
-    let w = factor.solve(&(weight * jacobian.tr_mul(&residuals)));
-    let cost = weight * (residuals - jacobian * &w).norm_squared() + w.norm_squared();
-    Some(Start { class, w, ln_evidence: class.ln_share - 0.5 * (cost + factor.ln_determinant()) })
 }

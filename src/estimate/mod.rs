@@ -15,6 +15,7 @@ pub mod noise;
 pub mod park;
 pub mod prior;
 pub mod smooth;
+mod starts;
 pub mod unknowns;
 
 use nalgebra::DMatrix;
