@@ -46,28 +46,22 @@ impl Rows {
     /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f at the nodes:
     /// node by (m, n), n fast.
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2], nodes: &Nodes) -> DMatrix<f64> {
-        let (order, count) = (self.order, nodes.len());
-        let mut weights = DMatrix::zeros(order * order, count);
-        let (mut of_a, mut inner) = (vec![0.0; order], vec![0.0; order * count]);
-        for [low, high] in self.pieces(a, b) {
-            for (s, weight) in self.rule.on(low, high) {
-                polynomials(a, s, &mut of_a);
-                inner.fill(0.0);
-                self.integrate(s, b, nodes, &mut inner);
-                of_a.iter_mut().for_each(|p| *p *= weight);
-                let columns = weights.as_mut_slice().chunks_exact_mut(order * order);
-                for (column, inner) in columns.zip(inner.chunks_exact(order)) {
-                    // Most distances are not those of this point.
-                    if inner[0] == 0.0 {
-                        continue;
-                    }
-                    for (weights, p) in column.chunks_exact_mut(order).zip(&of_a) {
-                        weights.iter_mut().zip(inner).for_each(|(weight, value)| *weight += p * value);
-                    }
-                }
-            }
+        let order = self.order;
+        let pieces = self.pieces(a, b).into_iter();
+        let points: Vec<_> = pieces.flat_map(|[low, high]| self.rule.on(low, high)).collect();
+        // A column a point s: φ_m(s), m fast, and the integrals over t, n fast.
+        let mut of_a = DMatrix::zeros(order, points.len());
+        let mut inner = DMatrix::zeros(order * nodes.len(), points.len());
+        let columns = of_a.column_iter_mut().zip(inner.column_iter_mut());
+        for ((s, weight), (mut of_a, mut inner)) in points.into_iter().zip(columns) {
+            polynomials(a, s, of_a.as_mut_slice());
+            of_a *= weight;
+            self.integrate(s, b, nodes, inner.as_mut_slice());
         }
-        weights.transpose()
+        let weights = inner * of_a.transpose();
+        DMatrix::from_fn(nodes.len(), order * order, |node, mn| {
+            weights[(node * order + mn % order, mn / order)]
+        })
     }
 
     /// The integral over t for one s: node by n.
