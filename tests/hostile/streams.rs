@@ -127,10 +127,31 @@ fn samples() {
         (r#"2s/"facet_rgb":/"facet_sd":[[1,1,1]],&/"#, "1 facets, but facet_rgb has 8"),
         (r#"2s/"facet_rgb":/"facet_sd":[[-1,1,1]],&/"#, "-1e0 cannot be"),
     ] {
-        let run = folder.sh(&format!("sed '{edit}' good.ndjson | vestimate"));
-        assert_eq!((run.status, run.stderr.as_str(), run.stdout.lines().count()), (3, "", 2), "{edit}");
-        let sample: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
-        let error = sample["error"].as_str().unwrap();
-        assert!(error.contains(says), "{edit}: {error}");
+        assert_marked(&folder, &format!("sed '{edit}' good.ndjson | vestimate"), says);
     }
+}
+
+/// So does an estimate that cannot be scored.
+#[test]
+fn estimates() {
+    let folder = Workdir::new();
+    folder.sh(&format!("{STREAM}\nvestimate good.ndjson -o estimated.ndjson"));
+    for (edit, flags, says) in [
+        ("s/\"estimate\":/\"guess\":/", "", "run the samples through vestimate first"),
+        ("2s/\\(\"estimate\".*\"wavelengths_nm\":\\[\\)400/\\1401/", "", "estimate it again"),
+        ("s/\"truth\":/\"guess\":/", "", "give --truth SPEC"),
+        ("", "--truth cc24", "--truth has no member '0.5' among its 24"),
+    ] {
+        assert_marked(&folder, &format!("sed '{edit}' estimated.ndjson | vscore {flags}"), says);
+    }
+}
+
+/// The one sample of a stream goes out with an error that says so.
+fn assert_marked(folder: &Workdir, line: &str, says: &str) {
+    // vscore's summary comes after them
+    let run = folder.sh(&format!("status=0; {line} > out || status=$?; head -n 2 out; exit $status"));
+    assert_eq!((run.status, run.stderr.as_str(), run.stdout.lines().count()), (3, "", 2), "{line}");
+    let sample: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
+    let error = sample["error"].as_str().unwrap();
+    assert!(error.contains(says), "{line}: {error}");
 }
