@@ -197,6 +197,16 @@ fn threads_change_no_byte() {
     }
 }
 
+/// The variance of pairs of points at the crease is infinite, so that their standard error says too little.
+#[test]
+fn a_kernel_that_misleads_says_so() {
+    let kernel = "vkernel --method monte-carlo --samples 100 --facets 2x2";
+    let said = |flags: &str| after_setup(&format!("{kernel} {flags} > scene")).stderr;
+    assert!(said("").contains("form factors have standard errors of up to"));
+    assert!(said("--check || :").contains("--sampling cosine has a finite one"));
+    assert_eq!((said("-q"), said("--sampling cosine")), (String::new(), String::new()));
+}
+
 #[test]
 fn quiet_is_silent_and_verbose_is_not() {
     let render = "vforward scene.json --reflectance 0.5 --render again.exr --render-size 40x30 -o out.ndjson";

@@ -49,13 +49,16 @@ struct Solution {
 /// [`Error::Usage`] if not even the first solutions fit.
 pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
     let start = COARSEST.min(AIM * tolerance * STEP);
-    let (Some(coarse), Some(mut fine)) = (solve(fold, start, 1)?, solve(fold, start / STEP, 1)?) else {
-        return Err(Error::usage(
+    let too_fine = || {
+        Error::usage(
             "--tolerance",
             format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
-        ));
+        )
     };
+    // The finer one first: if it is too fine, nothing has been solved for nothing.
+    let mut fine = solve(fold, start / STEP, 1)?.ok_or_else(too_fine)?;
+    let coarse = solve(fold, start, 1)?.ok_or_else(too_fine)?;
     let mut error = believed(&coarse, &fine);
     while error > tolerance
         && let Some(finer) = solve(fold, 0.9 * tolerance / error * fine.aim, fine.response.poles().len())?
