@@ -11,6 +11,8 @@ pub enum Item<I, O> {
     Known(O),
     /// What it is worked out from.
     ToDo(I),
+    /// Nothing: so much less is ahead while what comes before it is in memory, because that is large.
+    Place,
 }
 
 /// Does `work` on items on all threads and hands the results to `done` in the order of the items, each as soon as it and
@@ -38,7 +40,7 @@ pub fn in_order<I: Send, O: Send>(
 ) -> Result<()> {
     let work = &work;
     // The result that is waited for is out of the queue.
-    let (queue, results) = sync_channel::<Receiver<O>>(ahead - 1);
+    let (queue, results) = sync_channel::<Receiver<Option<O>>>(ahead - 1);
     thread::scope(|threads| {
         let draw = move || {
             rayon::in_place_scope(|jobs| {
@@ -49,15 +51,16 @@ pub fn in_order<I: Send, O: Send>(
                     }
                     // Nobody waits for a result after an error.
                     match item {
-                        Item::Known(known) => drop(result.send(known)),
-                        Item::ToDo(item) => jobs.spawn(move |_| drop(result.send(work(item)))),
+                        Item::Place => drop(result.send(None)),
+                        Item::Known(known) => drop(result.send(Some(known))),
+                        Item::ToDo(item) => jobs.spawn(move |_| drop(result.send(Some(work(item))))),
                     }
                 }
             });
         };
         threads.spawn(draw);
         // A place stays empty if its work panicked: the scope passes that on.
-        results.into_iter().map_while(|place| place.recv().ok()).try_for_each(&mut done)
+        results.into_iter().map_while(|place| place.recv().ok()).flatten().try_for_each(&mut done)
     })
 }
 

@@ -45,6 +45,8 @@ mod shared_noise;
 mod sites;
 mod tally;
 mod thumbnail;
+#[cfg(feature = "raw")]
+mod tiff_directories;
 mod transfer;
 mod write;
 

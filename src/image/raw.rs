@@ -18,6 +18,7 @@ use super::orientation::Orientation;
 use super::photograph::Photograph;
 use super::scale::ReadOptions;
 use super::sensor::Sensor;
+use super::tiff_directories;
 use super::transfer::Transfer;
 use crate::{Error, Result};
 
@@ -45,6 +46,10 @@ struct Decoded {
 
 /// Decodes a file. The decoders stop at some damaged files with a panic: that is told like their other errors.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
+    let failed = |message: &str| Error::picture(path, one_line(message), DAMAGED);
+    if let Some(fault) = tiff_directories::fault(&bytes) {
+        return Err(failed(&fault));
+    }
     let source = RawSource::new_from_shared_vec(Arc::new(bytes)).with_path(path);
     let decode = || -> std::result::Result<Decoded, RawlerError> {
         let (decoder, parameters) = (rawler::get_decoder(&source)?, RawDecodeParams::default());
@@ -52,7 +57,6 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
         let exif = decoder.raw_metadata(&source, &parameters)?.exif;
         Ok(Decoded { image, exif, is_dng: decoder.format_hint() == FormatHint::DNG })
     };
-    let failed = |message: &str| Error::picture(path, one_line(message), DAMAGED);
     let decoded = without_panic_messages(|| panic::catch_unwind(AssertUnwindSafe(decode)))
         .map_err(|payload| failed(panic_message(payload.as_ref())))?
         .map_err(|error| match error {

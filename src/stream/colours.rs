@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Sample;
 use super::fields::{LARGEST, finite};
@@ -13,11 +13,8 @@ use crate::error::{Error, Result};
 pub type Colours = Vec<Option<Vec<f64>>>;
 
 /// A number a channel, in the order of the camera's; null for a facet that was not measured.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[serde(
-    untagged,
-    expecting = "needs lists of numbers, a facet each, or a list of such lists, a picture each"
-)]
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
 pub(super) enum ColoursRecord {
     /// Of one picture: `[facet][channel]`.
     Picture(Colours),
@@ -61,13 +58,17 @@ impl Sample {
 
     /// A field, pictures beside each other.
     fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<Colours>> {
-        let facets = match self.fields.get(name)? {
-            None => None,
-            Some(ColoursRecord::Picture(facets)) => Some(facets),
-            Some(ColoursRecord::Pictures(pictures)) => Some(beside_each_other(name, &pictures)?),
+        let facets = match self.fields.get(name) {
+            Ok(facets) => facets,
+            Err(_) => Some(beside_each_other(name, &self.pictures(name)?)?),
         };
         facets.as_ref().map_or(Ok(()), |facets| within(name, facets, range))?;
         Ok(facets)
+    }
+
+    fn pictures(&self, name: &str) -> Result<Vec<Colours>> {
+        let needs = "needs lists of numbers, a facet each, or a list of such lists, a picture each";
+        self.fields.require(name, "").map_err(|_| Error::field(name, needs))
     }
 }
 
@@ -111,7 +112,7 @@ mod tests {
         let mut sample = Sample::new("fold", "sheet").unwrap();
         let rgb: Colours = vec![Some(vec![0.1, 0.2, 0.3, 0.4]), None];
         sample.set_facets(&rgb, None, 2).unwrap();
-        assert_eq!(sample.fields.0["facet_rgb"], json!([[[0.1, 0.2], null], [[0.3, 0.4], null]]));
+        assert_eq!(sample.fields.text("facet_rgb"), Some("[[[0.1,0.2],null],[[0.3,0.4],null]]"));
         assert_eq!(sample.facet_rgb().unwrap(), rgb);
     }
 

@@ -201,7 +201,7 @@ impl Sample {
     fn noise_record(&self, noise: &Noise) -> NoiseRecord {
         let from = match noise.sd {
             Some(_) => NoiseSource::Flag,
-            None if self.fields.0.get("facet_sd").is_some_and(|sd| !sd.is_null()) => NoiseSource::FacetSd,
+            None if self.fields.has("facet_sd") => NoiseSource::FacetSd,
             None => NoiseSource::Facets,
         };
         NoiseRecord { from, model_error: noise.model_error, sd: noise.sd }
@@ -225,8 +225,8 @@ impl Sample {
     /// Whether this is what an estimate, or the attempt of one, made of `measured`.
     #[must_use]
     pub fn is_estimate_of(&self, measured: &Self) -> bool {
-        let same = |name: &&str| self.fields.0.get(*name) == measured.fields.0.get(*name);
-        let is_done = ["estimate", "error"].iter().any(|name| self.fields.0.contains_key(*name));
+        let same = |name: &&str| self.fields.text(name) == measured.fields.text(name);
+        let is_done = ["estimate", "error"].iter().any(|name| self.fields.text(name).is_some());
         is_done && ["id", "scene", "facet_rgb", "facet_sd", "exposure"].iter().all(same)
     }
 

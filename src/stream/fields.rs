@@ -1,8 +1,15 @@
 //! A record as a bag of named fields, in the order they came.
+//!
+//! A field stays the text that it came as until somebody asks what it says: what passes through takes no more memory than its line,
+//! and comes out as it went in.
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
+use serde_json::value::{RawValue, to_raw_value};
 
 use crate::error::{Error, Result};
 
@@ -12,9 +19,16 @@ pub(super) const LARGEST: f64 = 1e30;
 /// What to do where a part of a scene is missing.
 pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
 
+/// Most fields of a record; those of the tools are two dozen.
+const FIELDS_MAX: usize = 1000;
+
+/// Most values that are read of one field: numbers of full length fill the longest line before. Short ones, `1,1,1`, take many times
+/// the memory of their text.
+const VALUES_MAX: usize = 1 << 26;
+
 /// The fields of one record.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Fields(pub(super) Map<String, Value>);
+#[derive(Clone, Debug, Default)]
+pub struct Fields(Vec<(String, Box<RawValue>)>);
 
 impl Fields {
     /// The fields of a record; the caller has made sure with [`finite`] that its numbers are numbers.
@@ -22,16 +36,33 @@ impl Fields {
     /// # Errors
     /// [`Error::Field`] if it has no form in JSON.
     pub(super) fn of(record: &impl Serialize) -> Result<Self> {
-        match serde_json::to_value(record).map_err(|e| Error::field("kind", e))? {
-            Value::Object(fields) => Ok(Self(fields)),
-            _ => Err(Error::field("kind", "not that of a record")),
-        }
+        let text = to_raw_value(record).map_err(|e| Error::field("kind", e))?;
+        serde_json::from_str(text.get()).map_err(|e| Error::field("kind", problem(&e)))
     }
 
     /// The record's kind, empty if it has none.
     #[must_use]
-    pub fn kind(&self) -> &str {
-        self.0.get("kind").and_then(Value::as_str).unwrap_or("")
+    pub fn kind(&self) -> String {
+        self.raw("kind").and_then(|kind| serde_json::from_str(kind.get()).ok()).unwrap_or_default()
+    }
+
+    /// The names of its fields.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// A field as it stands in the line; none if it is absent.
+    pub(super) fn text(&self, name: &str) -> Option<&str> {
+        self.raw(name).map(RawValue::get)
+    }
+
+    /// Whether a field is there and not null.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.text(name).is_some_and(|text| text != NULL)
+    }
+
+    fn raw(&self, name: &str) -> Option<&RawValue> {
+        self.0.iter().find(|(other, _)| other == name).map(|(_, value)| &**value)
     }
 
     /// A field as a number, text, array or type of the tools; none if it is absent or null.
@@ -39,9 +70,9 @@ impl Fields {
     /// # Errors
     /// [`Error::Field`] if it holds something else.
     pub fn get<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>> {
-        match self.0.get(name) {
-            None | Some(Value::Null) => Ok(None),
-            Some(value) => T::deserialize(value).map(Some).map_err(|e| Error::field(name, e)),
+        match self.raw(name).filter(|value| value.get() != NULL) {
+            None => Ok(None),
+            Some(value) => read(value).map(Some).map_err(|problem| Error::field(name, problem)),
         }
     }
 
@@ -53,14 +84,12 @@ impl Fields {
         self.get(name)?.ok_or_else(|| Error::field(name, format!("missing; {remedy}")))
     }
 
-    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere.
-    pub(super) fn at(&self, path: &str) -> Option<&Value> {
+    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere, or to what is nested too deeply
+    /// or too large to be read.
+    pub(super) fn at(&self, path: &str) -> Option<Value> {
         let mut parts = path.split('.');
-        let first = self.0.get(parts.next()?)?;
-        parts.try_fold(first, |value, part| match value {
-            Value::Array(items) => items.get(part.parse::<usize>().ok()?),
-            other => other.get(part),
-        })
+        let first = self.raw(parts.next()?)?;
+        read(parts.try_fold(first, inner)?).ok()
     }
 
     /// The number, text or truth value at a dotted path, as text; none if there is none.
@@ -79,7 +108,7 @@ impl Fields {
     pub fn text_at(&self, path: &str) -> Result<Option<String>> {
         match self.at(path) {
             None | Some(Value::Null) => Ok(None),
-            Some(Value::String(text)) => Ok(Some(text.clone())),
+            Some(Value::String(text)) => Ok(Some(text)),
             Some(Value::Array(_) | Value::Object(_)) => {
                 Err(Error::field(path, "not one value; name a field within it"))
             }
@@ -92,9 +121,21 @@ impl Fields {
     /// # Errors
     /// [`Error::Field`] if the value has no form in JSON.
     pub fn set(&mut self, name: &str, value: impl Serialize) -> Result<()> {
-        let value = serde_json::to_value(value).map_err(|e| Error::field(name, e))?;
-        self.0.insert(name.to_owned(), value);
+        let value = to_raw_value(&value).map_err(|e| Error::field(name, e))?;
+        self.insert(name.to_owned(), value);
         Ok(())
+    }
+
+    fn insert(&mut self, name: String, value: Box<RawValue>) {
+        match self.0.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, old)) => *old = value,
+            None => self.0.push((name, value)),
+        }
+    }
+
+    /// Takes a field out.
+    pub(super) fn remove(&mut self, name: &str) {
+        self.0.retain(|(other, _)| other != name);
     }
 
     /// Adds an entry to a field that is a list, or makes it; entries that it has stay as they are.
@@ -102,10 +143,88 @@ impl Fields {
     /// # Errors
     /// As [`Fields::set`]; [`Error::Field`] if it is not a list.
     pub(super) fn push(&mut self, name: &str, entry: impl Serialize) -> Result<()> {
-        let mut list: Vec<Value> = self.get(name)?.unwrap_or_default();
-        list.push(serde_json::to_value(entry).map_err(|e| Error::field(name, e))?);
-        self.set(name, list)
+        let entry = to_raw_value(&entry).map_err(|e| Error::field(name, e))?;
+        let list = self.text(name).filter(|text| *text != NULL).unwrap_or("[]");
+        let entries = list.strip_prefix('[').and_then(|list| list.strip_suffix(']'));
+        let entries = entries.ok_or_else(|| Error::field(name, "not a list"))?;
+        let comma = if entries.trim().is_empty() { "" } else { "," };
+        let list = RawValue::from_string(format!("[{entries}{comma}{entry}]"));
+        self.insert(name.to_owned(), list.map_err(|e| Error::field(name, problem(&e)))?);
+        Ok(())
     }
+}
+
+/// Records are alike if they are written alike.
+impl PartialEq for Fields {
+    fn eq(&self, other: &Self) -> bool {
+        self.names().eq(other.names()) && self.names().all(|name| self.text(name) == other.text(name))
+    }
+}
+
+impl Serialize for Fields {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Fields {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        deserializer.deserialize_map(ReadFields)
+    }
+}
+
+struct ReadFields;
+
+impl<'de> Visitor<'de> for ReadFields {
+    type Value = Fields;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Fields, A::Error> {
+        let mut fields = Fields::default();
+        while let Some((name, value)) = map.next_entry()? {
+            if fields.0.len() == FIELDS_MAX {
+                return Err(A::Error::custom(format!("more than {FIELDS_MAX} fields")));
+            }
+            fields.insert(name, value);
+        }
+        Ok(fields)
+    }
+}
+
+const NULL: &str = "null";
+
+/// What a value says; or what is wrong with it.
+fn read<T: DeserializeOwned>(value: &RawValue) -> std::result::Result<T, String> {
+    if !is_readable(value) {
+        return Err(format!("more than {VALUES_MAX} values; take fewer facets or wavelengths"));
+    }
+    serde_json::from_str(value.get()).map_err(|error| problem(&error))
+}
+
+fn is_readable(value: &RawValue) -> bool {
+    let text = value.get().as_bytes();
+    text.len() <= VALUES_MAX || text.iter().filter(|byte| b",[{".contains(byte)).count() <= VALUES_MAX
+}
+
+/// The value of this name in an object, or of this number in a list.
+fn inner<'a>(value: &'a RawValue, part: &str) -> Option<&'a RawValue> {
+    let text = is_readable(value).then(|| value.get())?;
+    if text.starts_with('[') {
+        let items: Vec<&RawValue> = serde_json::from_str(text).ok()?;
+        return items.get(part.parse::<usize>().ok()?).copied();
+    }
+    let mut fields: BTreeMap<String, &RawValue> = serde_json::from_str(text).ok()?;
+    fields.remove(part)
+}
+
+/// What is wrong with JSON, without the place: that in a field tells nobody where to look.
+fn problem(error: &serde_json::Error) -> String {
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let said = error.to_string();
+    said.strip_suffix(&place).unwrap_or(&said).to_owned()
 }
 
 /// Checks that all numbers of a field are finite: JSON has no NaN or infinity, and a null in their place would hide them.

@@ -25,7 +25,8 @@ impl Fields {
     pub fn leaves(&self, path: &str) -> Vec<(String, String)> {
         let mut leaves = Vec::new();
         if path.is_empty() {
-            self.0.iter().for_each(|(name, value)| walk(name.clone(), value, &mut leaves));
+            let values = self.names().filter_map(|name| Some((name, self.get::<Value>(name).ok()??)));
+            values.for_each(|(name, value)| walk(name.to_owned(), &value, &mut leaves));
         } else if let Some(Value::Object(fields)) = self.at(path) {
             fields.iter().for_each(|(name, value)| walk(name.clone(), value, &mut leaves));
         }

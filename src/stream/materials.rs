@@ -62,7 +62,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::model`].
     pub fn surface_model_seen_by(&self, cameras: Vec<CameraResponse>) -> Result<FacetModel> {
-        if self.fields.get::<serde::de::IgnoredAny>("reference_panel")?.is_some() {
+        if self.fields.has("reference_panel") {
             let problem = "panels are those of a fold; say which group is known with --material GROUP=SPEC";
             return Err(Error::field("reference_panel", problem));
         }

@@ -96,13 +96,13 @@ impl Scene {
     /// Whether a camera looks at the fold.
     #[must_use]
     pub fn has_camera(&self) -> bool {
-        self.fields.0.contains_key("camera")
+        self.fields.text("camera").is_some()
     }
 
     /// Whether the colour of the sky is given.
     #[must_use]
     pub fn has_sky_illuminant(&self) -> bool {
-        self.fields.0.get("sky_illuminant").is_some_and(|sky| !sky.is_null())
+        self.fields.has("sky_illuminant")
     }
 
     /// The lights on a fold as the camera responds to them.

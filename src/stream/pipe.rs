@@ -10,6 +10,9 @@ use crate::parallel::{Item, in_order};
 /// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
 const AHEAD: usize = 16;
 
+/// A record takes the place of as many as its line has of these bytes.
+const PLACE_BYTES: usize = 1 << 20;
+
 /// What a tool does to the records that pass through it.
 pub trait Transform {
     /// What samples need of the scene above them.
@@ -50,11 +53,13 @@ pub fn pipe<T: Transform + Sync>(
     let mut context = None;
     let steps = iter::from_fn(|| {
         let step = step(reader, transform, &mut kept, &mut context);
-        step.unwrap_or_else(|error| Some(Item::Known(Err(error))))
+        let step = step.unwrap_or_else(|error| Some(Item::Known(Err(error))))?;
+        let further = iter::repeat_with(|| Item::Place).take(reader.line_bytes() / PLACE_BYTES);
+        Some(iter::once(step).chain(further))
     });
     let finish =
         |(context, sample): (Arc<_>, _)| transformed(transform, &*context, sample).map(Record::Sample);
-    in_order(steps, AHEAD * rayon::current_num_threads(), finish, |record| done(record?))
+    in_order(steps.flatten(), AHEAD * rayon::current_num_threads(), finish, |record| done(record?))
 }
 
 /// Reads a record, and does to it all that is not done in parallel.

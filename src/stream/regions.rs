@@ -65,7 +65,7 @@ pub(super) struct RegionsRecord {
 impl Regions {
     /// The regions that the fields of an object say; `path` is its file, for errors.
     pub(super) fn from_fields(path: &str, fields: &Fields) -> Result<Self> {
-        let names = || fields.0.keys().map(String::as_str);
+        let names = || fields.names();
         if let Some(unknown) = names().find(|name| panel_number(name).is_none() && !FIELDS.contains(name)) {
             let remedy = format!("the fields are panel0, panel1, .., {}", FIELDS.join(", "));
             return Err(Error::regions(path, format!("there is no field '{unknown}'"), remedy));

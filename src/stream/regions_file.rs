@@ -49,11 +49,11 @@ impl RegionsFile {
         }
         let is_list = in_a_list || objects.len() > 1;
         let entry = |(n, object): (usize, Value)| {
-            let Value::Object(map) = object else {
+            if !object.is_object() {
                 let problem = format!("entry {n} is no object");
                 return Err(Error::regions(&path, problem, format!("write {EXAMPLE}")));
-            };
-            Regions::from_fields(&path, &Fields(map))
+            }
+            Regions::from_fields(&path, &Fields::of(&object)?)
         };
         let entries = objects.into_iter().enumerate().map(entry).collect::<Result<Vec<_>>>()?;
         let file = Self { path, entries, is_list };

@@ -22,7 +22,7 @@ impl Sample {
         let (model, measured) = (estimate.scene_model(scene)?, self.facet_rgb()?);
         let noise = match &estimate.noise {
             Some(NoiseRecord { sd, model_error, .. }) => Noise { sd: *sd, model_error: *model_error },
-            None => Noise { sd: None, model_error: Noise::model_error(self.is_photograph()?) },
+            None => Noise { sd: None, model_error: Noise::model_error(self.is_photograph()) },
         };
         let sd = noise.deviations(model.facets(), &measured, self.facet_sd()?.as_ref())?;
         let fitted = estimate.facets(&estimate.at_fit(&model))?;

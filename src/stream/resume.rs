@@ -171,21 +171,17 @@ fn wrong(path: &Path, line: usize, problem: &str) -> Error {
 
 /// What tells two records apart.
 fn difference(there: &[u8], made: &[u8]) -> String {
-    let fields = |line| serde_json::from_slice(line).map(Fields).ok();
+    let fields = |line| serde_json::from_slice::<Fields>(line).ok();
     let (Some(there), Some(made)) = (fields(there), fields(made)) else {
         return "not the line that this run makes".to_owned();
     };
-    let name = |fields: &Fields| format!("{} '{}'", fields.kind(), fields.0.get("id").map_or("", id));
+    let id = |fields: &Fields| fields.get::<String>("id").ok().flatten().unwrap_or_default();
+    let name = |fields: &Fields| format!("{} '{}'", fields.kind(), id(fields));
     if name(&there) != name(&made) {
         return format!("{}, where this run makes {}", name(&there), name(&made));
     }
-    let names = made.0.keys().chain(there.0.keys());
-    match names.into_iter().find(|field| there.0.get(*field) != made.0.get(*field)) {
+    match made.names().chain(there.names()).find(|field| there.text(field) != made.text(field)) {
         Some(field) => format!("the '{field}' of {} is not what this run makes", name(&there)),
         None => format!("{} is written in another way than by this run", name(&there)),
     }
-}
-
-fn id(value: &serde_json::Value) -> &str {
-    value.as_str().unwrap_or("")
 }

@@ -219,10 +219,8 @@ impl Sample {
     }
 
     /// Whether the facets come from a photograph.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if `image` is not an object.
-    pub fn is_photograph(&self) -> Result<bool> {
-        Ok(self.fields.get::<serde::de::IgnoredAny>("image")?.is_some())
+    #[must_use]
+    pub fn is_photograph(&self) -> bool {
+        self.fields.has("image")
     }
 }

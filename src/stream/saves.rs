@@ -33,7 +33,7 @@ impl Saves {
     /// As [`ArrayStack::new`] and [`ArrayStack::push`].
     pub fn record(&mut self, fields: &Fields) -> Result<()> {
         for (field, path, stack) in &mut self.0 {
-            if let Some((shape, values)) = find(fields, field).and_then(numbers) {
+            if let Some((shape, values)) = find(fields, field).as_ref().and_then(numbers) {
                 open(stack, path)?.push(&shape, &values)?;
             }
         }
@@ -60,7 +60,7 @@ fn open<'a>(stack: &'a mut Option<ArrayStack>, path: &Path) -> Result<&'a mut Ar
     }
 }
 
-fn find<'a>(fields: &'a Fields, name: &str) -> Option<&'a Value> {
+fn find(fields: &Fields, name: &str) -> Option<Value> {
     fields.at(name).or_else(|| GROUPS.iter().find_map(|group| fields.at(&format!("{group}.{name}"))))
 }
 

@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Map, Value};
 
 use super::Sample;
 use super::fields::{Fields, finite};
@@ -59,8 +58,8 @@ impl Sample {
     /// # Errors
     /// [`crate::Error::Field`] if `trace` is not a list of objects.
     pub fn take_trace(&mut self) -> Result<Vec<Fields>> {
-        let records: Vec<Map<String, Value>> = self.fields.get("trace")?.unwrap_or_default();
-        self.fields.0.remove("trace");
-        Ok(records.into_iter().map(Fields).collect())
+        let records = self.fields.get("trace")?.unwrap_or_default();
+        self.fields.remove("trace");
+        Ok(records)
     }
 }

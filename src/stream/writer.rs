@@ -98,7 +98,7 @@ impl Output {
     /// [`Error::Output`] or [`Error::File`] if it cannot be written, [`Error::Record`] if a resumed file has another in its place.
     pub fn fields(&mut self, fields: &Fields) -> Result<()> {
         self.saves.record(fields)?;
-        let mut line = serde_json::to_vec(&fields.0).map_err(|e| Error::field(fields.kind(), e))?;
+        let mut line = serde_json::to_vec(fields).map_err(|e| Error::field(fields.kind(), e))?;
         line.push(b'\n');
         self.bytes(&line)?;
         match &mut self.sink {

@@ -275,7 +275,7 @@ impl<'a> Estimator<'a> {
         };
         let model_error = match self.args.model_error {
             Some(error) => error,
-            None => Noise::model_error(sample.is_photograph()?),
+            None => Noise::model_error(sample.is_photograph()),
         };
         Ok(Noise { sd, model_error })
     }

@@ -129,7 +129,7 @@ mod tests {
     fn clusters_exchange_what_their_patches_do() {
         let (shape, tolerance) = (fold(3, 16), 1e-2);
         let patches = patches(&shape, Division::NONE);
-        let pairs = SurfaceKernel::by_pairs(&shape, &patches, tolerance);
+        let pairs = SurfaceKernel::by_pairs(&shape, &patches, tolerance).unwrap();
         let clusters = SurfaceKernel::by_clusters(&shape, &patches, tolerance).unwrap();
         assert_eq!(pairs.census(), clusters.census());
         assert!(pairs.census().hidden > 0 && pairs.census().walled > 0);

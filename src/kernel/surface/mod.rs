@@ -97,25 +97,27 @@ impl SurfaceKernel {
             return Err(Error::shape(problem, format!("take a mesh of at most {FACETS_MAX}")));
         }
         if patches.len() < CLUSTERED {
-            return Self::by_pairs(shape, patches, tolerance).check();
+            return Self::by_pairs(shape, patches, tolerance);
         }
-        let found = Self::by_clusters(shape, patches, tolerance).ok_or_else(|| {
-            let problem =
-                format!("the exchange between {} patches fills more than a gigabyte", patches.len());
-            Error::shape(problem, "take a coarser mesh")
-        });
-        found?.check()
+        Self::by_clusters(shape, patches, tolerance)
     }
 
-    fn by_pairs(shape: &Shape, patches: &[Patch], tolerance: f64) -> Self {
+    /// The same pair by pair, however many patches there are.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if patches hand on more light than they have.
+    pub fn by_pairs(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         let sites = patches.iter().map(Site::new).collect();
         let assembly = Assembly::new(shape, sites, [tolerance, far::TOLERANCE]);
         let blocks = assembly.strips();
-        Self::of(patches, (0..patches.len()).collect(), blocks, FarField::default(), &assembly)
+        Self::of(patches, (0..patches.len()).collect(), blocks, FarField::default(), &assembly).check()
     }
 
-    /// None if this would be more numbers than are kept.
-    fn by_clusters(shape: &Shape, patches: &[Patch], tolerance: f64) -> Option<Self> {
+    /// The same with clusters that exchange light from afar, however few patches there are.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the exchange fills more than a gigabyte; as [`SurfaceKernel::by_pairs`].
+    pub fn by_clusters(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         let truncation = (AFAR * tolerance).max(ROUNDING);
         let sites: Vec<Site> = patches.iter().map(Site::new).collect();
         let tree = Tree::new(&sites, TOUCHING * shape.size());
@@ -123,10 +125,12 @@ impl SurfaceKernel {
         let assembly = Assembly::new(shape, sites, [tolerance, truncation]);
         let (blocks, pairs) = Hierarchy { assembly: &assembly, tree: &tree, truncation }.parts();
         if assembly.is_full() {
-            return None;
+            let problem =
+                format!("the exchange between {} patches fills more than a gigabyte", patches.len());
+            return Err(Error::shape(problem, "take a coarser mesh"));
         }
         let far_field = FarField::new(&tree, &assembly.sites, &pairs, truncation);
-        Some(Self::of(patches, tree.order, blocks, far_field, &assembly))
+        Self::of(patches, tree.order, blocks, far_field, &assembly).check()
     }
 
     fn of(

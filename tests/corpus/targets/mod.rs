@@ -2,14 +2,17 @@
 //!
 //! `fuzz/` calls them with new inputs, `tests/corpus` with those that were kept.
 
+mod drawn;
 mod flags;
 mod kernels;
 mod pictures;
+mod placed;
 pub mod records;
 mod regions;
 mod shapes;
 mod spectra;
 mod stream;
+mod surfaces;
 
 use std::path::Path;
 
@@ -20,7 +23,7 @@ use vfold::{Result, cli};
 pub type Target = fn(&[u8]);
 
 /// All of them, by the names of their folders.
-pub const TARGETS: [(&str, Target); 15] = [
+pub const TARGETS: &[(&str, Target)] = &[
     ("stream", stream::stream),
     ("records", records::records),
     ("npy", kernels::npy),
@@ -34,6 +37,12 @@ pub const TARGETS: [(&str, Target); 15] = [
     ("regions", regions::regions),
     ("development", regions::development),
     ("picture", pictures::picture),
+    #[cfg(feature = "raw")]
+    ("raw", pictures::raw),
+    ("refined", placed::refined),
+    ("chart", placed::chart),
+    ("surface", surfaces::surface),
+    ("clusters", surfaces::clusters),
     ("spec", flags::spec),
     ("values", flags::values),
 ];

@@ -26,6 +26,16 @@ pub fn picture(bytes: &[u8]) {
     });
 }
 
+/// A RAW file, whose numbers are linear.
+#[cfg(feature = "raw")]
+pub fn raw(bytes: &[u8]) {
+    with_file("a.dng", bytes, |path| {
+        let photograph = taken(Photograph::open(path, &ReadOptions::default()));
+        let small = photograph.filter(|photograph| photograph.width() * photograph.height() <= MAX_PIXELS);
+        small.iter().for_each(look_at);
+    });
+}
+
 fn look_at(photograph: &Photograph) {
     let (width, height) = (photograph.width(), photograph.height());
     let mut lights = Vec::new();
