@@ -4,6 +4,7 @@
 //! Which classes the facets may belong to is told from all spectra as one Gaussian and the model linearised where that
 //! leads. Newton's method finds the maximum under each of them in whitened z, the evidence there chooses, and the curvature
 //! gives error bars (Laplace's approximation), wider where classes disagree or facets are further from the model than their noise.
+//! If all maxima are further from facets and prior than chance has it, as false ones are, the means of all classes are tried as well.
 
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector};
 
@@ -25,6 +26,11 @@ const SORTING_TOLERANCE: f64 = 0.3;
 /// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
 const CLASSES_TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -4.0;
+/// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
+/// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
+const SURPRISE: f64 = 3.0;
+const MISFIT_MOST: f64 = 1.1;
+const LN_EVIDENCE_MORE: f64 = 1.0;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
@@ -58,17 +64,45 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
     let starts = likely(prior, &all.by_logit(&sorted.w), inflation);
-    let found = starts.into_iter().map(|start| {
-        let facets = Facets { data, gaussian: &start.class.gaussian };
-        let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-        let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
-        Found::new(&facets, &solution, evidence)
-    });
-    let found: Vec<Found> = found.collect();
-    let runs = found.iter().flat_map(|found| found.trace.clone());
+    let found: Vec<Found> =
+        starts.into_iter().map(|start| under(start.class, data, start.w, inflation)).collect();
+    let elsewhere = if are_surprising(&found) { from_means(prior, data, inflation) } else { Vec::new() };
+    let runs = found.iter().chain(&elsewhere).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
+    let is_higher = ln_evidence(&elsewhere) > ln_evidence(&found) + LN_EVIDENCE_MORE;
+    let found = if is_higher { elsewhere } else { found };
     let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
+}
+
+/// The maximum under a class, set out from `w` with the noise inflated.
+fn under(class: &Class, data: &FacetData, w: DVector<f64>, inflation: f64) -> Found {
+    let facets = Facets { data, gaussian: &class.gaussian };
+    let solution = maximise(&facets, w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
+    let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + class.ln_share);
+    Found::new(&facets, &solution, evidence)
+}
+
+/// Maxima under all classes, set out from their means, that explain the facets.
+fn from_means(prior: &Prior, data: &FacetData, inflation: f64) -> Vec<Found> {
+    let from_mean = |class: &Class| {
+        let facets = Facets { data, gaussian: &class.gaussian };
+        let mean = DVector::zeros(facets.unknowns());
+        let first = first_inflation(&facets, &mean, inflation);
+        under(class, data, mean, first)
+    };
+    let found = prior.classes().iter().map(from_mean);
+    found.filter(|found| found.residual_rms < MISFIT_MOST && found.ln_evidence.is_finite()).collect()
+}
+
+/// Whether none of some maxima is what chance has.
+fn are_surprising(found: &[Found]) -> bool {
+    !found.is_empty() && found.iter().all(|found| found.surprise > SURPRISE)
+}
+
+/// The most evidence among some maxima.
+fn ln_evidence(found: &[Found]) -> f64 {
+    found.iter().map(|found| found.ln_evidence).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The maximum under one class.
@@ -81,6 +115,8 @@ struct Found {
     /// Derivative of each unknown by its standard normal number: how far it was unknown.
     prior_sd: Vec<f64>,
     residual_rms: f64,
+    /// As [`Solution::surprise`].
+    surprise: f64,
     unexplained: f64,
     trace: Vec<Vec<Iteration>>,
     termination: Termination,
@@ -121,6 +157,7 @@ impl Found {
             spread: facets.spread(&prior_sd, solution, widened),
             prior_sd,
             residual_rms,
+            surprise: solution.surprise(),
             unexplained: facets.data.unexplained(&solution.at.residuals),
             trace: vec![solution.trace.clone()],
             termination: solution.termination,
