@@ -11,15 +11,8 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::RngSeed;
 
-/// Cameras of one channel and of twelve, a light of one line, one that is dark and has a gap.
-const SPECTRA: &str = r#"
-    table() { { echo wavelength,$1; for nm in $(seq 380 5 780); do echo $nm,$(eval "$2"); done; } > $1.csv; }
-    table grey 'echo 1'
-    table line 'echo $((nm == 550))'
-    table gap '[ $nm -gt 480 ] && [ $nm -lt 600 ] && echo 0 || echo 1e-200'
-    { echo wavelength,$(seq -s, 12); for nm in $(seq 380 5 780); do
-        echo $nm,$(for n in $(seq 12); do echo $((nm / 5 % 13 == n ? 9 : 1)); done | paste -sd,)
-    done; } > twelve.csv"#;
+/// Cameras and lights beside the built-in ones.
+const SPECTRA: &str = include_str!("common/spectra.sh");
 
 /// Facets are off by no more than that share of the brightest.
 const FACET_ERROR: f64 = 1e-9;

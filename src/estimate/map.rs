@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use super::data::FacetData;
 use super::facets::{Facets, Second};
 use super::prior::Prior;
-use super::starts::starts;
+use super::starts::{Start, likely, means};
 use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -23,6 +23,11 @@ const ITERATION_LIMIT: usize = 500;
 /// the maximum under all spectra.
 const SORTING_NOISE: f64 = 1e-3;
 const SORTING_TOLERANCE: f64 = 0.3;
+/// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
+/// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
+const SURPRISE: f64 = 3.0;
+const MISFIT_MOST: f64 = 1.1;
+const LN_EVIDENCE_MORE: f64 = 1.0;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
@@ -55,17 +60,31 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let found = starts(&all, &sorted.w, prior, inflation).into_iter().map(|start| {
-        let facets = Facets { data, gaussian: &start.class.gaussian };
-        let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-        let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
-        Found::new(&facets, &solution, evidence)
-    });
-    let found: Vec<Found> = found.collect();
-    let runs = found.iter().flat_map(|found| found.trace.clone());
+    let look = |starts: Vec<Start>| starts.into_iter().map(|start| under(data, start)).collect::<Vec<_>>();
+    let near = look(likely(&all, &sorted.w, prior, inflation));
+    let far =
+        if near.iter().all(Found::is_surprising) { look(means(data, prior, inflation)) } else { Vec::new() };
+    let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
+    let found = if near.is_empty() || is_truer(&far, &near) { far } else { near };
     let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
+}
+
+/// The maximum under a class.
+fn under(data: &FacetData, start: Start) -> Found {
+    let facets = Facets { data, gaussian: &start.class.gaussian };
+    let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
+    let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
+    Found::new(&facets, &solution, evidence)
+}
+
+/// Whether the maxima `near` were false: `far` there is one that explains the facets, and has more evidence than any of them.
+fn is_truer(far: &[Found], near: &[Found]) -> bool {
+    let most =
+        |found: &[Found]| found.iter().map(|found| found.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
+    let least = most(near) + LN_EVIDENCE_MORE;
+    far.iter().any(|found| found.residual_rms < MISFIT_MOST && found.ln_evidence > least)
 }
 
 /// The maximum under one class.
@@ -78,6 +97,8 @@ struct Found {
     /// Derivative of each unknown by its standard normal number: how far it was unknown.
     prior_sd: Vec<f64>,
     residual_rms: f64,
+    /// As [`Solution::surprise`].
+    surprise: f64,
     unexplained: f64,
     trace: Vec<Vec<Iteration>>,
     termination: Termination,
@@ -118,10 +139,16 @@ impl Found {
             spread: facets.spread(&prior_sd, solution, widened),
             prior_sd,
             residual_rms,
+            surprise: solution.surprise(),
             unexplained: facets.data.unexplained(&solution.at.residuals),
             trace: vec![solution.trace.clone()],
             termination: solution.termination,
         }
+    }
+
+    /// Whether it is not what chance has.
+    fn is_surprising(&self) -> bool {
+        self.surprise > SURPRISE
     }
 
     /// An unknown of the scene below its least value, and that value.

@@ -56,7 +56,7 @@ pub struct Estimate {
     pub unexplained: f64,
     /// Iterations.
     pub iterations: u32,
-    /// What happened in them, by runs: under all spectra, then under each likely class. Empty from a method that keeps no trace.
+    /// What happened in them, by runs: under all spectra, then under each class that was tried. Empty from a method that keeps no trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,

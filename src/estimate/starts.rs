@@ -2,10 +2,11 @@
 //!
 //! Three channels tell most classes apart: all spectra as one Gaussian lead near the spectrum, and the model linearised there says
 //! which classes it may be of. Of one channel or two, spectra of every kind make the same (in light of one colour a red sheet may be
-//! a blue one): all classes are tried, each from its own mean.
+//! a blue one), and many channels that are nearly alike mislead: then all classes are tried, each from its own mean.
 
 use nalgebra::{Cholesky, DVector};
 
+use super::data::FacetData;
 use super::facets::{ByLogit, Facets, whitened};
 use super::prior::{Class, Prior};
 use crate::solve::posterior::{Model, first_inflation};
@@ -24,27 +25,29 @@ pub struct Start<'a> {
     pub inflation: f64,
 }
 
-/// Classes to look under. `sorted` is the maximum under `all` spectra as one Gaussian, the noise `inflation` times its size.
-pub fn starts<'a>(all: &Facets, sorted: &DVector<f64>, prior: &'a Prior, inflation: f64) -> Vec<Start<'a>> {
-    if all.data.channels() >= TELLING_CHANNELS {
-        return likely(prior, &all.by_logit(sorted), inflation);
+/// The classes of most evidence, the model taken to be linear about `sorted`, the maximum under `all` spectra as one Gaussian with the
+/// noise `inflation` times its size; none if so few channels do not tell classes apart.
+pub fn likely<'a>(all: &Facets, sorted: &DVector<f64>, prior: &'a Prior, inflation: f64) -> Vec<Start<'a>> {
+    if all.data.channels() < TELLING_CHANNELS {
+        return Vec::new();
     }
-    let from_mean = |class: &'a Class| {
-        let facets = Facets { data: all.data, gaussian: &class.gaussian };
-        let w = DVector::zeros(facets.unknowns());
-        Start { class, inflation: first_inflation(&facets, &w, inflation), w }
-    };
-    prior.classes().iter().map(from_mean).collect()
-}
-
-/// The classes of most evidence, the model taken to be linear and the noise inflated.
-fn likely<'a>(prior: &'a Prior, about: &ByLogit, inflation: f64) -> Vec<Start<'a>> {
+    let about = all.by_logit(sorted);
     let mut found: Vec<_> =
-        prior.classes().iter().filter_map(|class| linear(class, about, inflation)).collect();
+        prior.classes().iter().filter_map(|class| linear(class, &about, inflation)).collect();
     found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     found.truncate(CLASSES_TRIED);
     let least = found.first().map_or(0.0, |(best, _)| best + LN_EVIDENCE_LEAST);
     found.into_iter().filter(|(evidence, _)| *evidence >= least).map(|(_, start)| start).collect()
+}
+
+/// All classes, each from its mean and at the noise that would explain what it misses there.
+pub fn means<'a>(data: &FacetData, prior: &'a Prior, inflation: f64) -> Vec<Start<'a>> {
+    let from_mean = |class: &'a Class| {
+        let facets = Facets { data, gaussian: &class.gaussian };
+        let w = DVector::zeros(facets.unknowns());
+        Start { class, inflation: first_inflation(&facets, &w, inflation), w }
+    };
+    prior.classes().iter().map(from_mean).collect()
 }
 
 /// The evidence for a class, and the mean of the linear posterior under it; none if the numbers are not finite.

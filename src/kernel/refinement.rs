@@ -49,16 +49,13 @@ struct Solution {
 /// [`Error::Usage`] if not even the first solutions fit.
 pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
     let start = COARSEST.min(AIM * tolerance * STEP);
-    let too_fine = || {
-        Error::usage(
+    let Some((coarse, mut fine)) = first_two(fold, start)? else {
+        return Err(Error::usage(
             "--tolerance",
             format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
-        )
+        ));
     };
-    // The finer one first: if it is too fine, nothing has been solved for nothing.
-    let mut fine = solve(fold, start / STEP, 1)?.ok_or_else(too_fine)?;
-    let coarse = solve(fold, start, 1)?.ok_or_else(too_fine)?;
     let mut error = believed(&coarse, &fine);
     while error > tolerance
         && let Some(finer) = solve(fold, 0.9 * tolerance / error * fine.aim, fine.response.poles().len())?
@@ -70,6 +67,16 @@ pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
     // Lanczos' solution is short of light, so that no more than all of it can be missing.
     let error = error.max((fine.residual / loss(fold)).min(1.0));
     Ok(Refined { response: fine.response, unknowns: fine.unknowns, error, residual: fine.residual })
+}
+
+/// The solution that aims at `start` with a finer one; with a coarser one, the finer of the two being second, if that would
+/// take too long.
+fn first_two(fold: &Fold, start: f64) -> Result<Option<(Solution, Solution)>> {
+    let Some(first) = solve(fold, start, 1)? else { return Ok(None) };
+    if let Some(finer) = solve(fold, start / STEP, first.response.poles().len())? {
+        return Ok(Some((first, finer)));
+    }
+    Ok(solve(fold, start * STEP, 1)?.map(|coarser| (coarser, first)))
 }
 
 fn believed(coarse: &Solution, fine: &Solution) -> f64 {

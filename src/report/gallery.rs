@@ -51,7 +51,7 @@ impl Gallery {
         if let Some(error) = sample.error()? {
             self.failed += 1;
             if self.failures.len() < FAILURES_MAX {
-                self.failures.push((sample.id().unwrap_or_default(), error));
+                self.failures.push((sample.id(), error));
             }
             return Ok(());
         }
@@ -96,12 +96,11 @@ impl Gallery {
         for shown in self.samples.ranked().take(WORST_MAX) {
             worst.extend(first_score(&shown.sample)?.map(|score| (shown.sample.id(), score.value)));
         }
-        let named = worst.into_iter().map(|(id, value)| Ok((id?, value)));
         Ok(Batch {
             samples: summary.samples(),
             scored: summary.scored(),
             scores: scores.map(|(score, values)| (score.name, score.mean, values.to_vec())).collect(),
-            worst: named.collect::<Result<_>>()?,
+            worst,
         })
     }
 }

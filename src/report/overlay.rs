@@ -16,7 +16,7 @@ const LONGEST_PX: u32 = 1100;
 /// # Errors
 /// As [`thumbnail`], if the picture was asked for; one that the history tells of may have gone.
 pub(super) fn figure(shown: &Shown, view: &View) -> Result<Option<Html>> {
-    let id = shown.sample.id()?;
+    let id = shown.sample.id();
     match &view.overlay {
         Some(pattern) => picture(&named(pattern, &id), &id).map(Some),
         None => Ok(told(shown)?.and_then(|pattern| picture(&named(&pattern, &id), &id).ok())),

@@ -60,9 +60,8 @@ pub(super) fn page(gallery: &Gallery, sections: Vec<Html>) -> String {
 /// Links to the samples, if there are several.
 fn contents(gallery: &Gallery) -> Option<Html> {
     let link = |(number, shown): (usize, &super::Shown)| {
-        let name = shown.sample.id().unwrap_or_default();
         let target = format!("#sample-{number}");
-        Html::element("li", &[], Html::element("a", &[("href", &target)], name))
+        Html::element("li", &[], Html::element("a", &[("href", &target)], shown.sample.id()))
     };
     let links: Vec<_> = gallery.in_order().enumerate().map(link).collect();
     (links.len() > 1)

@@ -12,7 +12,7 @@ const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 /// All that is known of a sample.
 pub(super) fn section(number: usize, shown: &Shown, view: &View) -> Result<Html> {
     let sample = &shown.sample;
-    let mut parts = vec![Html::element("h2", &[], sample.id()?)];
+    let mut parts = vec![Html::element("h2", &[], sample.id())];
     let doubts = sample.estimate()?.map(|estimate| estimate.doubts()).unwrap_or_default();
     parts.extend(doubts.into_iter().map(|doubt| Html::element("p", &[("class", "doubt")], doubt)));
     parts.extend(drawings(shown, view)?);

@@ -93,8 +93,16 @@ impl<S> Solution<S> {
     /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
     #[must_use]
     pub fn ln_evidence(&self) -> Option<f64> {
-        let cost = self.at.residuals.norm_squared() + self.w.norm_squared();
+        let cost = cost(1.0, &self.w, &self.at.residuals);
         Some(-0.5 * (cost + self.information()?.ln_determinant()))
+    }
+
+    /// How far the data are from what the prior foretells, in standard deviations: of a linear model the cost at the maximum is
+    /// chi-squared, with as many degrees of freedom as there are data. At a false maximum it is far out.
+    #[must_use]
+    pub fn surprise(&self) -> f64 {
+        let data = self.at.residuals.len() as f64;
+        (cost(1.0, &self.w, &self.at.residuals) - data) / (2.0 * data).sqrt()
     }
 }
 

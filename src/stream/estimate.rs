@@ -207,12 +207,12 @@ impl Sample {
         NoiseRecord { from, model_error: noise.model_error, sd: noise.sd }
     }
 
-    /// The estimate; none if the sample has none.
+    /// The estimate; none if the sample has none, or carries an error.
     ///
     /// # Errors
     /// [`Error::Field`] if it is no spectrum with as many values as wavelengths, each from 0 to 1.
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
-        match self.fields.get::<EstimateRecord>("estimate")? {
+        match self.made::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
                 let problem = "not as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
@@ -239,8 +239,9 @@ impl Sample {
         else {
             return Ok(None);
         };
-        let truth = self.truth()?.map(|truth| (truth.wavelengths_nm, truth.reflectance));
-        Ok(Some(Curve { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd, truth }))
+        // vscore judges the truth; what is none cannot be drawn.
+        let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
+        Ok(Some(Curve { name: self.id(), wavelengths_nm, reflectance, reflectance_sd, truth }))
     }
 
     /// The estimate as a file of spectra has it; none if there is none.
@@ -252,7 +253,7 @@ impl Sample {
         else {
             return Ok(None);
         };
-        Ok(Some(Measured { name: self.id()?, wavelengths_nm, reflectance, reflectance_sd }))
+        Ok(Some(Measured { name: self.id(), wavelengths_nm, reflectance, reflectance_sd }))
     }
 }
 

@@ -89,9 +89,12 @@ fn step<T: Transform>(
 
 /// The sample as the tool leaves it; one that carries an error is left as it is.
 fn transformed<T: Transform>(transform: &T, context: &T::Context, mut sample: Sample) -> Result<Sample> {
-    if sample.error()?.is_none()
-        && let Err(error) = transform.sample(context, &mut sample)
-    {
+    let outcome = match sample.error() {
+        Ok(Some(_)) => Ok(()),
+        Ok(None) => transform.sample(context, &mut sample),
+        Err(error) => Err(error),
+    };
+    if let Err(error) = outcome {
         sample.set_error(&error)?;
     }
     Ok(sample)

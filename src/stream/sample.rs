@@ -1,6 +1,7 @@
 //! The sample record: one sheet's facet RGB, and what the tools make of it.
 
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::calibration::CalibrationRecord;
@@ -14,6 +15,9 @@ use super::scores::ColourRecord;
 use crate::error::{Error, Result};
 use crate::forward::bounces::Truncation;
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
+
+/// What a sample without a name is called.
+const UNNAMED: &str = "unnamed";
 
 /// A sheet in the scene above it: the colours of its facets, and what the tools make of them.
 #[derive(Default, Serialize, JsonSchema)]
@@ -151,12 +155,10 @@ impl Sample {
         Ok(Self { fields: Fields::of(&SampleRecord { scene, id, ..SampleRecord::default() })? })
     }
 
-    /// The sample's name.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it has none.
-    pub fn id(&self) -> Result<String> {
-        self.fields.require("id", "vforward and vextract name their samples")
+    /// The sample's name; a number is one, too. One sample without a name is no reason to stop with all others.
+    #[must_use]
+    pub fn id(&self) -> String {
+        self.fields.text_at("id").ok().flatten().unwrap_or_else(|| UNNAMED.to_owned())
     }
 
     /// Says how many bounces of light the facets' values are made of.
@@ -202,6 +204,14 @@ impl Sample {
     /// [`Error::Field`] if `error` is not text.
     pub fn error(&self) -> Result<Option<String>> {
         self.fields.get("error")
+    }
+
+    /// A field that is made of the facets; a sample that carries an error has none, whatever an earlier run left there.
+    pub(super) fn made<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>> {
+        match self.error()? {
+            Some(_) => Ok(None),
+            None => self.fields.get(name),
+        }
     }
 
     /// The exposure at which the facets were computed or calibrated, if it is known.

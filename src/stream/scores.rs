@@ -118,12 +118,12 @@ impl Sample {
         self.fields.set("metrics", Named(named.collect()))
     }
 
-    /// The sample's scores, if it has any.
+    /// The sample's scores, if it has any; one that carries an error has none.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if they are not numbers.
     pub fn scores(&self) -> Result<Option<Vec<Score>>> {
-        let metrics: Option<Named<f64>> = self.fields.get("metrics")?;
+        let metrics: Option<Named<f64>> = self.made("metrics")?;
         let score = |(name, value)| Score { name, value };
         Ok(metrics.map(|Named(metrics)| metrics.into_iter().map(score).collect()))
     }

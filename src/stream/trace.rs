@@ -39,7 +39,7 @@ impl Sample {
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
     pub fn set_trace(&mut self, trace: &[Vec<Iteration>]) -> Result<()> {
-        let sample = self.id()?;
+        let sample = self.id();
         let mut records = Vec::new();
         for (run, iterations) in trace.iter().enumerate() {
             for (iteration, &Iteration { cost, gradient_norm, damping, inflation: noise }) in

@@ -26,7 +26,6 @@ fn geometry() {
             case("vkernel --mesh fine", 2, &["--mesh", "auto"]),
             case("vkernel --tolerance 0", 2, &["--tolerance", "1e-12"]),
             case("vkernel --tolerance NaN", 2, &["--tolerance", "NaN"]),
-            case("vkernel --angle-deg 1 --tolerance 1e-7", 2, &["10000 unknowns at 1°", "--mesh facets"]),
             case("vkernel --angle-deg 1 --tolerance 1e-12", 2, &["--tolerance", "--mesh facets"]),
             case("vkernel --tilt-deg 22.5", 2, &["--tilt-deg", "shade"]),
             case("vkernel --tilt-deg NaN", 2, &["--tilt-deg"]),

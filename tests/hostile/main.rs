@@ -3,6 +3,7 @@
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod broken_fields;
 mod calibration;
 mod cameras;
 #[path = "../common/mod.rs"]

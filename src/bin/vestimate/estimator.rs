@@ -154,7 +154,7 @@ impl Transform for Estimator<'_> {
             }
         };
         if self.args.common.verbose {
-            let id = sample.id()?;
+            let id = sample.id();
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(&estimate, exposure)));
         }
         self.refuse_unexplained(context, &rgb, sample, &estimate)?;

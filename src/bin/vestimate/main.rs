@@ -148,7 +148,7 @@ fn warn(args: &Args, sample: &Sample) -> Result<()> {
     }
     let Some(estimate) = sample.estimate()? else { return Ok(()) };
     for doubt in estimate.doubts() {
-        cli::say("vestimate", &format!("{}: {doubt}", sample.id()?));
+        cli::say("vestimate", &format!("{}: {doubt}", sample.id()));
     }
     Ok(())
 }

@@ -23,7 +23,7 @@ pub fn measure(
     let mut first = Some(first);
     let steps = images.iter().map(|path| {
         let opened = first.take();
-        let is_its = |sample: &Sample| sample.id().is_ok_and(|id| id == name(path));
+        let is_its = |sample: &Sample| sample.id() == name(path);
         match kept.sample(is_its).transpose() {
             Some(sample) => Item::Known(sample),
             None => Item::ToDo((path, opened)),

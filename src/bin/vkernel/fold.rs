@@ -17,6 +17,8 @@ use super::{Args, MethodName, SamplingName, SpacingName, say_work};
 
 /// Relative error of facet means: below what a camera sees.
 const TOLERANCE: f64 = 1e-5;
+/// Facet means that may be this far off are no answer.
+const USELESS: f64 = 0.05;
 /// Samples of a Monte Carlo estimate.
 const SAMPLES: u32 = 10_000;
 
@@ -86,6 +88,9 @@ fn say_accuracy(args: &Args, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
         format!("{error:.1e} is the least error of the facet means that is reached at {}°", fold.angle_deg());
     if args.tolerance.is_some() {
         return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
+    }
+    if error > USELESS {
+        return Err(Error::usage("--angle-deg", problem, "give a wider angle or --mesh facets"));
     }
     if !args.common.quiet {
         cli::say("vkernel", &problem);

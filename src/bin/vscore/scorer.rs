@@ -68,7 +68,7 @@ impl<'a> Scorer<'a> {
         let truth = match (self.truth.as_deref(), sample.truth()?) {
             (Some([one]), _) => ReflectanceRecord::on(one, grid)?,
             (Some(spectra), _) => {
-                let id = sample.id()?;
+                let id = sample.id();
                 // A column of a file is called after both: `truth:photo`.
                 let named = |spectrum: &&Spectrum| {
                     spectrum.name() == id
@@ -85,7 +85,8 @@ impl<'a> Scorer<'a> {
                 let on_grid = ReflectanceRecord::on(&spectrum, grid)?;
                 ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid }
             }
-            (None, None) if self.args.draws() => return Ok(None),
+            // what is drawn may be its old scores
+            (None, None) if self.args.draws() => return sample.scores().map(|_| None),
             (None, None) => return Err(Error::field("truth", "missing; give --truth SPEC")),
         };
         Ok(Some(truth))

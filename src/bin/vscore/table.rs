@@ -45,18 +45,13 @@ impl Table {
     }
 
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
-        let id = one_line(&sample.id()?);
-        match (sample.scores()?, sample.error()?) {
-            (Some(scores), None) => {
-                let value =
-                    |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
-                out.text(&self.line(&id, value))
-            }
-            (None, None) => out.text(&self.line(&id, |_| None)),
-            (_, error) => {
-                out.failed_text(&self.named(&id, &format!(" {}", one_line(&error.unwrap_or_default()))))
-            }
+        let id = one_line(&sample.id());
+        if let Some(error) = sample.error()? {
+            return out.failed_text(&self.named(&id, &format!(" {}", one_line(&error))));
         }
+        let scores = sample.scores()?.unwrap_or_default();
+        let value = |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
+        out.text(&self.line(&id, value))
     }
 
     /// Mean, median and worst of each group and of all.

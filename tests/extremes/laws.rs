@@ -1,7 +1,4 @@
-//! The ends of every range: nearly closed and nearly flat folds, thin and wide panels, one facet and many.
-
-// a test stops at the first surprise
-#![allow(clippy::unwrap_used)]
+//! What the library makes of the ends of every range obeys the laws of light.
 
 use vfold::geometry::{FacetGrid, Fold, Spacing};
 use vfold::kernel::exact::form_factors;

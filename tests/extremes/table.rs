@@ -1,0 +1,79 @@
+//! Every row, measured; `EXTREMES=write` makes a page of them, without it the page is checked to state the bounds that hold.
+
+use std::fs;
+
+use rayon::prelude::*;
+
+use crate::common::Workdir;
+use crate::measured::Measured;
+use crate::rows::{ROWS, Row};
+
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results/extremes.md");
+const HEAD: &str = "\
+# Extremes
+
+What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D Mark II and D65. First the bounds that
+`cargo test --test extremes` holds, then what was measured:
+
+- facets without noise, off by so much of the brightest. The sheet reflects 0.9, the row's reflectance, or is `cc24:red` (lights and
+  cameras). One flat patch a facet, solved to 1e-9, beside NumPy's form factors (Sparrow's double integral) and conjugate gradients;
+  \"undivided\" is `--mesh auto` beside the limit of NumPy's patches, that of panels 1000 times as wide as deep along a crease without end;
+- RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, of `cc24:red` or the row's reflectance;
+- root mean square of its errors in units of their standard deviations;
+- seconds of the four tools, photographing twice. They are not promised.
+
+| | facets | RMSE | deviations | facets | RMSE | deviations | s |
+|---|---|---|---|---|---|---|---|
+";
+
+/// What is extreme, and the bounds.
+fn bounds(row: &Row) -> String {
+    let estimate = row.estimate.map(|bounds| bounds.map(|bound| bound.to_string()));
+    format!("| {} | {:e} | {} |", row.what, row.facets, cells(estimate))
+}
+
+fn line(row: &Row, measured: &Measured) -> String {
+    let estimate =
+        measured.estimate.map(|[rmse, deviations]| [format!("{rmse:.4}"), format!("{deviations:.1}")]);
+    format!("{} {:.0e} | {} | {:.2} |\n", bounds(row), measured.facets, cells(estimate), measured.seconds)
+}
+
+fn cells(estimate: Option<[String; 2]>) -> String {
+    estimate.map_or("refused | ".to_owned(), |both| both.join(" | "))
+}
+
+#[test]
+fn every_extreme_keeps_its_bounds() {
+    if !Workdir::new().can("python3 -c 'import numpy'", "extremes are not compared with NumPy's solution") {
+        return;
+    }
+    let measured: Vec<Measured> = ROWS.par_iter().map(Row::measure).collect();
+    let lines: Vec<String> = ROWS.iter().zip(&measured).map(|(row, measured)| line(row, measured)).collect();
+    let broken = ROWS.iter().zip(&measured).zip(&lines).filter(|((row, measured), _)| !row.holds(measured));
+    let broken: String = broken.map(|(_, line)| line.as_str()).collect();
+    assert!(broken.is_empty(), "bounds, then what was measured:\n{broken}");
+    if std::env::var("EXTREMES").is_ok_and(|wish| wish == "write") {
+        fs::write(PAGE, HEAD.to_owned() + &lines.concat()).unwrap();
+    }
+}
+
+#[test]
+fn the_page_states_the_bounds_that_hold() {
+    let page = fs::read_to_string(PAGE).unwrap();
+    assert!(page.starts_with(HEAD));
+    let stated: Vec<&str> = page[HEAD.len()..].lines().collect();
+    assert_eq!(stated.len(), ROWS.len());
+    for (row, line) in ROWS.iter().zip(stated) {
+        assert!(
+            line.starts_with(&bounds(row)),
+            "{line}\nmake it anew: EXTREMES=write cargo test --test extremes"
+        );
+    }
+}
+
+/// Finer than Lanczos' steps reach.
+#[test]
+fn a_tenth_of_a_degree_undivided_is_refused() {
+    let run = Workdir::new().sh("vkernel --angle-deg 0.1 --tolerance 1e-2");
+    assert!(run.status == 2 && run.stderr.contains("--mesh facets"), "{run:?}");
+}
