@@ -92,9 +92,10 @@ fn compare(got: &str, want: &str, tolerance: Tolerance) -> Option<String> {
     got.lines().zip(want.lines()).enumerate().find_map(differs)
 }
 
-/// A line as a JSON record, or as a list of words.
+/// A line as a JSON record, or as a list of words, cells and elements.
 fn parse(line: &str) -> Value {
-    serde_json::from_str(line).unwrap_or_else(|_| line.split_whitespace().collect())
+    let words = || line.split_whitespace().flat_map(|word| word.split([',', '<', '>']));
+    serde_json::from_str(line).unwrap_or_else(|_| words().collect())
 }
 
 /// Where two values differ: `path.to.field[i]: got, not want`.
@@ -134,6 +135,7 @@ fn a_difference_is_named_by_its_path() {
     );
     assert_eq!(compare("x\nred 0.5 3", "x\nred 0.5 4").unwrap(), "2: [2]: \"3\", not \"4\"");
     assert_eq!(compare("red 0.018", "red 0.017"), None);
+    assert_eq!(compare("400,0.018,0.2", "400,0.017,0.2"), None);
     assert_eq!(compare("red 0.019", "red 0.017").unwrap(), "1: [1]: \"0.019\", not \"0.017\"");
     assert_eq!(compare("x", "x\ny").unwrap(), "2: 1 lines, not 2");
     assert!(compare(r#"{"a":1}"#, r#"{"b":1}"#).is_some());
