@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use super::data::FacetData;
 use super::facets::{Facets, Second};
 use super::prior::Prior;
-use super::starts::{Start, likely, means};
+use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, Start, from_means, likely};
 use super::unknowns::{Quantity, Unknown};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -18,11 +18,8 @@ use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maxim
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
-const ITERATION_LIMIT: usize = 500;
-/// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger; this near to
-/// the maximum under all spectra.
+/// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger.
 const SORTING_NOISE: f64 = 1e-3;
-const SORTING_TOLERANCE: f64 = 0.3;
 /// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
 /// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
 const SURPRISE: f64 = 3.0;
@@ -60,10 +57,11 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let first = first_inflation(&all, &start, inflation);
     let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let look = |starts: Vec<Start>| starts.into_iter().map(|start| under(data, start)).collect::<Vec<_>>();
-    let near = look(likely(&all, &sorted.w, prior, inflation));
+    let under = |start: Start| under(data, start, inflation);
+    let near: Vec<_> = likely(&all, &sorted.w, prior, inflation).into_iter().map(under).collect();
     let far =
-        if near.iter().all(Found::is_surprising) { look(means(data, prior, inflation)) } else { Vec::new() };
+        if near.iter().all(Found::is_surprising) { from_means(data, prior, inflation) } else { Vec::new() };
+    let far: Vec<_> = far.into_iter().map(under).collect();
     let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
     let found = if near.is_empty() || is_truer(&far, &near) { far } else { near };
@@ -71,11 +69,11 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     Found { trace, ..best }
 }
 
-/// The maximum under a class.
-fn under(data: &FacetData, start: Start) -> Found {
+/// The maximum under a class, the noise `inflation` times its size at first.
+fn under(data: &FacetData, start: Start, inflation: f64) -> Found {
     let facets = Facets { data, gaussian: &start.class.gaussian };
-    let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-    let evidence = solution.ln_evidence().map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
+    let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
+    let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
     Found::new(&facets, &solution, evidence)
 }
 

@@ -87,14 +87,16 @@ impl<S> Solution<S> {
         Cholesky::new(gauss_newton(&self.at.jacobian, 1.0))
     }
 
-    /// Logarithm of the probability of the data under prior and model, but for a term that depends on the data alone.
+    /// Logarithm of the probability of the data under prior and model, the noise `inflation` times its size, but for a term that
+    /// depends on the data alone.
     ///
     /// # Source
     /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
     #[must_use]
-    pub fn ln_evidence(&self) -> Option<f64> {
-        let cost = cost(1.0, &self.w, &self.at.residuals);
-        Some(-0.5 * (cost + self.information()?.ln_determinant()))
+    pub fn ln_evidence(&self, inflation: f64) -> Option<f64> {
+        let weight = inflation.powi(-2);
+        let information = Cholesky::new(gauss_newton(&self.at.jacobian, weight))?;
+        Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
     /// How far the data are from what the prior foretells, in standard deviations: of a linear model the cost at the maximum is
