@@ -3,7 +3,7 @@
 //! A decoder makes room for what an entry claims before it looks for it, and who asks for more memory than there is gets no error to
 //! catch: the program ends. Nor does one end that follows directories in a circle.
 
-/// Entries that lead to further directories: SubIFDs, EXIF and GPS.
+/// Entries that lead to further directories: `SubIFDs`, EXIF and GPS.
 const POINTERS: [u16; 3] = [330, 34665, 34853];
 /// Bytes of a value, by type from 1 on.
 const SIZES: [u64; 12] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8];
