@@ -8,6 +8,7 @@ import sys
 
 import numpy as np
 
+from camera import deviations, seen
 from fold import Fold
 from undivided import undivided
 
@@ -35,21 +36,16 @@ def irradiance(scene):
     return lambda reflectance: fold.irradiance(light, reflectance)
 
 
-def seen(scene, reflectance):
-    """What the camera sees, facet by channel: a trapezoid sum; white that faces the sun is 1 in the strongest channel."""
-    weights = np.gradient(np.array(scene["wavelengths_nm"]))
-    weights[[0, -1]] /= 2
-    channels = np.array(scene["camera"]["sensitivities"]) * np.array(scene["illuminants"][0]["power"]) * weights
-    solve, once = irradiance(scene), sorted(set(reflectance))
-    radiance = {r: r * np.ravel(solve(r)) for r in once}
-    return np.array([radiance[r] for r in reflectance]).T @ channels.T / channels.sum(axis=1).max()
+def radiance(scene, reflectance):
+    """Of a sheet: waveband by facet."""
+    solve = irradiance(scene)
+    once = {r: r * np.ravel(solve(r)) for r in sorted(set(reflectance))}
+    return [once[r] for r in reflectance]
 
 
 (scene, clean), (_, scored, *_) = records("clean"), records("scored")
-want = seen(scene, clean["truth"]["reflectance"])
+want = seen(scene, scene["illuminants"][0], radiance(scene, clean["truth"]["reflectance"]))
 got = np.load("clean.npy").reshape(want.shape)
 print(np.abs(got - want).max() / max(want.max(), sys.float_info.min))
 if "error" not in scored:
-    estimate = scored["estimate"]
-    error = np.array(estimate["reflectance"]) - scored["truth"]["reflectance"]
-    print(scored["metrics"]["rmse"], np.sqrt(np.mean((error / estimate["reflectance_sd"]) ** 2)))
+    print(scored["metrics"]["rmse"], deviations(scored))

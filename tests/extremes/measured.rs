@@ -6,7 +6,7 @@ use crate::common::{Ended, Workdir};
 use crate::rows::Row;
 
 /// Cameras and lights that rows name.
-const SPECTRA: &str = include_str!("../common/spectra.sh");
+pub const SPECTRA: &str = include_str!("spectra.sh");
 
 /// What was measured, in the order of the bounds.
 pub struct Measured {

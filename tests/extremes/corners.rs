@@ -1,18 +1,12 @@
 //! All extremes at once, through the tools: every combination gives what a dense solver gives and an estimate that is no more
 //! certain than it is right, or is refused in one line.
 
-// a test stops at the first surprise
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{Ended, Workdir};
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::RngSeed;
 
-/// Cameras and lights beside the built-in ones.
-const SPECTRA: &str = include_str!("common/spectra.sh");
+use crate::common::{Ended, Workdir};
+use crate::measured::SPECTRA;
 
 /// Facets are off by no more than that share of the brightest.
 const FACET_ERROR: f64 = 1e-9;
@@ -23,7 +17,7 @@ const HONEST: [f64; 2] = [6.0, 20.0];
 
 /// Runs the four tools; prints what `corners.py` does.
 fn through_the_tools(folder: &Workdir, kernel: &str, sheet: &str, noise_sd: f64) -> Ended {
-    let python = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/corners.py");
+    let python = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/extremes/corners.py");
     folder.sh(&format!(
         "vkernel {kernel} --mesh facets --tolerance 1e-9 --save kernel=K.npy -o scene.json
         vforward scene.json {sheet} --save facet_rgb=clean.npy -o clean
@@ -31,7 +25,7 @@ fn through_the_tools(folder: &Workdir, kernel: &str, sheet: &str, noise_sd: f64)
         vestimate -q noisy -o estimate || [ $? = 3 ]
         vscore estimate -o scores || [ $? = 3 ]
         ! grep -qi nan scores
-        python3 {python} < scores"
+        python3 -B {python} < scores"
     ))
 }
 
