@@ -11,7 +11,7 @@ use super::data::FacetData;
 use super::facets::{Facets, Second};
 use super::prior::Prior;
 use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, Start, from_means, likely};
-use super::unknowns::{Quantity, Unknown};
+use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
@@ -41,8 +41,8 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
     match found.impossible(data) {
         None => found.into_estimate(data),
         // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
-        Some((unknown, least)) => {
-            let on_bound = most_probable(&data.with_known(unknown, least), prior, start);
+        Some((unknown, bound)) => {
+            let on_bound = most_probable(&data.with_known(unknown, bound), prior, start);
             let Found { spread, prior_sd, mut trace, .. } = found;
             trace.extend(on_bound.trace);
             Found { spread, prior_sd, trace, ..on_bound }.into_estimate(data)
@@ -123,8 +123,14 @@ impl Found {
     fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
         let (_, unknowns) = facets.split(&solution.w);
         let Second { reflectance, exposure, .. } = &solution.at.second;
-        let unknowns: Vec<(f64, f64)> =
-            facets.data.scene().unknowns().iter().zip(&unknowns).map(|(unknown, w)| unknown.at(*w)).collect();
+        let unknowns: Vec<(f64, f64)> = facets
+            .data
+            .scene()
+            .unknowns()
+            .iter()
+            .zip(&unknowns)
+            .map(|(expected, w)| expected.at(*w))
+            .collect();
         let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
         let values = unknowns.iter().map(|(value, _)| *value);
         let residual_rms = facets.data.rms(&solution.at.residuals);
@@ -149,27 +155,26 @@ impl Found {
         self.surprise > SURPRISE
     }
 
-    /// An unknown of the scene below its least value, and that value.
+    /// An unknown of the scene beyond its range, and the end of that.
     fn impossible(&self, data: &FacetData) -> Option<(usize, f64)> {
         let values = &self.point[data.scene().facets().bands()..];
-        let below =
-            |(n, unknown): (usize, &Unknown)| (values[n] < unknown.least()).then_some((n, unknown.least()));
-        data.scene().unknowns().iter().enumerate().find_map(below)
+        let beyond = |(n, expected): (usize, &Expected)| Some((n, expected.bound_of(values[n])?));
+        data.scene().unknowns().iter().enumerate().find_map(beyond)
     }
 
     fn into_estimate(self, data: &FacetData) -> Estimate {
         let bands = data.scene().facets().bands();
         let sd = |column: usize| self.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
         let unknowns = data.scene().unknowns().iter().zip(&self.prior_sd).zip(bands..);
-        let unknowns = unknowns.map(|((unknown, prior_sd), column)| Fitted {
-            quantity: unknown.quantity,
+        let unknowns = unknowns.map(|((expected, prior_sd), column)| Fitted {
+            unknown: expected.unknown,
             value: self.point[column],
             sd: sd(column),
             supported: sd(column) < SUPPORTED * prior_sd.abs(),
         });
         let (last, exposure) = (self.point.len() - 1, self.point[self.point.len() - 1]);
         let of_exposure = data.fits_exposure().then(|| Fitted {
-            quantity: Quantity::Exposure,
+            unknown: &EXPOSURE,
             value: exposure,
             sd: sd(last),
             supported: sd(last) < EXPOSURE_SUPPORTED * exposure,

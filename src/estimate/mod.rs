@@ -19,7 +19,7 @@ mod starts;
 pub mod unknowns;
 
 use nalgebra::DMatrix;
-use unknowns::Quantity;
+use unknowns::Unknown;
 
 use crate::solve::Termination;
 use crate::solve::posterior::Iteration;
@@ -66,7 +66,7 @@ pub struct Estimate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted {
     /// What it is.
-    pub quantity: Quantity,
+    pub unknown: &'static Unknown,
     /// Value.
     pub value: f64,
     /// Standard deviation, in the same unit.

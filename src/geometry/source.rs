@@ -96,7 +96,10 @@ impl LightSource {
     /// Whether it surrounds the surface.
     #[must_use]
     pub fn is_sky(&self) -> bool {
-        matches!(self, Self::UniformSky { .. } | Self::OvercastSky { .. })
+        match self {
+            Self::UniformSky { .. } | Self::OvercastSky { .. } => true,
+            Self::Directional { .. } | Self::Point { .. } | Self::Given => false,
+        }
     }
 
     /// Irradiance by which it is compared with others: on a plane facing it, of a sky on an open one.

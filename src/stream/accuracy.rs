@@ -88,6 +88,11 @@ impl Scene {
         self.fields.set("accuracy", AccuracyRecord::new(mesh, tolerance, accuracy))
     }
 
+    /// Whether the scene says how its bounces were solved.
+    pub(super) fn has_accuracy(&self) -> bool {
+        self.fields.has("accuracy")
+    }
+
     fn accuracy(&self) -> Result<AccuracyRecord> {
         self.fields.require("accuracy", BY_VKERNEL)
     }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
-use super::quantities::Quantities;
+use super::fit::Fit;
 use super::sample::{Sample, checked};
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
@@ -46,7 +46,7 @@ pub struct EstimateRecord {
     pub reflectance_sd: Option<Vec<f64>>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) fit: Option<Quantities<FittedRecord>>,
+    pub(super) fit: Option<Fit<FittedRecord>>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
@@ -148,9 +148,9 @@ impl EstimateRecord {
                 "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
             )
         });
-        let untold = self.fit.iter().flat_map(Quantities::iter).filter(|(_, one)| !one.supported);
-        let untold = untold
-            .map(|(quantity, _)| format!("the facets do not tell {}; it is as expected", quantity.name()));
+        let untold = self.fit.iter().flat_map(Fit::iter).filter(|(_, one)| !one.supported);
+        let untold =
+            untold.map(|(unknown, _)| format!("the facets do not tell {}; it is as expected", unknown.name));
         misfit.into_iter().chain(untold).collect()
     }
 }
@@ -191,7 +191,7 @@ impl Sample {
                 iterations: estimate.iterations,
                 termination: Some((&estimate.termination).into()),
                 reflectance_sd,
-                fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.quantity, fitted.into()))),
+                fit: Fit::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
                 covariance: covariance.map(rows),
                 noise: noise.map(|noise| self.noise_record(noise)),
             },

@@ -4,11 +4,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::{Fields, finite};
-use super::quantities::Quantities;
+use super::fit::Fit;
 use super::scene::Scene;
 use crate::error::Result;
 use crate::estimate::Estimate;
-use crate::estimate::unknowns::Quantity;
+use crate::estimate::unknowns::Unknown;
 
 /// What estimates of a scene's samples will be worth, before any is taken.
 #[derive(Serialize, JsonSchema)]
@@ -31,7 +31,7 @@ pub(super) struct PlanRecord {
     expected_rmse: ExpectedRmse,
     /// Standard deviation to expect of what is fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    expected_sd: Option<Quantities<f64>>,
+    expected_sd: Option<Fit<f64>>,
 }
 
 /// Of several reflectances.
@@ -51,7 +51,7 @@ pub struct ExpectedError {
     /// Root mean square over the wavelengths, an estimate each.
     reflectance: Vec<f64>,
     /// Sum of squares of what is fitted along.
-    fitted: Vec<(Quantity, f64)>,
+    fitted: Vec<(&'static Unknown, f64)>,
 }
 
 impl ExpectedError {
@@ -61,9 +61,9 @@ impl ExpectedError {
         let square = sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len().max(1) as f64;
         self.reflectance.push(square.sqrt());
         for fitted in &estimate.fitted {
-            match self.fitted.iter_mut().find(|(quantity, _)| *quantity == fitted.quantity) {
+            match self.fitted.iter_mut().find(|(unknown, _)| *unknown == fitted.unknown) {
                 Some((_, sum)) => *sum += fitted.sd * fitted.sd,
-                None => self.fitted.push((fitted.quantity, fitted.sd * fitted.sd)),
+                None => self.fitted.push((fitted.unknown, fitted.sd * fitted.sd)),
             }
         }
     }
@@ -88,6 +88,6 @@ pub fn plan(scene: &Scene, set: &str, noise_sd: f64, expected: &ExpectedError) -
         samples: expected.reflectance.len(),
         noise_sd,
         expected_rmse: ExpectedRmse { mean, worst },
-        expected_sd: Quantities::of(sds),
+        expected_sd: Fit::of(sds),
     })
 }

@@ -1,15 +1,12 @@
 //! What an estimate leaves of the facets, told anew from the records: scene, estimate and what facets were taken to be worth.
 
 use super::estimate::{EstimateRecord, NoiseRecord};
-use super::quantities::Quantities;
+use super::fit::Fit;
 use super::{Colours, Sample, Scene};
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
-use crate::estimate::unknowns::{Quantity, SceneModel};
+use crate::estimate::unknowns::{Expected, SceneModel, Unknown};
 use crate::forward::FacetModel;
-
-/// What is fitted beside spectrum and exposure.
-const FITTED: [Quantity; 4] = [Quantity::TiltDeg, Quantity::Sky, Quantity::SkyCctK, Quantity::AngleDeg];
 
 impl Sample {
     /// Measured minus estimated facets in units of their standard deviations: facet by channel, none for a facet that was not
@@ -40,23 +37,19 @@ impl Sample {
 }
 
 impl EstimateRecord {
-    /// What was fitted and has this name.
-    fn fitted(&self, quantity: Quantity) -> Option<f64> {
-        let mut all = self.fit.iter().flat_map(Quantities::iter);
-        all.find(|(one, _)| *one == quantity).map(|(_, fitted)| fitted.value)
-    }
-
     /// The model that the estimate was made with.
     fn scene_model(&self, scene: &Scene) -> Result<SceneModel> {
-        let fitted: Vec<_> = FITTED.into_iter().filter(|quantity| self.fitted(*quantity).is_some()).collect();
-        if fitted.is_empty() { Ok(SceneModel::known(scene.model()?)) } else { scene.model_to_fit(&fitted) }
+        let fitted: Vec<_> = self.fit.iter().flat_map(Fit::iter).map(|(unknown, _)| unknown).collect();
+        scene.model_to_fit(&fitted)
     }
 
     /// The model where the estimate is.
     fn at_fit(&self, model: &SceneModel) -> FacetModel {
-        let value = |quantity| self.fitted(quantity);
-        let values = model.unknowns().iter().map(|unknown| value(unknown.quantity).unwrap_or(unknown.mean));
-        model.with_values(&values.collect::<Vec<f64>>())
+        let found = |unknown: &Unknown| self.fit.iter().flat_map(Fit::iter).find(|(one, _)| *one == unknown);
+        let value = |expected: &Expected| {
+            found(expected.unknown).map_or(expected.at(0.0).0, |(_, fitted)| fitted.value)
+        };
+        model.with_values(&model.unknowns().iter().map(value).collect::<Vec<f64>>())
     }
 
     fn facets(&self, model: &FacetModel) -> Result<Vec<Vec<f64>>> {

@@ -6,7 +6,7 @@ use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{Quantity, SceneModel};
+use vfold::estimate::unknowns::{self, EXPOSURE, SceneModel, Unknown};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
@@ -15,7 +15,7 @@ use vfold::{Error, Result};
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
 use super::said::{self, Deviations};
-use super::settings::{Fit, MUNSELL, NoiseSd, Smoothness};
+use super::settings::{MUNSELL, NoiseSd, Smoothness};
 
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
@@ -55,17 +55,17 @@ enum SceneMethod {
 pub struct Estimator<'a> {
     args: &'a Args,
     method: Method,
-    /// What is fitted beside spectrum and exposure.
-    fit: Vec<Quantity>,
+    /// What is fitted beside the spectrum.
+    fit: Vec<&'static Unknown>,
 }
 
 /// The paper's estimator fits an exposure and nothing else of the scene.
 fn check_fit(args: &Args) -> Result<()> {
-    if args.fit.contains(&Fit::Exposure) && args.exposure.is_some_and(|given| given != Exposure::Free) {
+    if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|given| given != Exposure::Free) {
         let problem = "exposure is given by --exposure already";
         return Err(Error::usage("--fit", problem, "leave one of them out"));
     }
-    if args.fit.iter().any(|fit| *fit != Fit::Exposure) && !args.has_prior() {
+    if args.fit.iter().any(|flag| *flag != EXPOSURE.flag) && !args.has_prior() {
         let problem = format!("nothing but exposure is fitted with --prior {}", args.prior());
         return Err(Error::usage("--fit", problem, "leave --prior out or give spectra"));
     }
@@ -127,11 +127,7 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        let scene = if self.fit.is_empty() {
-            SceneModel::known(scene.model()?)
-        } else {
-            scene.model_to_fit(&self.fit)?
-        };
+        let scene = scene.model_to_fit(&self.fit)?;
         Ok(Context { grid, scene, method, start })
     }
 
@@ -183,8 +179,7 @@ impl<'a> Estimator<'a> {
     /// # Errors
     /// Flags that contradict each other, or a prior that cannot be read.
     pub fn new(args: &'a Args) -> Result<Self> {
-        let fit = args.fit.iter().filter(|fit| **fit != Fit::Exposure).map(|fit| Quantity::from(*fit));
-        Ok(Self { args, method: method(args)?, fit: fit.collect() })
+        Ok(Self { args, method: method(args)?, fit: unknowns::of_flags(&args.fit) })
     }
 
     /// The flags behind it.
@@ -194,7 +189,7 @@ impl<'a> Estimator<'a> {
 
     /// How the exposure enters, `told` being what the sample says of it.
     pub fn exposure_or(&self, told: Exposure) -> Exposure {
-        let fits = self.args.fit.contains(&Fit::Exposure);
+        let fits = self.fit.contains(&&EXPOSURE);
         self.args.exposure.or(fits.then_some(Exposure::Free)).unwrap_or(told)
     }
 

@@ -15,10 +15,11 @@ use drawing::Drawing;
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
 use plan::PlanArgs;
-use settings::{Fit, NoiseSd, Smoothness};
+use settings::{NoiseSd, Smoothness};
 use vfold::Result;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
+use vfold::estimate::unknowns::Flag;
 use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Output, Reader, Record, Sample, pipe};
 
@@ -53,10 +54,9 @@ struct Args {
     /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
     #[arg(long, value_name = "X|free|sum", value_parser = settings::exposure)]
     exposure: Option<Exposure>,
-    /// What is fitted along with the spectrum: the exposure (as --exposure free), the tilt of the sun, the sky with its colour
-    /// (unless the scene has a sky illuminant), the angle of the fold; the scene's values are what is expected
-    #[arg(long, value_name = "exposure,tilt,sky,angle", value_delimiter = ',', hide_possible_values = true)]
-    fit: Vec<Fit>,
+    /// What is fitted along with the spectrum, with commas between; the scene's values are what is expected
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = settings::fit())]
+    fit: Vec<&'static Flag>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,

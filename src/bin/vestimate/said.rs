@@ -64,7 +64,7 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let exposure = how.map(|how| format!("exposure {:.4} {how}", estimate.exposure));
     let fitted = estimate.fitted.iter().map(|one| {
         let told = if one.supported { "" } else { ", not told by the facets" };
-        format!("{} {:.4} ± {:.4}{told}", one.quantity.name(), one.value, one.sd)
+        format!("{} {:.4} ± {:.4}{told}", one.unknown.name, one.value, one.sd)
     });
     let sd = sd.map(|sd| {
         let (mean, most) = (sd.iter().sum::<f64>() / sd.len() as f64, sd.iter().copied().fold(0.0, f64::max));

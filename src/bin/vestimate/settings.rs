@@ -1,8 +1,8 @@
 //! Values of flags.
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vfold::estimate::Exposure;
-use vfold::estimate::unknowns::Quantity;
+use vfold::estimate::unknowns::{self, Flag};
 
 /// The prior whose classes are known, and the default.
 pub const MUNSELL: &str = "munsell";
@@ -22,28 +22,12 @@ pub enum Smoothness {
     Weight(f64),
 }
 
-/// What `--fit` takes.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Fit {
-    /// Value of white facing the sun.
-    Exposure,
-    /// Sun off the bisecting plane.
-    Tilt,
-    /// Amount of skylight, and its colour unless the scene says it.
-    Sky,
-    /// Angle between the panels.
-    Angle,
-}
-
-impl From<Fit> for Quantity {
-    fn from(fit: Fit) -> Self {
-        match fit {
-            Fit::Exposure => Self::Exposure,
-            Fit::Tilt => Self::TiltDeg,
-            Fit::Sky => Self::Sky,
-            Fit::Angle => Self::AngleDeg,
-        }
-    }
+/// Parses what `--fit` takes.
+pub fn fit() -> impl TypedValueParser<Value = &'static Flag> {
+    let values = unknowns::flags().map(|flag| PossibleValue::new(flag.value).help(flag.help));
+    PossibleValuesParser::new(values).try_map(|value| {
+        unknowns::flags().find(|flag| flag.value == value).ok_or_else(|| format!("{value} is not fitted"))
+    })
 }
 
 pub fn smoothness(text: &str) -> Result<Smoothness, String> {

@@ -10,7 +10,7 @@ use crate::geometry::shape::Shape;
 /// Mean irradiance of every patch, and its largest standard error, zero where there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectLight {
-    /// A number a patch.
+    /// One per patch.
     pub irradiance: Vec<f64>,
     /// Of the patch of which least is known.
     pub standard_error: f64,
@@ -34,7 +34,9 @@ impl DirectLight {
             LightSource::OvercastSky { zenith, .. } => {
                 Self::sampled(source, skylight(shape, patches, |towards| overcast(zenith.dot(towards))))
             }
-            _ => Self { irradiance: Self::of_lamp(source, shape, patches), standard_error: 0.0 },
+            LightSource::Directional { .. } | LightSource::Point { .. } | LightSource::Given => {
+                Self { irradiance: Self::of_lamp(source, shape, patches), standard_error: 0.0 }
+            }
         }
     }
 
@@ -48,7 +50,9 @@ impl DirectLight {
             LightSource::Point { at, distance, irradiance } => {
                 (lamplight(shape, patches, at), irradiance * distance * distance)
             }
-            _ => (vec![0.0; patches.len()], 0.0),
+            LightSource::UniformSky { .. } | LightSource::OvercastSky { .. } | LightSource::Given => {
+                (vec![0.0; patches.len()], 0.0)
+            }
         };
         unit.into_iter().map(|light| amount * light).collect()
     }

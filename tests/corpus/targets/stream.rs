@@ -5,7 +5,7 @@ use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{Quantity, SceneModel};
+use vfold::estimate::unknowns::{SKY, SceneModel, TILT};
 use vfold::estimate::{Exposure, map};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
 use vfold::stream::{Output, Reader, Record, Sample, Scene};
@@ -58,8 +58,8 @@ fn written(records: &[Record]) -> Vec<u8> {
 
 /// What samples need of a scene.
 fn look_at(scene: &Scene) -> Result<(WavelengthGrid, SceneModel)> {
-    for quantity in [Quantity::TiltDeg, Quantity::Sky] {
-        taken(scene.model_to_fit(&[quantity]));
+    for unknown in [&TILT, &SKY] {
+        taken(scene.model_to_fit(&[unknown]));
     }
     taken(scene.open_light());
     taken(scene.materials());

@@ -1,0 +1,45 @@
+//! How far the fold is open.
+
+use super::{Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Unknown};
+use crate::error::{Error, Result};
+use crate::kernel::mesh::{Mesh, respond};
+
+/// Angle between the panels, degrees. It takes three more solutions of the bounces, 10 to 25 ms each.
+pub static ANGLE: Unknown = Unknown {
+    name: "angle_deg",
+    about: "Angle between the panels",
+    unit: Some("degrees"),
+    flag: &Flag { value: "angle", help: "Angle between the panels" },
+    range: f64::NEG_INFINITY..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Sources { prior, enter },
+};
+
+/// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet that springs back
+/// leave. The light of a fold is interpolated between folds that far apart.
+const SD_DEG: f64 = 2.0;
+
+fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
+    let angle_deg = scene.fold.angle_deg();
+    let sd = SD_DEG.min(0.1 * angle_deg);
+    if angle_deg + sd > 180.0 {
+        return Err(Error::field("geometry.angle_deg", format!("{angle_deg} is flat: no angle to fit")));
+    }
+    Ok(Some(Normal { mean: angle_deg, sd }))
+}
+
+/// The fold is one of three, or lies between them.
+fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
+    let Some(tolerance) = scene.tolerance else {
+        let problem = "an angle is fitted between folds that vkernel --mesh auto solves; make the scene so";
+        return Err(Error::field("accuracy.mesh", problem));
+    };
+    let nodes = [mean - sd, mean, mean + sd];
+    let state = |(at, node): (usize, &f64)| {
+        let fold = scene.fold.with_angle_deg(*node)?;
+        let (response, _) = respond(&fold, Mesh::Auto, tolerance)?;
+        Ok(State { fold, response, factors: vec![(&ANGLE, Factor::Node { nodes, at })] })
+    };
+    sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;
+    Ok(())
+}

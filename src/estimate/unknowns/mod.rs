@@ -1,0 +1,176 @@
+//! Numbers of the scene that are fitted along with the spectrum, one file each; [`TABLE`] lists them.
+//!
+//! A new one is a file with an [`Unknown`] and a row of the table. The values of `vestimate --fit` and their help, the records with
+//! their schema, residuals and messages follow from the two.
+//!
+//! Facets are sums over sources (a lamp on a fold), and an unknown changes in what amounts they shine ([`Factor`]) or replaces
+//! some by others ([`Sources`]). So a source's amount is a product of one function of each unknown. What is not linear (the angle of
+//! the fold, the colour of the sky) is interpolated between three sources.
+
+mod angle;
+mod exposure;
+mod factor;
+mod scene_model;
+mod sky;
+mod sky_colour;
+mod sources;
+mod tilt;
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+pub use angle::ANGLE;
+pub use exposure::EXPOSURE;
+pub use factor::Factor;
+pub use scene_model::{Amounts, Expected, SceneModel};
+pub use sky::SKY;
+pub use sky_colour::SKY_COLOUR;
+pub use sources::{FoldInLight, Lamp, Sources, State};
+pub use tilt::TILT;
+
+use crate::error::Result;
+
+/// All unknowns, in the order of the records.
+pub static TABLE: [&Unknown; 5] = [&EXPOSURE, &ANGLE, &TILT, &SKY, &SKY_COLOUR];
+
+/// A number of the scene that can be fitted.
+pub struct Unknown {
+    /// Name of the field in records, unit included.
+    pub name: &'static str,
+    /// What it is, for the schema; without the unit.
+    pub about: &'static str,
+    /// The unit in full; none for a ratio.
+    pub unit: Option<&'static str>,
+    /// What asks for it.
+    pub flag: &'static Flag,
+    /// Least and greatest value that it can have.
+    pub range: RangeInclusive<f64>,
+    /// What of the value is normal before a picture is taken.
+    pub scale: Scale,
+    /// How it enters the model.
+    pub role: Role,
+}
+
+/// A value of `vestimate --fit`; unknowns that share it are fitted together.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Flag {
+    /// As it is written.
+    pub value: &'static str,
+    /// What is fitted.
+    pub help: &'static str,
+}
+
+/// How an unknown enters the model.
+pub enum Role {
+    /// The model is proportional to it: the best one is a quotient for every spectrum tried, and nothing is known of it before.
+    Exposure,
+    /// It changes the sources.
+    Sources {
+        /// What is known of it before a picture is taken; none where the scene leaves nothing open.
+        prior: fn(&FoldInLight) -> Result<Option<Normal>>,
+        /// Puts it into the sources.
+        enter: fn(&FoldInLight, Normal, &mut Sources) -> Result<()>,
+    },
+}
+
+/// Mean and standard deviation of a number on the [`Scale`] of its unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Normal {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; zero for a number that is known after all.
+    pub sd: f64,
+}
+
+/// A monotone map between the value of an unknown and the number that is normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// The value itself.
+    Linear,
+    /// A million over the value: colour temperatures in K differ to the eye as their reciprocals in 1e-6/K do.
+    Reciprocal,
+}
+
+impl Scale {
+    /// The value where the normal number is `x`, and its derivative by it.
+    #[must_use]
+    pub fn value(self, x: f64) -> (f64, f64) {
+        match self {
+            Self::Linear => (x, 1.0),
+            Self::Reciprocal => (1e6 / x, -1e6 / (x * x)),
+        }
+    }
+
+    /// The normal number where the value is `value`.
+    #[must_use]
+    pub fn normal(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Reciprocal => 1e6 / value,
+        }
+    }
+}
+
+/// The unknown of this name in records.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Unknown> {
+    TABLE.into_iter().find(|unknown| unknown.name == name)
+}
+
+/// The values of `vestimate --fit`, each once.
+pub fn flags() -> impl Iterator<Item = &'static Flag> {
+    let is_first = |(n, unknown): &(usize, &Unknown)| !TABLE[..*n].iter().any(|one| one.flag == unknown.flag);
+    TABLE.into_iter().enumerate().filter(is_first).map(|(_, unknown)| unknown.flag)
+}
+
+/// What `asked` asks for, in the order of the table.
+#[must_use]
+pub fn of_flags(asked: &[&Flag]) -> Vec<&'static Unknown> {
+    TABLE.into_iter().filter(|unknown| asked.contains(&unknown.flag)).collect()
+}
+
+/// Names tell unknowns apart.
+impl PartialEq for Unknown {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Unknown {}
+
+impl fmt::Debug for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_unknowns_apart() {
+        for (n, unknown) in TABLE.into_iter().enumerate() {
+            assert_eq!(TABLE.iter().position(|one| *one == unknown), Some(n));
+            assert_eq!(named(unknown.name), Some(unknown));
+        }
+    }
+
+    #[test]
+    fn unknowns_of_one_flag_are_fitted_together() {
+        assert!(flags().all(|flag| flags().filter(|other| other.value == flag.value).count() == 1));
+        assert_eq!(of_flags(&[SKY.flag, EXPOSURE.flag]), [&EXPOSURE, &SKY, &SKY_COLOUR]);
+    }
+
+    #[test]
+    fn scales_and_their_inverses_agree() {
+        for scale in [Scale::Linear, Scale::Reciprocal] {
+            for x in [30.0, 100.0, 160.0] {
+                let (value, slope) = scale.value(x);
+                assert!((scale.normal(value) - x).abs() < 1e-12 * x);
+                let rise = scale.value(x + 1e-4).0 - scale.value(x - 1e-4).0;
+                assert!((slope - rise / 2e-4).abs() < 1e-6 * slope.abs());
+            }
+        }
+    }
+}

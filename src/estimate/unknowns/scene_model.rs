@@ -1,0 +1,168 @@
+//! A facet model whose sources come in amounts that depend on unknowns.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::factor::Jet;
+use super::{Factor, Normal, Unknown};
+use crate::forward::FacetModel;
+
+/// An unknown of a scene, and what is known of it before a picture is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expected {
+    /// What it is.
+    pub unknown: &'static Unknown,
+    /// What is known of it, on its scale.
+    pub prior: Normal,
+}
+
+impl Expected {
+    /// The number that is normal where the standard normal one is `w`.
+    fn normal(self, w: f64) -> f64 {
+        self.prior.mean + self.prior.sd * w
+    }
+
+    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown.
+    #[must_use]
+    pub fn at(self, w: f64) -> (f64, f64) {
+        let (value, slope) = self.unknown.scale.value(self.normal(w));
+        (value, self.prior.sd * slope)
+    }
+
+    /// The end of its range that `value` lies beyond, if it does.
+    #[must_use]
+    pub fn bound_of(self, value: f64) -> Option<f64> {
+        let (least, greatest) = (*self.unknown.range.start(), *self.unknown.range.end());
+        if value < least {
+            Some(least)
+        } else if value > greatest {
+            Some(greatest)
+        } else {
+            None
+        }
+    }
+}
+
+/// A facet model whose sources come in amounts that depend on unknowns.
+#[derive(Clone, Debug)]
+pub struct SceneModel {
+    facets: FacetModel,
+    unknowns: Vec<Expected>,
+    /// Source by unknown.
+    factors: Vec<Vec<Factor>>,
+}
+
+impl SceneModel {
+    /// A scene in which all but the spectrum is known.
+    #[must_use]
+    pub fn known(facets: FacetModel) -> Self {
+        let factors = vec![Vec::new(); facets.sources().len()];
+        Self { facets, unknowns: Vec::new(), factors }
+    }
+
+    /// A scene with unknowns: `factors` has a row for each source of `facets`, with one factor per unknown.
+    #[must_use]
+    pub fn new(facets: FacetModel, unknowns: Vec<Expected>, factors: Vec<Vec<Factor>>) -> Self {
+        Self { facets, unknowns, factors }
+    }
+
+    /// The model, each source in the amount 1.
+    #[must_use]
+    pub fn facets(&self) -> &FacetModel {
+        &self.facets
+    }
+
+    /// The unknowns.
+    #[must_use]
+    pub fn unknowns(&self) -> &[Expected] {
+        &self.unknowns
+    }
+
+    /// The same scene with one unknown known to have this value.
+    #[must_use]
+    pub fn with_known(mut self, unknown: usize, value: f64) -> Self {
+        let Expected { unknown, prior } = &mut self.unknowns[unknown];
+        *prior = Normal { mean: unknown.scale.normal(value), sd: 0.0 };
+        self
+    }
+
+    /// The model with its unknowns, in their order and units, known to have these values.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> FacetModel {
+        let amount = |factors: &Vec<Factor>| {
+            let unknowns = self.unknowns.iter().zip(values);
+            factors
+                .iter()
+                .zip(unknowns)
+                .map(|(factor, (expected, value))| factor.at(expected.unknown.scale.normal(*value))[0])
+                .product()
+        };
+        self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
+    }
+
+    /// Amounts of the sources at `w`, one standard normal number per unknown.
+    #[must_use]
+    pub fn amounts(&self, w: &[f64]) -> Amounts {
+        let jet = |factor: &Factor, expected: &Expected, w: f64| {
+            let [value, slope, curvature] = factor.at(expected.normal(w));
+            let sd = expected.prior.sd;
+            [value, sd * slope, sd * sd * curvature]
+        };
+        let jets = |factors: &Vec<Factor>| {
+            factors
+                .iter()
+                .zip(&self.unknowns)
+                .zip(w)
+                .map(|((factor, expected), w)| jet(factor, expected, *w))
+                .collect()
+        };
+        Amounts { jets: self.factors.iter().map(jets).collect(), unknowns: self.unknowns.len() }
+    }
+}
+
+/// Amounts of the sources about a point, as factors with their derivatives: source by unknown.
+pub struct Amounts {
+    jets: Vec<Vec<Jet>>,
+    unknowns: usize,
+}
+
+impl Amounts {
+    /// Amount of every source.
+    #[must_use]
+    pub fn values(&self) -> DVector<f64> {
+        self.derivative(&[])
+    }
+
+    /// Derivatives of the amounts: source by unknown.
+    #[must_use]
+    pub fn slopes(&self) -> DMatrix<f64> {
+        let columns: Vec<_> = (0..self.unknowns).map(|p| self.derivative(&[p])).collect();
+        if columns.is_empty() { DMatrix::zeros(self.jets.len(), 0) } else { DMatrix::from_columns(&columns) }
+    }
+
+    /// Second derivatives of `Σ weightᵢ amountᵢ`: unknown by unknown.
+    #[must_use]
+    pub fn curvature(&self, weights: &DVector<f64>) -> DMatrix<f64> {
+        DMatrix::from_fn(self.unknowns, self.unknowns, |p, q| self.derivative(&[p, q]).dot(weights))
+    }
+
+    /// The amounts derived by each unknown of `by` in turn.
+    fn derivative(&self, by: &[usize]) -> DVector<f64> {
+        let order = |p: usize| by.iter().filter(|q| **q == p).count();
+        let product = |jets: &Vec<Jet>| jets.iter().enumerate().map(|(p, jet)| jet[order(p)]).product();
+        DVector::from_iterator(self.jets.len(), self.jets.iter().map(product))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::unknowns::SKY_COLOUR;
+
+    #[test]
+    fn a_temperature_is_the_reciprocal_of_its_normal_number() {
+        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 } };
+        let (cct_k, slope) = colour.at(1.0);
+        assert!((cct_k - 1e6 / 130.0).abs() < 1e-9);
+        assert!((slope - (colour.at(1.0 + 1e-5).0 - colour.at(1.0 - 1e-5).0) / 2e-5).abs() < 1e-3);
+    }
+}

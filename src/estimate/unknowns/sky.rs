@@ -1,0 +1,38 @@
+//! How much light comes from the sky.
+
+use super::sources::Source;
+use super::{Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Unknown};
+use crate::error::Result;
+
+/// Irradiance of the sky on a plane facing the sun, the sun's being 1.
+pub static SKY: Unknown = Unknown {
+    name: "sky",
+    about: "Irradiance by the sky of an open plane that faces the sun, relative to the sun's",
+    unit: None,
+    flag: &Flag {
+        value: "sky",
+        help: "Amount of skylight, and its colour unless the scene has a sky illuminant",
+    },
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Sources { prior, enter },
+};
+
+/// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of it, of which
+/// a sheet among houses gets a part.
+const SD: f64 = 0.25;
+
+fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
+    Ok(Some(Normal { mean: scene.lighting.light.sky(), sd: SD }))
+}
+
+/// The sky that the scene may have gives way to one of irradiance 1 in an unknown amount.
+fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
+    sources.replace(|source| match source.lamp {
+        Lamp::Sky { .. } => Vec::new(),
+        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
+    });
+    let sky = Source::new(Lamp::Sky { irradiance: 1.0 }, scene.lighting.sky.clone());
+    sources.add(sky.with(&SKY, Factor::Amount));
+    Ok(())
+}

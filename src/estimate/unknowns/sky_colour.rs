@@ -1,0 +1,49 @@
+//! The colour of the sky: daylight of unknown temperature.
+
+use super::{Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Unknown};
+use crate::camera::CameraResponse;
+use crate::error::Result;
+use crate::spectrum::{self, Outside};
+
+/// Correlated colour temperature of the sky, K, unless the scene has a sky illuminant; its reciprocal, in 1e-6/K, is normal.
+pub static SKY_COLOUR: Unknown = Unknown {
+    name: "sky_cct_k",
+    about: "Correlated colour temperature of the sky",
+    unit: Some("K"),
+    flag: SKY.flag,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Reciprocal,
+    role: Role::Sources { prior, enter },
+};
+
+/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three between 7700 K and
+/// 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight ends.
+const MIRED: Normal = Normal { mean: 100.0, sd: 30.0 };
+/// Skies between which that of any temperature is interpolated, K.
+const SKIES_K: [u32; 3] = [20_000, 10_000, 6_250];
+
+fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
+    Ok((!scene.has_sky_illuminant).then_some(MIRED))
+}
+
+/// Every sky becomes three of other colours.
+fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
+    let nodes = SKIES_K.map(|cct_k| 1e6 / f64::from(cct_k));
+    let skies: Vec<_> = SKIES_K.iter().map(|cct_k| daylight(scene, *cct_k)).collect::<Result<_>>()?;
+    sources.replace(|source| match source.lamp {
+        Lamp::Sky { .. } => {
+            let of = |(at, sky): (usize, &CameraResponse)| {
+                source.seen_by(sky.clone()).with(&SKY_COLOUR, Factor::Node { nodes, at })
+            };
+            skies.iter().enumerate().map(of).collect()
+        }
+        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
+    });
+    Ok(())
+}
+
+/// The camera's response to daylight of this temperature.
+fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
+    let power = spectrum::illuminant(&format!("daylight:{cct_k}"))?.on(&scene.grid, Outside::Refuse)?;
+    scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
+}

@@ -1,0 +1,191 @@
+//! A fold in its light as sources, which unknowns change.
+
+use super::{Expected, Factor, Role, SceneModel, Unknown};
+use crate::camera::CameraResponse;
+use crate::error::Result;
+use crate::forward::{Card, FacetModel, Lighting, Lit};
+use crate::geometry::{Fold, Light};
+use crate::response::{ModeLight, Response};
+use crate::spectrum::WavelengthGrid;
+
+/// A fold in its light, as far as it is known.
+pub struct FoldInLight {
+    /// The fold.
+    pub fold: Fold,
+    /// What all bounces on it make of light.
+    pub response: Response,
+    /// Relative error that facet means were allowed, where the mesh is as fine as that asks for; none where the mesh was given.
+    pub tolerance: Option<f64>,
+    /// Sun and sky as the camera responds to them.
+    pub lighting: Lighting,
+    /// Whether the colour of the sky is given.
+    pub has_sky_illuminant: bool,
+    /// The card in the place of one panel, if there is one.
+    pub card: Option<Card>,
+    /// Wavelengths.
+    pub grid: WavelengthGrid,
+    /// Sensitivities of the camera, `[channel][waveband]`.
+    pub sensitivities: Vec<Vec<f64>>,
+}
+
+/// What a source's amount is of some unknowns; of all others it is the same.
+pub type Factors = Vec<(&'static Unknown, Factor)>;
+
+/// A light, on any fold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lamp {
+    /// The sun where it stands.
+    Sun,
+    /// What panels receive alike from a sun on the bisecting plane.
+    EvenSun,
+    /// What panel 0 receives more and panel 1 less for each unit of the sine of the sun's tilt.
+    OddSun,
+    /// A uniform sky.
+    Sky {
+        /// Irradiance of an open plane, the sun's being 1.
+        irradiance: f64,
+    },
+}
+
+impl Lamp {
+    /// The same on `fold`, the sun standing as in `light`.
+    fn on(self, fold: &Fold, light: &Light) -> Result<ModeLight> {
+        let [even, odd] = light.even_and_odd(fold);
+        Ok(match self {
+            Self::Sun => {
+                let light = Light::new(fold, light.tilt_deg(), light.slant_deg(), light.sky())?;
+                ModeLight::Sun(light.panel_irradiance())
+            }
+            Self::EvenSun => ModeLight::Sun([even, even]),
+            Self::OddSun => ModeLight::Sun([odd, -odd]),
+            Self::Sky { irradiance } => ModeLight::Sky(irradiance),
+        })
+    }
+
+    fn is_sky(self) -> bool {
+        match self {
+            Self::Sun | Self::EvenSun | Self::OddSun => false,
+            Self::Sky { .. } => true,
+        }
+    }
+}
+
+/// A lamp that the camera sees, with what its amount depends on.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The lamp.
+    pub lamp: Lamp,
+    camera: CameraResponse,
+    factors: Factors,
+}
+
+impl Source {
+    /// A lamp in the amount 1.
+    #[must_use]
+    pub fn new(lamp: Lamp, camera: CameraResponse) -> Self {
+        Self { lamp, camera, factors: Vec::new() }
+    }
+
+    /// The same in an amount that also is this `factor` of `unknown`.
+    #[must_use]
+    pub fn with(&self, unknown: &'static Unknown, factor: Factor) -> Self {
+        let factors = self.factors.iter().copied().chain([(unknown, factor)]).collect();
+        Self { factors, ..self.clone() }
+    }
+
+    /// The same with another lamp.
+    #[must_use]
+    pub fn shining(self, lamp: Lamp) -> Self {
+        Self { lamp, ..self }
+    }
+
+    /// The same with another response of the camera.
+    #[must_use]
+    pub fn seen_by(&self, camera: CameraResponse) -> Self {
+        Self { camera, ..self.clone() }
+    }
+}
+
+/// A fold that the scene's may be, solved.
+pub struct State {
+    /// The fold.
+    pub fold: Fold,
+    /// Its response.
+    pub response: Response,
+    /// In what amount its light counts.
+    pub factors: Factors,
+}
+
+/// All that facets are a sum of: every lamp on every state of the fold.
+pub struct Sources {
+    /// Folds of which the scene's is one, or between which it lies.
+    pub states: Vec<State>,
+    lamps: Vec<Source>,
+}
+
+impl Sources {
+    /// Sources of which nothing is unknown.
+    fn of(scene: &FoldInLight) -> Self {
+        let FoldInLight { fold, response, lighting, .. } = scene;
+        let state = State { fold: *fold, response: response.clone(), factors: Vec::new() };
+        let sun = Source::new(Lamp::Sun, lighting.sun.clone());
+        let irradiance = lighting.light.sky();
+        let sky = Source::new(Lamp::Sky { irradiance }, lighting.sky.clone());
+        let sky = (irradiance > 0.0).then_some(sky);
+        Self { states: vec![state], lamps: std::iter::once(sun).chain(sky).collect() }
+    }
+
+    /// Puts others in the place of each lamp.
+    pub fn replace(&mut self, by: impl Fn(Source) -> Vec<Source>) {
+        self.lamps = std::mem::take(&mut self.lamps).into_iter().flat_map(by).collect();
+    }
+
+    /// Adds a lamp.
+    pub fn add(&mut self, lamp: Source) {
+        self.lamps.push(lamp);
+    }
+
+    /// The lamps on the states, suns before skies, with all that their amounts depend on.
+    fn on_states(&self, light: &Light) -> Result<Vec<(Lit<'_>, Factors)>> {
+        let (skies, suns): (Vec<_>, Vec<_>) = self.lamps.iter().partition(|source| source.lamp.is_sky());
+        let mut all = Vec::new();
+        for lamps in [suns, skies] {
+            for (response, state) in self.states.iter().enumerate() {
+                for Source { lamp, camera, factors } in &lamps {
+                    let lit = Lit { response, light: lamp.on(&state.fold, light)?, camera };
+                    all.push((lit, state.factors.iter().chain(factors).copied().collect()));
+                }
+            }
+        }
+        Ok(all)
+    }
+}
+
+impl SceneModel {
+    /// The model of facet RGB on a fold with those of `fit` unknown that the scene leaves open.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the scene is not one in which they can be fitted.
+    pub fn of_fold(scene: &FoldInLight, fit: &[&'static Unknown]) -> Result<Self> {
+        let (mut sources, mut unknowns) = (Sources::of(scene), Vec::new());
+        for unknown in fit {
+            let (prior, enter) = match unknown.role {
+                Role::Exposure => continue,
+                Role::Sources { prior, enter } => (prior, enter),
+            };
+            if let Some(prior) = prior(scene)? {
+                enter(scene, prior, &mut sources)?;
+                unknowns.push(Expected { unknown, prior });
+            }
+        }
+        let (lit, factors): (Vec<_>, Vec<_>) = sources.on_states(&scene.lighting.light)?.into_iter().unzip();
+        let responses: Vec<_> = sources.states.iter().map(|state| state.response.clone()).collect();
+        let facets = FacetModel::new(&responses, &lit, scene.card.clone());
+        let factor = |factors: &Factors, expected: &Expected| {
+            let of = factors.iter().find(|(unknown, _)| *unknown == expected.unknown);
+            of.map_or(Factor::One, |(_, factor)| *factor)
+        };
+        let factors = factors.iter().map(|f| unknowns.iter().map(|u| factor(f, u)).collect()).collect();
+        Ok(Self::new(facets, unknowns, factors))
+    }
+}

@@ -1,0 +1,38 @@
+//! Where the sun stands across the crease.
+
+use super::{Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Unknown};
+use crate::error::Result;
+
+/// Angle of the sun off the bisecting plane, degrees.
+pub static TILT: Unknown = Unknown {
+    name: "tilt_deg",
+    about: "Angle of the sun off the plane that halves the fold",
+    unit: Some("degrees"),
+    flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
+    range: f64::NEG_INFINITY..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Sources { prior, enter },
+};
+
+/// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to the sun by eye errs
+/// by a few degrees, and a sun further off shades a panel, which one sees.
+const SD_DEG: f64 = 10.0;
+
+fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
+    let sd = SD_DEG.min(0.25 * scene.fold.angle_deg());
+    Ok(Some(Normal { mean: scene.lighting.light.tilt_deg(), sd }))
+}
+
+/// Every sun becomes its even and its odd part.
+fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
+    sources.replace(|source| match source.lamp {
+        Lamp::Sun => {
+            vec![
+                source.with(&TILT, Factor::Cosine).shining(Lamp::EvenSun),
+                source.with(&TILT, Factor::Sine).shining(Lamp::OddSun),
+            ]
+        }
+        Lamp::EvenSun | Lamp::OddSun | Lamp::Sky { .. } => vec![source],
+    });
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! What is fitted along with a spectrum, by name.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::{Map, Value};
+
+use crate::estimate::unknowns::{self, TABLE, Unknown};
+
+/// Something of each number of a scene that was fitted, in the order of [`TABLE`]; what was not is absent.
+#[derive(Clone, Debug)]
+pub(super) struct Fit<T>(Vec<(&'static Unknown, T)>);
+
+impl<T> Fit<T> {
+    /// Those of a list; none if it is empty.
+    pub(super) fn of(list: impl IntoIterator<Item = (&'static Unknown, T)>) -> Option<Self> {
+        let mut all: Vec<_> = list.into_iter().collect();
+        all.sort_by_key(|(unknown, _)| TABLE.iter().position(|one| one == unknown));
+        if all.is_empty() { None } else { Some(Self(all)) }
+    }
+
+    /// Those that are there.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&'static Unknown, &T)> {
+        self.0.iter().map(|(unknown, one)| (*unknown, one))
+    }
+}
+
+impl<T: Serialize> Serialize for Fit<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter().map(|(unknown, one)| (unknown.name, one)))
+    }
+}
+
+/// Names that the tools do not know are passed over.
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Fit<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut all = Vec::new();
+        for (name, value) in Map::deserialize(deserializer)? {
+            let Some(unknown) = unknowns::named(&name) else { continue };
+            let one = Option::<T>::deserialize(value);
+            let one = one.map_err(|error| D::Error::custom(format!("{name}: {error}")))?;
+            all.extend(one.map(|one| (unknown, one)));
+        }
+        Ok(Self(all))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Fit<T> {
+    fn schema_name() -> Cow<'static, str> {
+        "Fit".into()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        format!("Fit<{}>", T::schema_id()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let property = |unknown: &&Unknown| {
+            let mut schema = generator.subschema_for::<Option<T>>();
+            schema.insert("description".to_owned(), description(unknown).into());
+            (unknown.name.to_owned(), schema.to_value())
+        };
+        let properties: Map<String, Value> = TABLE.iter().map(property).collect();
+        json_schema!({
+            "type": "object",
+            "properties": properties,
+            "description": "Something of each number of a scene that was fitted; what was not is absent.",
+        })
+    }
+}
+
+/// What an unknown is, with its unit.
+fn description(unknown: &Unknown) -> String {
+    let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
+    format!("{}{unit}.", unknown.about)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use super::*;
+    use crate::estimate::unknowns::{ANGLE, EXPOSURE, SKY};
+
+    #[test]
+    fn fits_are_written_in_the_order_of_the_table() {
+        let fit = Fit::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&ANGLE, 45.0)]).unwrap();
+        assert_eq!(serde_json::to_string(&fit).unwrap(), r#"{"exposure":1.5,"angle_deg":45.0,"sky":0.2}"#);
+        assert!(Fit::<f64>::of([]).is_none());
+    }
+
+    #[test]
+    fn what_is_not_known_is_passed_over() {
+        let fit: Fit<f64> = serde_json::from_str(r#"{"fog":{},"sky":0.2,"angle_deg":null}"#).unwrap();
+        assert_eq!(fit.iter().collect::<Vec<_>>(), [(&SKY, &0.2)]);
+    }
+}
