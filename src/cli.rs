@@ -6,6 +6,7 @@ mod materials;
 mod outcome;
 mod spectra;
 mod stream_page;
+mod surplus;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -14,6 +15,7 @@ use clap::{Args, Parser, ValueEnum};
 
 pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
+pub use surplus::refuse;
 
 use crate::error::{Error, Result};
 pub use crate::message::one_line;

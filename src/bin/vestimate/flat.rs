@@ -4,11 +4,12 @@ use std::fmt;
 
 use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
+use vfold::Result;
+use vfold::cli::refuse;
 use vfold::estimate::components::{FlatSheet, autocorrelation};
 use vfold::estimate::{Estimate, khan, park};
 use vfold::forward::FacetModel;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::{Error, Result};
 
 use super::settings::{NoiseSd, Smoothness};
 
@@ -134,9 +135,7 @@ impl fmt::Display for FlatContext {
 /// Refuses flags that only flat sheets know.
 fn check_fold(args: &MethodArgs) -> Result<()> {
     let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
-    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
-        Err(Error::usage(flag, "not known to --method interreflection", "give --method park or khan"))
-    })
+    refuse(surplus, "not known to --method interreflection", "give --method park or khan")
 }
 
 /// Refuses flags that flat sheets do not know.
@@ -152,7 +151,5 @@ fn check_flat(args: &super::Args, name: &str) -> Result<()> {
         ("--trace", args.trace.is_some()),
         ("--plan", args.planning.plan),
     ];
-    surplus.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
-        Err(Error::usage(flag, format!("not known to --method {name}"), "leave one of them out"))
-    })
+    refuse(surplus, &format!("not known to --method {name}"), "leave one of them out")
 }

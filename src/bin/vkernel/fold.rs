@@ -122,9 +122,9 @@ fn method(args: &Args) -> Result<Method> {
         ("--samples", args.samples.is_some()),
         ("--seed", args.seed.is_some()),
     ];
-    let unused = given.into_iter().find(|(_, given)| *given);
-    match (args.method, unused) {
-        (MethodName::MonteCarlo, _) => {
+    let refuse_samples = || cli::refuse(given, "there is nothing to sample", "add --method monte-carlo");
+    match args.method {
+        MethodName::MonteCarlo => {
             let sampling = match args.sampling {
                 None | Some(SamplingName::Area) => Sampling::Area,
                 Some(SamplingName::Cosine) => Sampling::Cosine,
@@ -132,11 +132,8 @@ fn method(args: &Args) -> Result<Method> {
             let (samples, seed) = (args.samples.unwrap_or(SAMPLES), args.seed.unwrap_or_default());
             Ok(Method::MonteCarlo(MonteCarlo::new(sampling, samples, seed)?))
         }
-        (_, Some((flag, _))) => {
-            Err(Error::usage(flag, "there is nothing to sample", "add --method monte-carlo"))
-        }
-        (MethodName::Exact, None) => Ok(Method::Exact),
-        (MethodName::Midpoint, None) => Ok(Method::Midpoint),
+        MethodName::Exact => refuse_samples().map(|()| Method::Exact),
+        MethodName::Midpoint => refuse_samples().map(|()| Method::Midpoint),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `--light`, `--sky-type`, `--zenith`: sources of light around any surface.
 
 use clap::{Args, ValueEnum};
-use vfold::cli::vector;
+use vfold::cli::{refuse, vector};
 use vfold::geometry::{LightSource, Shape, Vec3};
 use vfold::{Error, Result};
 
@@ -56,13 +56,7 @@ impl LightArgs {
             ("--sky-type", self.sky_type != SkyType::Uniform),
             ("--zenith", self.zenith.is_some()),
         ];
-        given.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(flag, _)| {
-            Err(Error::usage(
-                flag,
-                "a fold has its light by --tilt-deg, --slant-deg and --sky",
-                "leave it out",
-            ))
-        })
+        refuse(given, "a fold has its light by --tilt-deg, --slant-deg and --sky", "leave it out")
     }
 
     /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0.

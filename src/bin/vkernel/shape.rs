@@ -115,8 +115,9 @@ fn check(args: &Args) -> Result<()> {
             "give 1e-6 or more",
         ),
     ];
-    let wrong = given.into_iter().find(|(_, given, _)| *given);
-    wrong.map_or(Ok(()), |(flag, _, remedy)| Err(Error::usage(flag, "not for shapes", remedy)))
+    given
+        .into_iter()
+        .try_for_each(|(flag, given, remedy)| cli::refuse([(flag, given)], "not for shapes", remedy))
 }
 
 /// The surface, and what is odd about it on standard error.
