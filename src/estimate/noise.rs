@@ -16,12 +16,23 @@ const ROUNDING: f64 = 1e-13;
 pub type FacetValues = Vec<Option<Vec<f64>>>;
 
 /// What an estimate takes facets to be worth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
-    /// Standard deviation of all facets, if it was given: else what the sample says of them, or what no reflectance explains.
-    pub sd: Option<f64>,
+    /// The part that is the facets' own.
+    pub source: NoiseSource,
     /// Error of the model, relative to a facet's value.
     pub model_error: f64,
+}
+
+/// What tells the noise of facets.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoiseSource {
+    /// All have this standard deviation, white being 1.
+    Given(f64),
+    /// Each has its own.
+    OfFacets(FacetValues),
+    /// The facets, by what no reflectance explains of them.
+    Unexplained,
 }
 
 impl Noise {
@@ -31,30 +42,28 @@ impl Noise {
         if is_photograph { 3e-4 } else { 0.0 }
     }
 
-    /// Standard deviations of facets `rgb`, of which the sample may have `said` some.
+    /// Standard deviations of facets `rgb`.
     ///
     /// # Errors
-    /// [`Error::Field`] if it said them of another number of facets.
-    pub fn deviations(
-        &self,
-        model: &FacetModel,
-        rgb: &[Option<Vec<f64>>],
-        said: Option<&FacetValues>,
-    ) -> Result<FacetValues> {
-        if let Some(sd) = self.sd {
-            return Ok(deviations(rgb, |_, _| sd, self.model_error));
+    /// [`Error::Field`] if those of the noise are of another number of facets.
+    pub fn deviations(&self, model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Result<FacetValues> {
+        match &self.source {
+            NoiseSource::Given(sd) => Ok(deviations(rgb, |_, _| *sd, self.model_error)),
+            NoiseSource::OfFacets(sd) => {
+                if sd.len() != rgb.len() {
+                    let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
+                    return Err(Error::field("facet_sd", problem));
+                }
+                let noise = |facet: usize, channel: usize| sd[facet].as_ref()?.get(channel).copied();
+                let noise = |facet, channel| noise(facet, channel).unwrap_or(0.0);
+                Ok(deviations(rgb, noise, self.model_error))
+            }
+            NoiseSource::Unexplained => {
+                let noise = unexplained(model, rgb);
+                let of_channel = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
+                Ok(deviations(rgb, of_channel, self.model_error))
+            }
         }
-        let Some(said) = said else {
-            let noise = unexplained(model, rgb);
-            let of_channel = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
-            return Ok(deviations(rgb, of_channel, self.model_error));
-        };
-        if said.len() != rgb.len() {
-            let problem = format!("{} facets, but facet_rgb has {}", said.len(), rgb.len());
-            return Err(Error::field("facet_sd", problem));
-        }
-        let noise = |facet: usize, channel: usize| said[facet].as_ref()?.get(channel).copied();
-        Ok(deviations(rgb, |facet, channel| noise(facet, channel).unwrap_or(0.0), self.model_error))
     }
 }
 
@@ -76,7 +85,7 @@ pub fn deviations(
     rgb.iter().enumerate().map(facet).collect()
 }
 
-/// Noise a channel, told from the facets alone: the root mean square of what no reflectance explains.
+/// Noise of each channel, told from the facets alone: the root mean square of what no reflectance explains.
 ///
 /// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
 /// directions are noise. Zero where the terms can be any facets.

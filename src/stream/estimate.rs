@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
 use super::fit::Fit;
+use super::noise::NoiseRecord;
 use super::sample::{Sample, checked};
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
@@ -55,30 +56,21 @@ pub struct EstimateRecord {
     pub(super) noise: Option<NoiseRecord>,
 }
 
-/// How far facets were taken to be off.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub(super) struct NoiseRecord {
-    /// What told it.
-    from: NoiseSource,
-    /// Error of the model, relative to a facet's value.
-    #[schemars(range(min = 0))]
-    pub(super) model_error: f64,
-    /// Standard deviation of all facets, where a flag told it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0))]
-    pub(super) sd: Option<f64>,
-}
-
-/// What tells how far facets may be off.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-enum NoiseSource {
-    /// `vestimate --noise-sd`.
-    Flag,
-    /// The sample's `facet_sd`.
-    FacetSd,
-    /// The facets, by what no reflectance explains of them.
-    Facets,
+/// An estimate for [`Sample::set_estimate`].
+#[derive(Clone, Copy)]
+pub struct NewEstimate<'a> {
+    /// As `vestimate --method` names it.
+    pub method: &'a str,
+    /// The prior as `vestimate --prior` names it, or the basis of the components.
+    pub prior: &'a str,
+    /// Wavelengths of the scene.
+    pub wavelengths_nm: &'a [f64],
+    /// The estimate.
+    pub estimate: &'a Estimate,
+    /// What facets were taken to be worth, by a method that weighs them.
+    pub noise: Option<&'a Noise>,
+    /// Whether to record the covariance, waveband by waveband.
+    pub with_covariance: bool,
 }
 
 /// Why a solver stopped.
@@ -156,24 +148,16 @@ impl EstimateRecord {
 }
 
 impl Sample {
-    /// Adds an estimate, with what facets were taken to be worth if they were weighed, and its covariance (waveband by waveband) if asked to.
+    /// Adds an estimate.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_estimate(
-        &mut self,
-        method: &str,
-        prior: &str,
-        wavelengths_nm: &[f64],
-        estimate: &Estimate,
-        noise: Option<&Noise>,
-        with_covariance: bool,
-    ) -> Result<()> {
+    pub fn set_estimate(&mut self, new: &NewEstimate) -> Result<()> {
+        let NewEstimate { method, prior, wavelengths_nm, estimate, noise, with_covariance } = *new;
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
-        finite("estimate.noise", noise.iter().flat_map(|noise| noise.sd.iter().chain([&noise.model_error])))?;
         finite("estimate.fit", estimate.fitted.iter().flat_map(|fitted| [&fitted.value, &fitted.sd]))?;
         let covariance = estimate.covariance().filter(|_| with_covariance);
         let rows = |matrix: nalgebra::DMatrix<f64>| {
@@ -193,18 +177,9 @@ impl Sample {
                 reflectance_sd,
                 fit: Fit::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
                 covariance: covariance.map(rows),
-                noise: noise.map(|noise| self.noise_record(noise)),
+                noise: noise.map(NoiseRecord::of).transpose()?,
             },
         )
-    }
-
-    fn noise_record(&self, noise: &Noise) -> NoiseRecord {
-        let from = match noise.sd {
-            Some(_) => NoiseSource::Flag,
-            None if self.fields.has("facet_sd") => NoiseSource::FacetSd,
-            None => NoiseSource::Facets,
-        };
-        NoiseRecord { from, model_error: noise.model_error, sd: noise.sd }
     }
 
     /// The estimate; none if the sample has none, or carries an error.

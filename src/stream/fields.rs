@@ -133,11 +133,6 @@ impl Fields {
         }
     }
 
-    /// Takes a field out.
-    pub(super) fn remove(&mut self, name: &str) {
-        self.0.retain(|(other, _)| other != name);
-    }
-
     /// Adds an entry to a field that is a list, or makes it; entries that it has stay as they are.
     ///
     /// # Errors

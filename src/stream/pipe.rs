@@ -17,6 +17,8 @@ const PLACE_BYTES: usize = 1 << 20;
 pub trait Transform {
     /// What samples need of the scene above them.
     type Context: Send + Sync;
+    /// What is made of a sample beside its record.
+    type Aside: Send;
 
     /// Takes a scene, adds to it, and prepares its samples.
     ///
@@ -24,11 +26,11 @@ pub trait Transform {
     /// Any: a scene that cannot be used ends the run.
     fn scene(&self, scene: &mut Scene) -> Result<Self::Context>;
 
-    /// Takes a sample and adds to it.
+    /// Takes a sample and adds to it; what is made beside it goes to `done` of [`pipe`].
     ///
     /// # Errors
     /// Any: the sample goes out with an `error` field and the run goes on.
-    fn sample(&self, context: &Self::Context, sample: &mut Sample) -> Result<()>;
+    fn sample(&self, context: &Self::Context, sample: &mut Sample) -> Result<Self::Aside>;
 
     /// Whether `kept` is what an interrupted run made of `sample`: it need not be made again.
     fn is_made(&self, _sample: &Sample, _kept: &Sample) -> bool {
@@ -36,8 +38,11 @@ pub trait Transform {
     }
 }
 
+/// A record as it goes out, with what was made beside it.
+type Made<A> = (Record, Option<A>);
+
 /// A record that is as it should be, or a sample with the context of its scene.
-type Step<C> = Item<(Arc<C>, Sample), Result<Record>>;
+type Step<T> = Item<(Arc<<T as Transform>::Context>, Sample), Result<Made<<T as Transform>::Aside>>>;
 
 /// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order, each as soon as
 /// it is made. Samples that `kept` has are not made again.
@@ -48,7 +53,7 @@ pub fn pipe<T: Transform + Sync>(
     reader: &mut Reader,
     transform: &T,
     mut kept: Kept,
-    mut done: impl FnMut(Record) -> Result<()>,
+    mut done: impl FnMut(Record, Option<T::Aside>) -> Result<()>,
 ) -> Result<()> {
     let mut context = None;
     let steps = iter::from_fn(|| {
@@ -57,9 +62,11 @@ pub fn pipe<T: Transform + Sync>(
         let further = iter::repeat_with(|| Item::Place).take(reader.line_bytes() / PLACE_BYTES);
         Some(iter::once(step).chain(further))
     });
-    let finish =
-        |(context, sample): (Arc<_>, _)| transformed(transform, &*context, sample).map(Record::Sample);
-    in_order(steps.flatten(), AHEAD * rayon::current_num_threads(), finish, |record| done(record?))
+    let finish = |(context, sample): (Arc<_>, _)| transformed(transform, &*context, sample);
+    in_order(steps.flatten(), AHEAD * rayon::current_num_threads(), finish, |made| {
+        let (record, aside) = made?;
+        done(record, aside)
+    })
 }
 
 /// Reads a record, and does to it all that is not done in parallel.
@@ -68,34 +75,42 @@ fn step<T: Transform>(
     transform: &T,
     kept: &mut Kept,
     context: &mut Option<Arc<T::Context>>,
-) -> Result<Option<Step<T::Context>>> {
+) -> Result<Option<Step<T>>> {
     let Some(record) = reader.read()? else { return Ok(None) };
     if let Record::Sample(sample) = record {
         let Some(context) = context else {
             return Err(reader.wrong("a sample before any scene", "put its scene line first"));
         };
         return Ok(Some(match kept.sample(|kept| transform.is_made(&sample, kept))? {
-            Some(kept) => Item::Known(Ok(Record::Sample(kept))),
+            Some(kept) => Item::Known(Ok((Record::Sample(kept), None))),
             None => Item::ToDo((Arc::clone(context), sample)),
         }));
     }
     kept.pass()?;
     if let Record::Scene(mut scene) = record {
         *context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
-        return Ok(Some(Item::Known(Ok(Record::Scene(scene)))));
+        return Ok(Some(Item::Known(Ok((Record::Scene(scene), None)))));
     }
-    Ok(Some(Item::Known(Ok(record))))
+    Ok(Some(Item::Known(Ok((record, None)))))
 }
 
 /// The sample as the tool leaves it; one that carries an error is left as it is.
-fn transformed<T: Transform>(transform: &T, context: &T::Context, mut sample: Sample) -> Result<Sample> {
+fn transformed<T: Transform>(
+    transform: &T,
+    context: &T::Context,
+    mut sample: Sample,
+) -> Result<Made<T::Aside>> {
     let outcome = match sample.error() {
-        Ok(Some(_)) => Ok(()),
-        Ok(None) => transform.sample(context, &mut sample),
+        Ok(Some(_)) => Ok(None),
+        Ok(None) => transform.sample(context, &mut sample).map(Some),
         Err(error) => Err(error),
     };
-    if let Err(error) = outcome {
-        sample.set_error(&error)?;
-    }
-    Ok(sample)
+    let aside = match outcome {
+        Ok(aside) => aside,
+        Err(error) => {
+            sample.set_error(&error)?;
+            None
+        }
+    };
+    Ok((Record::Sample(sample), aside))
 }

@@ -1,10 +1,10 @@
-//! What an estimate leaves of the facets, told anew from the records: scene, estimate and what facets were taken to be worth.
+//! What an estimate leaves of the facets, computed from the records: scene, estimate and what facets were taken to be worth.
 
-use super::estimate::{EstimateRecord, NoiseRecord};
+use super::estimate::EstimateRecord;
 use super::fit::Fit;
+use super::noise::NoiseRecord;
 use super::{Colours, Sample, Scene};
 use crate::error::{Error, Result};
-use crate::estimate::noise::Noise;
 use crate::estimate::unknowns::{Expected, SceneModel, Unknown};
 use crate::forward::FacetModel;
 
@@ -17,11 +17,11 @@ impl Sample {
     pub fn residuals(&self, scene: &Scene) -> Result<Option<Colours>> {
         let Some(estimate) = self.estimate()? else { return Ok(None) };
         let (model, measured) = (estimate.scene_model(scene)?, self.facet_rgb()?);
-        let noise = match &estimate.noise {
-            Some(NoiseRecord { sd, model_error, .. }) => Noise { sd: *sd, model_error: *model_error },
-            None => Noise { sd: None, model_error: Noise::model_error(self.is_photograph()) },
+        let (given, model_error) = match &estimate.noise {
+            Some(NoiseRecord { sd, model_error, .. }) => (*sd, Some(*model_error)),
+            None => (None, None),
         };
-        let sd = noise.deviations(model.facets(), &measured, self.facet_sd()?.as_ref())?;
+        let sd = self.noise(given, model_error)?.deviations(model.facets(), &measured)?;
         let fitted = estimate.facets(&estimate.at_fit(&model))?;
         if fitted.len() != measured.len() {
             let problem = format!("{} facets for a scene of {}", measured.len(), fitted.len());

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Sample;
 use super::fields::{Fields, finite};
 use crate::error::Result;
 use crate::solve::posterior::Iteration;
@@ -33,33 +32,21 @@ pub(super) struct IterationRecord {
     noise: f64,
 }
 
-impl Sample {
-    /// Adds the iterations that led to an estimate, for [`Sample::take_trace`].
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if a number is not finite.
-    pub fn set_trace(&mut self, trace: &[Vec<Iteration>]) -> Result<()> {
-        let sample = self.id();
-        let mut records = Vec::new();
-        for (run, iterations) in trace.iter().enumerate() {
-            for (iteration, &Iteration { cost, gradient_norm, damping, inflation: noise }) in
-                iterations.iter().enumerate()
-            {
-                finite("trace", &[cost, gradient_norm, damping, noise])?;
-                let sample = sample.clone();
-                records.push(IterationRecord { sample, run, iteration, cost, gradient_norm, damping, noise });
-            }
+/// The iterations that led to the estimate of a `sample`, a record each.
+///
+/// # Errors
+/// [`crate::Error::Field`] if a number is not finite.
+pub fn trace(sample: &str, runs: &[Vec<Iteration>]) -> Result<Vec<Fields>> {
+    let mut records = Vec::new();
+    for (run, iterations) in runs.iter().enumerate() {
+        for (iteration, &Iteration { cost, gradient_norm, damping, inflation: noise }) in
+            iterations.iter().enumerate()
+        {
+            finite("trace", &[cost, gradient_norm, damping, noise])?;
+            let sample = sample.to_owned();
+            let record = IterationRecord { sample, run, iteration, cost, gradient_norm, damping, noise };
+            records.push(Fields::of(&record)?);
         }
-        self.fields.set("trace", records)
     }
-
-    /// Takes the iterations out, a record each.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if `trace` is not a list of objects.
-    pub fn take_trace(&mut self) -> Result<Vec<Fields>> {
-        let records = self.fields.get("trace")?.unwrap_or_default();
-        self.fields.remove("trace");
-        Ok(records)
-    }
+    Ok(records)
 }

@@ -9,7 +9,7 @@ use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, EXPOSURE, SceneModel, Unknown};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Colours, ReferencePanel, Sample, Scene, Transform};
+use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -97,6 +97,8 @@ fn method(args: &Args) -> Result<Method> {
 
 impl Transform for Estimator<'_> {
     type Context = Context;
+    /// Records of the iterations, if they are asked for.
+    type Aside = Vec<Fields>;
 
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         let grid = scene.grid()?;
@@ -131,18 +133,18 @@ impl Transform for Estimator<'_> {
         Ok(Context { grid, scene, method, start })
     }
 
-    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<()> {
-        let rgb = sample.facet_rgb()?;
+    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
+        let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
         let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let deviations = self.deviations(context, &rgb, sample)?;
+                let deviations = Deviations::of(&noise, context.scene.facets(), &rgb)?;
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
                 let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
                 (map::estimate(&data, prior, context.start.as_deref()), how)
             }
-            SceneMethod::Smooth(smoothness) => self.smooth(context, sample, exposure, *smoothness)?,
+            SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
                 let sheet = FlatSheet::new(context.scene.facets(), &measured, exposure)?;
@@ -153,21 +155,25 @@ impl Transform for Estimator<'_> {
             let id = sample.id();
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(&estimate, exposure)));
         }
-        self.refuse_unexplained(context, &rgb, sample, &estimate)?;
-        let (name, prior) = match &context.method {
+        refuse_unexplained(context, &rgb, &noise, &estimate)?;
+        let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
-            _ => ("interreflection", self.args.prior()),
+            SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
-        let wavelengths_nm = context.grid.wavelengths_nm();
-        if self.args.trace.is_some() {
-            sample.set_trace(&estimate.trace)?;
-        }
-        let noise = match &context.method {
-            SceneMethod::Map(_) => Some(self.noise(sample)?),
-            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => None,
+        let is_weighed = match context.method {
+            SceneMethod::Map(_) => true,
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => false,
         };
-        sample.set_estimate(name, prior, wavelengths_nm, &estimate, noise.as_ref(), with_covariance)
+        sample.set_estimate(&NewEstimate {
+            method,
+            prior,
+            wavelengths_nm: context.grid.wavelengths_nm(),
+            estimate: &estimate,
+            noise: is_weighed.then_some(&noise),
+            with_covariance,
+        })?;
+        if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -211,48 +217,23 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
-    /// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
-    fn refuse_unexplained(
-        &self,
-        context: &Context,
-        rgb: &Colours,
-        sample: &Sample,
-        estimate: &Estimate,
-    ) -> Result<()> {
-        if estimate.unexplained <= UNEXPLAINED {
-            return Ok(());
-        }
-        let noise = match context.method {
-            SceneMethod::Map(_) => 1.0,
-            _ => self.deviations(context, rgb, sample)?.rms(),
-        };
-        if estimate.residual_rms <= MISFIT * noise {
-            return Ok(());
-        }
-        let problem = format!(
-            "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
-            100.0 * estimate.unexplained
-        );
-        Err(Error::field("facet_rgb", problem))
-    }
-
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
     fn smooth(
         &self,
         context: &Context,
-        sample: &Sample,
+        rgb: &Colours,
+        noise: &Noise,
         exposure: Exposure,
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
-        let rgb = sample.facet_rgb()?;
-        let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
+        let measured = Measured { rgb, sd: &alike(rgb) };
         let data = FacetData::new(&context.scene, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = self.deviations(context, &rgb, sample)?;
+                let noise = Deviations::of(noise, context.scene.facets(), rgb)?;
                 (
                     smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
                     format!("as allowed by {noise}"),
@@ -268,24 +249,29 @@ impl<'a> Estimator<'a> {
             NoiseSd::All(sd) => Some(sd),
             NoiseSd::Auto => None,
         };
-        let model_error = match self.args.model_error {
-            Some(error) => error,
-            None => Noise::model_error(sample.is_photograph()),
-        };
-        Ok(Noise { sd, model_error })
+        sample.noise(sd, self.args.model_error)
     }
+}
 
-    /// How far each facet may be off: its noise, and what the model leaves out.
-    fn deviations(&self, context: &Context, rgb: &Colours, sample: &Sample) -> Result<Deviations> {
-        let (noise, said) = (self.noise(sample)?, sample.facet_sd()?);
-        let noise_from = match (noise.sd, &said) {
-            (Some(_), _) => "--noise-sd",
-            (None, Some(_)) => "facet_sd",
-            (None, None) => "what no reflectance explains",
-        };
-        let sd = noise.deviations(context.scene.facets(), rgb, said.as_ref())?;
-        Ok(Deviations { sd, model_error: noise.model_error, noise_from })
+/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
+fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate: &Estimate) -> Result<()> {
+    if estimate.unexplained <= UNEXPLAINED {
+        return Ok(());
     }
+    let noise = match context.method {
+        SceneMethod::Map(_) => 1.0,
+        SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
+            Deviations::of(noise, context.scene.facets(), rgb)?.rms()
+        }
+    };
+    if estimate.residual_rms <= MISFIT * noise {
+        return Ok(());
+    }
+    let problem = format!(
+        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
+        100.0 * estimate.unexplained
+    );
+    Err(Error::field("facet_rgb", problem))
 }
 
 /// The same standard deviation for every facet, white being 1.

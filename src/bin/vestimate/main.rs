@@ -121,12 +121,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     let mut drawing = args.plot.as_deref().map(Drawing::new).transpose()?;
     let mut measured = Vec::new();
-    let mut trace = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
-    pipe(&mut reader, &estimator, out.kept()?, |mut record| {
-        if let Record::Sample(sample) = &mut record {
+    let mut traces = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
+    pipe(&mut reader, &estimator, out.kept()?, |record, trace| {
+        if let Record::Sample(sample) = &record {
             warn(args, sample)?;
-            if let Some(trace) = &mut trace {
-                sample.take_trace()?.iter().try_for_each(|line| trace.fields(line))?;
+            if let Some(file) = &mut traces {
+                trace.iter().flatten().try_for_each(|line| file.fields(line))?;
             }
             if args.spectra.is_some() {
                 measured.extend(sample.measured()?);
@@ -135,7 +135,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record))?;
         out.record(&record)
     })?;
-    trace.map_or(Ok(0), Output::finish)?;
+    traces.map_or(Ok(0), Output::finish)?;
     drawing.as_ref().map_or(Ok(()), Drawing::write)?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }

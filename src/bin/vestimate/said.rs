@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use vfold::Result;
 use vfold::estimate::data::FacetData;
+use vfold::estimate::noise::{Noise, NoiseSource};
 use vfold::estimate::{Estimate, Exposure};
+use vfold::forward::FacetModel;
 use vfold::solve::Termination;
 use vfold::stream::Colours;
 
@@ -12,12 +15,22 @@ pub struct Deviations {
     /// Facet by channel, white being 1.
     pub sd: Colours,
     /// The part that is the model's, relative to the facet's value.
-    pub model_error: f64,
+    model_error: f64,
     /// What tells the part that is noise.
-    pub noise_from: &'static str,
+    noise_from: &'static str,
 }
 
 impl Deviations {
+    /// Of facets `rgb` by their noise.
+    pub fn of(noise: &Noise, model: &FacetModel, rgb: &Colours) -> Result<Self> {
+        let noise_from = match noise.source {
+            NoiseSource::Given(_) => "--noise-sd",
+            NoiseSource::OfFacets(_) => "facet_sd",
+            NoiseSource::Unexplained => "what no reflectance explains",
+        };
+        Ok(Self { sd: noise.deviations(model, rgb)?, model_error: noise.model_error, noise_from })
+    }
+
     /// Root mean square.
     pub fn rms(&self) -> f64 {
         let values: Vec<f64> = self.sd.iter().flatten().flatten().copied().collect();

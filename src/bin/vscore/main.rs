@@ -107,7 +107,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut gallery = gallery(args);
     table.as_ref().map_or(Ok(()), |table| table.header(out))?;
     // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.
-    pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record| {
+    pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
         match &record {
             Record::Scene(scene) => {
                 groups.enter(scene);

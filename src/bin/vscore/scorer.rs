@@ -112,6 +112,7 @@ impl<'a> Scorer<'a> {
 
 impl Transform for Scorer<'_> {
     type Context = Context;
+    type Aside = ();
 
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         if !self.args.common.no_history {

@@ -8,7 +8,7 @@ use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{SKY, SceneModel, TILT};
 use vfold::estimate::{Exposure, map};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
-use vfold::stream::{Output, Reader, Record, Sample, Scene};
+use vfold::stream::{NewEstimate, Output, Reader, Record, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::{assert_finite, taken, with_file};
@@ -108,7 +108,15 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
     let data = FacetData::new(scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
     let estimate = map::estimate(&data, &prior, None);
     let mut sample = sample.clone();
-    match sample.set_estimate("interreflection", "cc24", grid.wavelengths_nm(), &estimate, None, true) {
+    let new = NewEstimate {
+        method: "interreflection",
+        prior: "cc24",
+        wavelengths_nm: grid.wavelengths_nm(),
+        estimate: &estimate,
+        noise: None,
+        with_covariance: true,
+    };
+    match sample.set_estimate(&new) {
         Ok(()) => assert!(estimate.reflectance.iter().all(|r| (0.0..=1.0).contains(r))),
         Err(error) => return Err(Error::field("estimate", error)),
     }

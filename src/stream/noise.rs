@@ -1,0 +1,68 @@
+//! How far facets were taken to be off.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Sample;
+use super::fields::finite;
+use crate::error::Result;
+use crate::estimate::noise::{Noise, NoiseSource};
+
+/// How far facets were taken to be off.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub(super) struct NoiseRecord {
+    /// What told it.
+    from: NoiseSourceRecord,
+    /// Error of the model, relative to a facet's value.
+    #[schemars(range(min = 0))]
+    pub(super) model_error: f64,
+    /// Standard deviation of all facets, where a flag told it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub(super) sd: Option<f64>,
+}
+
+/// What tells how far facets may be off.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "NoiseSource")]
+enum NoiseSourceRecord {
+    /// `vestimate --noise-sd`.
+    Flag,
+    /// The sample's `facet_sd`.
+    FacetSd,
+    /// The facets, by what no reflectance explains of them.
+    Facets,
+}
+
+impl NoiseRecord {
+    /// The record of what facets were taken to be worth.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub(super) fn of(noise: &Noise) -> Result<Self> {
+        let (from, sd) = match noise.source {
+            NoiseSource::Given(sd) => (NoiseSourceRecord::Flag, Some(sd)),
+            NoiseSource::OfFacets(_) => (NoiseSourceRecord::FacetSd, None),
+            NoiseSource::Unexplained => (NoiseSourceRecord::Facets, None),
+        };
+        finite("estimate.noise", sd.iter().chain([&noise.model_error]))?;
+        Ok(Self { from, model_error: noise.model_error, sd })
+    }
+}
+
+impl Sample {
+    /// What facets are worth: noise as it is given, else as the sample says it, else by what no reflectance explains; and an
+    /// error of the model as it is given, else the usual one.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if `facet_sd` does not hold numbers.
+    pub fn noise(&self, sd: Option<f64>, model_error: Option<f64>) -> Result<Noise> {
+        let source = match sd {
+            Some(sd) => NoiseSource::Given(sd),
+            None => self.facet_sd()?.map_or(NoiseSource::Unexplained, NoiseSource::OfFacets),
+        };
+        let model_error = model_error.unwrap_or_else(|| Noise::model_error(self.is_photograph()));
+        Ok(Noise { source, model_error })
+    }
+}
