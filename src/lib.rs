@@ -29,8 +29,8 @@
 //! Use runs one way:
 //!
 //! ```text
-//! bin -> report -> stream, plot, score, image, files
-//! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
+//! bin -> report -> scene, stream, plot, score, image, files
+//! bin -> cli -> scene -> stream -> estimate -> forward -> response -> kernel -> geometry
 //!               stream -> plot, score, progress, files, calibrate, parallel
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
@@ -59,6 +59,7 @@ pub mod plot;
 pub mod progress;
 pub mod report;
 pub mod response;
+pub mod scene;
 pub mod score;
 pub mod solve;
 pub mod spectrum;

@@ -76,7 +76,7 @@ fn residuals_are_those_of_the_estimator() {
         else {
             unreachable!("a scene and a sample")
         };
-        let residuals = sample.residuals(&scene).unwrap().unwrap();
+        let residuals = vfold::scene::residuals(&sample, &scene).unwrap().unwrap();
         let all: Vec<f64> = residuals.into_iter().flatten().flatten().collect();
         let rms = (all.iter().map(|value| value * value).sum::<f64>() / all.len() as f64).sqrt();
         let told = sample.estimate().unwrap().unwrap().residual_rms;

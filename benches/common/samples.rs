@@ -5,6 +5,7 @@ use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::unknowns::SceneModel;
+use vfold::scene::Setting;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
 use vfold::stream::{Colours, Reader, Record, Sample};
 use vfold::{Error, Result};
@@ -40,8 +41,11 @@ impl Batch {
         let Some(Record::Scene(scene)) = reader.read()? else {
             return Err(Error::Numeric("no scene; pipe vkernel | vforward into the benchmark".to_owned()));
         };
-        let mut batch =
-            Self { scene: SceneModel::known(scene.model()?), grid: scene.grid()?, shots: Vec::new() };
+        let mut batch = Self {
+            scene: SceneModel::known(Setting::of(&scene)?.model()?),
+            grid: scene.grid()?,
+            shots: Vec::new(),
+        };
         while let Some(record) = reader.read()? {
             if let Record::Sample(sample) = record {
                 batch.shots.push(Shot::new(&batch.scene, &sample)?);

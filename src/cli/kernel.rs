@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::Result;
-use crate::stream::GivenKernel;
+use crate::scene::GivenKernel;
 
 /// A kernel as NPY files, in place of a scene.
 #[derive(Args, Clone, Debug)]

@@ -6,6 +6,7 @@ use super::View;
 use crate::error::Result;
 use crate::plot::batch::Batch;
 use crate::plot::sheet::Sheet;
+use crate::scene::sheet;
 use crate::score::{Score, Summary, Worst};
 use crate::stream::{Sample, Scene};
 
@@ -108,7 +109,7 @@ impl Gallery {
 impl Shown {
     /// What can be drawn of it; none without an estimate.
     pub(super) fn sheet(&self, view: &View) -> Result<Option<Sheet>> {
-        self.sample.sheet(&self.scene, view.illuminant, view.observer)
+        sheet(&self.sample, &self.scene, view.illuminant, view.observer)
     }
 }
 

@@ -89,7 +89,8 @@ impl Scene {
     }
 
     /// Whether the scene says how its bounces were solved.
-    pub(super) fn has_accuracy(&self) -> bool {
+    #[must_use]
+    pub fn has_accuracy(&self) -> bool {
         self.fields.has("accuracy")
     }
 

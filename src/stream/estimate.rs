@@ -4,11 +4,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
-use super::fit::Fit;
 use super::noise::NoiseRecord;
+use super::quantities::Quantities;
 use super::sample::{Sample, checked};
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
+use crate::estimate::unknowns::Unknown;
 use crate::estimate::{Estimate, Fitted, MISFIT};
 use crate::plot::spectra::Curve;
 use crate::solve::Termination;
@@ -30,7 +31,7 @@ pub struct EstimateRecord {
     pub reflectance: Vec<f64>,
     /// Exposure, as known or as found.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) exposure: Option<f64>,
+    pub exposure: Option<f64>,
     /// Root mean square of the residuals in units of their expected size: near 1 where the model is good.
     #[serde(default)]
     #[schemars(range(min = 0))]
@@ -47,7 +48,7 @@ pub struct EstimateRecord {
     pub reflectance_sd: Option<Vec<f64>>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) fit: Option<Fit<FittedRecord>>,
+    fit: Option<Quantities<FittedRecord>>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
@@ -98,7 +99,7 @@ enum TerminationRecord {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct FittedRecord {
     /// Value.
-    pub(super) value: f64,
+    value: f64,
     /// Standard deviation.
     #[schemars(range(min = 0))]
     sd: f64,
@@ -132,6 +133,11 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
+    /// What was fitted along, with its values.
+    pub fn fitted(&self) -> impl Iterator<Item = (&'static Unknown, f64)> {
+        self.fit.iter().flat_map(Quantities::iter).map(|(unknown, fitted)| (unknown, fitted.value))
+    }
+
     /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
@@ -140,7 +146,7 @@ impl EstimateRecord {
                 "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
             )
         });
-        let untold = self.fit.iter().flat_map(Fit::iter).filter(|(_, one)| !one.supported);
+        let untold = self.fit.iter().flat_map(Quantities::iter).filter(|(_, one)| !one.supported);
         let untold =
             untold.map(|(unknown, _)| format!("the facets do not tell {}; it is as expected", unknown.name));
         misfit.into_iter().chain(untold).collect()
@@ -175,7 +181,7 @@ impl Sample {
                 iterations: estimate.iterations,
                 termination: Some((&estimate.termination).into()),
                 reflectance_sd,
-                fit: Fit::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
+                fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
                 covariance: covariance.map(rows),
                 noise: noise.map(NoiseRecord::of).transpose()?,
             },

@@ -102,12 +102,12 @@ impl From<GroupRecord> for Group {
 }
 
 impl Scene {
-    /// Number of facets.
+    /// Number of facets of a surface that is not a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if the scene does not say it.
-    pub fn facets(&self) -> Result<usize> {
-        if self.is_fold()? { Ok(2 * self.fold()?.facets().len()) } else { Ok(self.facet_list()?.count) }
+    pub fn listed_facets(&self) -> Result<usize> {
+        Ok(self.facet_list()?.count)
     }
 
     pub(super) fn facet_grid(&self) -> Result<GridRecord> {

@@ -57,7 +57,8 @@ impl Fields {
     }
 
     /// Whether a field is there and not null.
-    pub(super) fn has(&self, name: &str) -> bool {
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
         self.text(name).is_some_and(|text| text != NULL)
     }
 

@@ -1,11 +1,11 @@
-//! The scene's geometry: a fold, or what [`super::surface`] knows.
+//! The scene's geometry: a fold, or any surface as a mesh or as nothing but its kernel.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::BY_VKERNEL;
-use super::surface::MeshRecord;
+use super::mesh::MeshRecord;
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 
@@ -47,17 +47,16 @@ impl From<&Fold> for FoldRecord {
     }
 }
 
+/// What is wrong with another surface where a fold is needed.
+#[must_use]
+pub fn needs_fold() -> Error {
+    let problem = "a fold is needed here, and this is another shape; make the scene with vkernel --angle-deg";
+    Error::field("geometry", problem)
+}
+
 impl Scene {
     pub(super) fn geometry(&self) -> Result<GeometryRecord> {
         self.fields.require("geometry", BY_VKERNEL)
-    }
-
-    /// Whether the surface is a fold, with a response of its own kind.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if the geometry is missing or unknown.
-    pub fn is_fold(&self) -> Result<bool> {
-        Ok(matches!(self.geometry()?, GeometryRecord::Fold(_)))
     }
 
     /// The fold and its facets.
@@ -65,17 +64,22 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or not those of a fold.
     pub fn fold(&self) -> Result<Fold> {
-        let GeometryRecord::Fold(FoldRecord { angle_deg, panel: [width, depth], panel1_depth }) =
-            self.geometry()?
-        else {
-            let problem =
-                "a fold is needed here, and this is another shape; make the scene with vkernel --angle-deg";
-            return Err(Error::field("geometry", problem));
+        self.fold_if_one()?.ok_or_else(needs_fold)
+    }
+
+    /// The same, or none if the surface is not a fold.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the geometry is missing or unknown, or that of an impossible fold.
+    pub fn fold_if_one(&self) -> Result<Option<Fold>> {
+        let FoldRecord { angle_deg, panel: [width, depth], panel1_depth } = match self.geometry()? {
+            GeometryRecord::Fold(fold) => fold,
+            GeometryRecord::Mesh(_) | GeometryRecord::Kernel => return Ok(None),
         };
         let facets = self.facet_grid()?;
         Fold::new(angle_deg, width, depth, facets.grid())
             .and_then(|fold| panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth)))
-            .map(|fold| fold.with_spacing(facets.spacing()))
+            .map(|fold| Some(fold.with_spacing(facets.spacing())))
             .map_err(|e| Error::field("geometry", e))
     }
 }

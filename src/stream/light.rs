@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
-use crate::geometry::{Light, LightSource};
+use crate::geometry::{Fold, Light, LightSource};
 
 /// Where light comes from.
 #[derive(Serialize, JsonSchema)]
@@ -136,12 +136,19 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or leave a panel unlit, or if there is no fold.
     pub fn light(&self) -> Result<Light> {
-        let fold = self.fold()?;
-        let SunRecord { tilt_deg, slant_deg, sky, .. } = self.fields.require("light", BY_VKERNEL)?;
-        Light::new(&fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
+        self.light_on(&self.fold()?)
     }
 
-    /// The sources around a surface that is no fold.
+    /// The same where the fold is known already.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if sun or sky are missing or leave a panel unlit.
+    pub fn light_on(&self, fold: &Fold) -> Result<Light> {
+        let SunRecord { tilt_deg, slant_deg, sky, .. } = self.fields.require("light", BY_VKERNEL)?;
+        Light::new(fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
+    }
+
+    /// The sources around a surface that is not a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing or impossible.

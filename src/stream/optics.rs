@@ -5,10 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::LARGEST;
-use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::forward::{Lighting, OpenLight};
-use crate::geometry::LightSource;
 use crate::spectrum::WavelengthGrid;
 
 /// A named spectrum on the scene's wavelengths.
@@ -99,108 +96,29 @@ impl Scene {
         self.fields.text("camera").is_some()
     }
 
-    /// Whether the colour of the sky is given.
-    #[must_use]
-    pub fn has_sky_illuminant(&self) -> bool {
-        self.fields.has("sky_illuminant")
-    }
-
-    /// The lights on a fold as the camera responds to them.
+    /// The illuminants, at least one.
     ///
     /// # Errors
-    /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths.
-    pub fn lighting(&self) -> Result<Lighting> {
-        let light = self.light()?;
-        let sun = CameraResponse::of_pictures(self.illuminant_responses()?);
-        let sky = self.sky_response(&sun)?;
-        Ok(Lighting { light, sun, sky })
-    }
-
-    /// The camera's responses to the sources around a surface that is no fold. Of several illuminants each is that of a source, the
-    /// skies aside, or, where there is one source, that of a picture.
-    ///
-    /// # Errors
-    /// As [`Scene::lighting`]; [`Error::Field`] if there are more than one but not as many illuminants as sources.
-    pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
-        let sources = self.sources()?;
-        let responses = self.lamp_responses(&sources)?;
-        let sky = self.sky_response(&responses[0])?;
-        let mut of_lamps = responses.iter().cycle();
-        let of = |source: &LightSource| if source.is_sky() { Some(&sky) } else { of_lamps.next() };
-        Ok(sources.iter().filter_map(of).cloned().collect())
-    }
-
-    /// One response for all sources, or one for each that is no sky.
-    fn lamp_responses(&self, sources: &[LightSource]) -> Result<Vec<CameraResponse>> {
-        let illuminants = self.illuminants()?;
-        let pictures = self.illuminant_responses()?;
-        let lamps = sources.iter().filter(|source| !source.is_sky()).count();
-        if lamps <= 1 {
-            return Ok(vec![CameraResponse::of_pictures(pictures)]);
-        }
-        if illuminants.len() > 1 && illuminants.len() != lamps {
-            let problem = format!(
-                "{} for {lamps} sources; give --illuminant once, or once a source",
-                illuminants.len()
-            );
-            return Err(Error::field("illuminants", problem));
-        }
-        // Powers are relative: in which amounts the sources light the surface is said of the first one's strongest channel.
-        let (grid, camera) = (self.grid()?, self.camera()?);
-        let others = illuminants[1..]
-            .iter()
-            .map(|illuminant| pictures[0].to_other_light(&grid, &camera.sensitivities, &illuminant.power));
-        std::iter::once(Ok(pictures[0].clone())).chain(others).collect()
-    }
-
-    /// The light as a chart beside the surface receives it.
-    ///
-    /// # Errors
-    /// As [`Scene::lighting`].
-    pub fn open_light(&self) -> Result<OpenLight> {
-        if self.is_fold()? {
-            return Ok((&self.lighting()?).into());
-        }
-        let responses = self.source_responses()?;
-        Ok(OpenLight::new(&self.sources()?.into_iter().zip(responses).collect::<Vec<_>>()))
-    }
-
-    /// Pictures that are taken of a sample: one under each illuminant, or one under all.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if illuminants or sources are missing.
-    pub fn pictures(&self) -> Result<usize> {
-        let one = !self.is_fold()? && self.sources()?.iter().filter(|source| !source.is_sky()).count() > 1;
-        Ok(if one { 1 } else { self.illuminants()?.len() })
-    }
-
-    fn illuminants(&self) -> Result<Vec<SpectrumRecord>> {
+    /// [`Error::Field`] if they are missing or not on the scene's wavelengths.
+    pub fn illuminants(&self) -> Result<Vec<SpectrumRecord>> {
         let illuminants: Vec<SpectrumRecord> =
             self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
         if illuminants.is_empty() {
             return Err(Error::field("illuminants", "none; give --illuminant to vforward or vextract"));
         }
+        let grid = self.grid()?;
+        illuminants.iter().try_for_each(|illuminant| on_grid(&grid, "illuminants", illuminant))?;
         Ok(illuminants)
     }
 
-    /// The camera's response to each illuminant.
-    fn illuminant_responses(&self) -> Result<Vec<CameraResponse>> {
-        let (grid, camera) = (self.grid()?, self.camera()?);
-        let response = |illuminant: &SpectrumRecord| {
-            on_grid(&grid, "illuminants", illuminant)?;
-            CameraResponse::new(&grid, &camera.sensitivities, &illuminant.power)
-        };
-        self.illuminants()?.iter().map(response).collect()
-    }
-
-    /// The camera's response to the sky, that to the `sun` if the sky has no spectrum of its own.
-    fn sky_response(&self, sun: &CameraResponse) -> Result<CameraResponse> {
-        let Some(spectrum) = self.fields.get::<SpectrumRecord>("sky_illuminant")? else {
-            return Ok(sun.clone());
-        };
-        let grid = self.grid()?;
-        on_grid(&grid, "sky_illuminant", &spectrum)?;
-        sun.to_other_light(&grid, &self.camera()?.sensitivities, &spectrum.power)
+    /// The spectrum of the sky, if it has one of its own.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not on the scene's wavelengths.
+    pub fn sky_illuminant(&self) -> Result<Option<SpectrumRecord>> {
+        let sky: Option<SpectrumRecord> = self.fields.get("sky_illuminant")?;
+        sky.iter().try_for_each(|sky| on_grid(&self.grid()?, "sky_illuminant", sky))?;
+        Ok(sky)
     }
 }
 

@@ -4,10 +4,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::{Fields, finite};
-use super::fit::Fit;
+use super::quantities::Quantities;
 use super::scene::Scene;
 use crate::error::Result;
-use crate::estimate::Estimate;
 use crate::estimate::unknowns::Unknown;
 
 /// What estimates of a scene's samples will be worth, before any is taken.
@@ -31,7 +30,7 @@ pub(super) struct PlanRecord {
     expected_rmse: ExpectedRmse,
     /// Standard deviation to expect of what is fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    expected_sd: Option<Fit<f64>>,
+    expected_sd: Option<Quantities<f64>>,
 }
 
 /// Of several reflectances.
@@ -45,49 +44,37 @@ struct ExpectedRmse {
     worst: f64,
 }
 
-/// Standard deviations of several estimates.
-#[derive(Clone, Debug, Default)]
-pub struct ExpectedError {
-    /// Root mean square over the wavelengths, an estimate each.
-    reflectance: Vec<f64>,
-    /// Sum of squares of what is fitted along.
-    fitted: Vec<(&'static Unknown, f64)>,
+/// A plan for [`plan`].
+pub struct NewPlan<'a> {
+    /// Angle between the panels of a fold, degrees.
+    pub angle_deg: Option<f64>,
+    /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
+    pub reflectances: &'a str,
+    /// Standard deviation of every facet's value, white being 1.
+    pub noise_sd: f64,
+    /// Root mean square error to expect of each reflectance.
+    pub rmse: &'a [f64],
+    /// Standard deviations to expect of what is fitted along.
+    pub fitted_sd: Vec<(&'static Unknown, f64)>,
 }
 
-impl ExpectedError {
-    /// Adds what an estimate says of its error.
-    pub fn add(&mut self, estimate: &Estimate) {
-        let sd = estimate.reflectance_sd().unwrap_or_default();
-        let square = sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len().max(1) as f64;
-        self.reflectance.push(square.sqrt());
-        for fitted in &estimate.fitted {
-            match self.fitted.iter_mut().find(|(unknown, _)| *unknown == fitted.unknown) {
-                Some((_, sum)) => *sum += fitted.sd * fitted.sd,
-                None => self.fitted.push((fitted.unknown, fitted.sd * fitted.sd)),
-            }
-        }
-    }
-}
-
-/// The record of a plan: RMSE to expect of the reflectances of `set`, mean and worst, and the root mean square of the standard
-/// deviations of what is fitted along.
+/// The record of a plan: RMSE to expect of the reflectances, mean and worst, and the standard deviations of what is fitted along.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if a number is not finite or the scene lacks its geometry.
-pub fn plan(scene: &Scene, set: &str, noise_sd: f64, expected: &ExpectedError) -> Result<Fields> {
-    let count = expected.reflectance.len().max(1) as f64;
-    let mean = expected.reflectance.iter().sum::<f64>() / count;
-    let worst = expected.reflectance.iter().copied().fold(0.0, f64::max);
+/// [`crate::Error::Field`] if a number is not finite or the scene has no name.
+pub fn plan(scene: &Scene, new: NewPlan) -> Result<Fields> {
+    let NewPlan { angle_deg, reflectances, noise_sd, rmse, fitted_sd } = new;
+    let mean = rmse.iter().sum::<f64>() / rmse.len().max(1) as f64;
+    let worst = rmse.iter().copied().fold(0.0, f64::max);
     finite("expected_rmse", [&mean, &worst])?;
-    let sds: Vec<_> = expected.fitted.iter().map(|(of, squares)| (*of, (squares / count).sqrt())).collect();
-    finite("expected_sd", sds.iter().map(|(_, sd)| sd))?;
+    finite("expected_sd", fitted_sd.iter().map(|(_, sd)| sd))?;
     Fields::of(&PlanRecord {
         scene: scene.id()?,
-        angle_deg: if scene.is_fold()? { Some(scene.fold()?.angle_deg()) } else { None },
-        reflectances: set.to_owned(),
-        samples: expected.reflectance.len(),
+        angle_deg,
+        reflectances: reflectances.to_owned(),
+        samples: rmse.len(),
         noise_sd,
         expected_rmse: ExpectedRmse { mean, worst },
-        expected_sd: Fit::of(sds),
+        expected_sd: Quantities::of(fitted_sd),
     })
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::{BY_VKERNEL, finite};
 use crate::error::{Error, Result};
+use crate::geometry::Fold;
 use crate::response::{ModeSet, Modes, Response, SurfaceResponse};
 
 /// What all bounces make of light.
@@ -47,7 +48,10 @@ impl ModesRecord {
     fn into_modes(self, facets: usize) -> Result<ModeSet> {
         let poles = self.poles.len();
         if self.residues.len() != facets || self.residues.iter().any(|row| row.len() != poles) {
-            return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
+            return Err(Error::field(
+                "response.residues",
+                "needs one row per facet, with one number per pole",
+            ));
         }
         Ok(ModeSet { poles: self.poles, residues: self.residues.concat() })
     }
@@ -97,19 +101,30 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if they are missing or their shapes disagree.
     pub fn response(&self) -> Result<Response> {
-        let facets = self.fold()?.facets().len();
+        self.response_of(&self.fold()?)
+    }
+
+    /// The same where the fold is known already.
+    ///
+    /// # Errors
+    /// As [`Scene::response`].
+    pub fn response_of(&self, fold: &Fold) -> Result<Response> {
+        let facets = fold.facets().len();
         Response::new(match self.response_record()? {
             ResponseRecord::Shared(modes) => Modes::Shared(modes.into_modes(facets)?),
             ResponseRecord::Separate { panels: [on_0, on_1] } => {
                 Modes::Separate([on_0.into_modes(2 * facets)?, on_1.into_modes(2 * facets)?])
             }
             ResponseRecord::Sources { .. } => {
-                return Err(Error::field("response", "that of no fold; make the scene again with vkernel"));
+                return Err(Error::field(
+                    "response",
+                    "not that of a fold; make the scene again with vkernel",
+                ));
             }
         })
     }
 
-    /// Poles and residues of every source around a surface that is no fold.
+    /// Poles and residues of every source around a surface that is not a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing, or do not fit facets and sources.
@@ -117,7 +132,7 @@ impl Scene {
         let ResponseRecord::Sources { sources: modes } = self.response_record()? else {
             return Err(Error::field("response", "that of a fold; make the scene again with vkernel"));
         };
-        let (facets, sources) = (self.facets()?, self.sources()?.len());
+        let (facets, sources) = (self.listed_facets()?, self.sources()?.len());
         if modes.len() != sources {
             let problem = format!("{} for {sources} sources of light", modes.len());
             return Err(Error::field("response.sources", problem));

@@ -1,15 +1,12 @@
 //! The scene's geometry: any surface, as a mesh or as nothing but its kernel.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::Scene;
 use super::facets::ListRecord;
 use super::geometry::GeometryRecord;
 use crate::error::{Error, Result};
 use crate::geometry::{Group, Shape};
 
-/// A surface that is no fold.
+/// A surface that is not a fold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
     /// Flat facets in space.
@@ -19,28 +16,6 @@ pub enum Surface {
         /// How many.
         facets: usize,
     },
-}
-
-/// Flat facets in space, all of them: a mesh is small beside its response.
-#[derive(Serialize, Deserialize, JsonSchema)]
-pub(super) struct MeshRecord {
-    /// Points, in any unit.
-    vertices: Vec<[f64; 3]>,
-    /// Three or four vertices of each face, counted from 0, counter-clockwise seen from the reflecting side.
-    #[schemars(inner(length(min = 3, max = 4)))]
-    faces: Vec<Vec<usize>>,
-    /// Whether the faces' backs are as many facets again.
-    #[serde(default)]
-    two_sided: bool,
-}
-
-impl From<&Shape> for MeshRecord {
-    fn from(shape: &Shape) -> Self {
-        let two_sided = shape.is_two_sided();
-        let fronts = if two_sided { shape.len() / 2 } else { shape.len() };
-        let faces = (0..fronts).map(|facet| shape.corners(facet).to_vec()).collect();
-        Self { vertices: shape.vertices().to_vec(), faces, two_sided }
-    }
 }
 
 impl From<&Surface> for GeometryRecord {

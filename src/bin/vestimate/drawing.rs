@@ -7,6 +7,7 @@ use vfold::colorimetry::Observer;
 use vfold::plot::sheet::Sheet;
 use vfold::plot::sheets;
 use vfold::plot::spectra::CURVES_MAX;
+use vfold::scene::sheet;
 use vfold::spectrum::{Spectrum, illuminant};
 use vfold::stream::{Record, Scene};
 
@@ -28,7 +29,7 @@ impl<'a> Drawing<'a> {
         match (record, &self.scene) {
             (Record::Scene(scene), _) => self.scene = Some(scene.clone()),
             (Record::Sample(sample), Some(scene)) if self.sheets.len() < CURVES_MAX => {
-                self.sheets.extend(sample.sheet(scene, &self.daylight, Observer::Cie1964_10deg)?);
+                self.sheets.extend(sheet(sample, scene, &self.daylight, Observer::Cie1964_10deg)?);
             }
             _ => {}
         }

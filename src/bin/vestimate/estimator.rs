@@ -8,6 +8,7 @@ use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, EXPOSURE, SceneModel, Unknown};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
+use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
@@ -118,7 +119,7 @@ impl Transform for Estimator<'_> {
                 SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
             }
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
-            Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &scene.model()?)?),
+            Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &Setting::of(scene)?.model()?)?),
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
@@ -129,7 +130,7 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        let scene = scene.model_to_fit(&self.fit)?;
+        let scene = Setting::of(scene)?.model_to_fit(&self.fit)?;
         Ok(Context { grid, scene, method, start })
     }
 

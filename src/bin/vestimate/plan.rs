@@ -3,8 +3,9 @@
 use clap::Args;
 use vfold::cli::{Common, OpticsArgs};
 use vfold::estimate::Exposure;
+use vfold::scene::{ExpectedError, Setting};
 use vfold::spectrum::{Outside, WavelengthGrid};
-use vfold::stream::{ExpectedError, Output, Reader, Record, Scene, Transform, plan};
+use vfold::stream::{NewPlan, Output, Reader, Record, Scene, Transform, plan};
 use vfold::{Error, Result};
 
 use super::estimator::Estimator;
@@ -74,7 +75,8 @@ impl PlanArgs {
     /// Estimates from facets without noise, taken to have it: their error bars are what to expect.
     fn of_scene(&self, estimator: &Estimator, scene: &mut Scene) -> Result<vfold::stream::Fields> {
         let context = estimator.scene(scene)?;
-        let (grid, model) = (scene.grid()?, scene.model()?);
+        let setting = Setting::of(scene)?;
+        let (grid, model) = (scene.grid()?, setting.model()?);
         let noise_sd = match estimator.args().noise_sd {
             NoiseSd::All(sd) => sd,
             NoiseSd::Auto => NOISE_SD,
@@ -87,6 +89,11 @@ impl PlanArgs {
             let exposure = estimator.exposure_or(Exposure::Known(1.0));
             expected.add(&estimator.of_facets(&context, &rgb, noise_sd, exposure)?);
         }
-        plan(scene, set, noise_sd, &expected)
+        let angle_deg = match &setting {
+            Setting::Fold(fold) => Some(fold.fold().angle_deg()),
+            Setting::Surface(_) => None,
+        };
+        let (rmse, fitted_sd) = (expected.rmse(), expected.fitted_sd());
+        plan(scene, NewPlan { angle_deg, reflectances: set, noise_sd, rmse, fitted_sd })
     }
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use vfold::calibrate::Calibration;
 use vfold::cli::Common;
 use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
+use vfold::scene::Setting;
 use vfold::spectrum::WavelengthGrid;
 use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
 use vfold::{Error, Result, cli};
@@ -125,7 +126,7 @@ impl GivenCalibration {
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
-        let view = View { path, photograph, light: &scene.open_light()?, lens };
+        let view = View { path, photograph, light: &Setting::of(scene)?.open_light()?, lens };
         target.calibrate(&view, corners).map(Some)
     }
 }

@@ -26,6 +26,7 @@ use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
 use vfold::geometry::sight::Sight;
 use vfold::image::Photograph;
+use vfold::scene::Setting;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
@@ -123,8 +124,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
-    let (id, panels, facet_count) = (scene.id()?, scene.panels()?, scene.facets()?);
-    let sight = if scene.is_fold()? { None } else { Some(Sight::new(&scene.shape()?)) };
+    let setting = Setting::of(&scene)?;
+    let (id, panels, facet_count) = (scene.id()?, setting.panels()?, setting.facets()?);
+    let sight = match &setting {
+        Setting::Fold(_) => None,
+        Setting::Surface(surface) => Some(Sight::new(&surface.shape()?)),
+    };
     let setup = Setup {
         args,
         options,

@@ -16,6 +16,7 @@ use subject::Subject;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
+use vfold::scene::Setting;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
@@ -150,7 +151,7 @@ impl BouncesArg {
 /// Records the wavebands that no sensor sees: the models leave them out.
 fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
     let bands = scene.grid()?.len();
-    let unseen = bands - scene.open_light()?.seen_bands().len();
+    let unseen = bands - Setting::of(scene)?.open_light()?.seen_bands().len();
     if unseen > 0 && args.common.verbose {
         cli::say("vforward", &format!("{unseen} of {bands} wavebands are seen by no channel: skipped"));
     }

@@ -7,7 +7,7 @@ use vfold::forward::{Lighting, nonuniform};
 use vfold::kernel::FoldKernel;
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::surface::SurfaceKernel;
-use vfold::stream::{GivenKernel, Scene};
+use vfold::scene::{GivenKernel, Setting};
 
 /// Direct light a patch of every source, and the camera's response to it.
 type Lights = Vec<(Vec<f64>, CameraResponse)>;
@@ -21,15 +21,16 @@ pub enum Nonuniform<'a> {
 
 impl<'a> Nonuniform<'a> {
     /// That of the scene, which may be of a kernel that is given.
-    pub fn of(scene: &Scene, given: Option<&'a GivenKernel>) -> Result<Self> {
-        if scene.is_fold()? {
-            return Ok(Self::Fold(form_factors(&scene.fold()?), scene.lighting()?));
-        }
-        let cameras = scene.source_responses()?.into_iter();
+    pub fn of(setting: &Setting, given: Option<&'a GivenKernel>) -> Result<Self> {
+        let surface = match setting {
+            Setting::Fold(fold) => return Ok(Self::Fold(form_factors(fold.fold()), fold.lighting()?)),
+            Setting::Surface(surface) => surface,
+        };
+        let cameras = surface.source_responses()?.into_iter();
         if let Some(given) = given {
             return Ok(Self::Kernel(given, given.sources.iter().cloned().zip(cameras).collect()));
         }
-        let lit = scene.lit_surface()?;
+        let lit = surface.lit()?;
         let lights = lit.lights.into_iter().map(|light| light.irradiance);
         Ok(Self::Mesh(lit.kernel, lights.zip(cameras).collect()))
     }

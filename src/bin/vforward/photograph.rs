@@ -6,6 +6,7 @@ use vfold::camera::CameraResponse;
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::render::{FoldView, Picture, ShapeView};
 use vfold::forward::{FacetModel, Lighting};
+use vfold::scene::{FoldSetting, Setting, SurfaceSetting};
 use vfold::stream::Corners;
 
 use super::render::say_corners;
@@ -20,10 +21,9 @@ impl Setup<'_> {
         };
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let reflectance = &sheets[0].spectrum.reflectance;
-        let (mut picture, seen) = if self.scene.is_fold()? {
-            self.fold_picture(for_screen, reflectance)?
-        } else {
-            self.shape_picture(for_screen, reflectance)?
+        let (mut picture, seen) = match &self.setting {
+            Setting::Fold(fold) => self.fold_picture(fold, for_screen, reflectance)?,
+            Setting::Surface(surface) => self.shape_picture(surface, for_screen, reflectance)?,
         };
         self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
         if for_screen {
@@ -39,31 +39,33 @@ impl Setup<'_> {
 
     fn fold_picture(
         &self,
+        fold: &FoldSetting,
         for_screen: bool,
         reflectance: &[f64],
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
         let render = &self.args.render;
-        let view = FoldView::new(&self.scene.fold()?, &render.viewpoint(), render.frame()?)?;
+        let view = FoldView::new(fold.fold(), &render.viewpoint(), render.frame()?)?;
         let lighting = if for_screen {
-            Lighting { light: self.scene.light()?, sun: eye.clone(), sky: eye }
+            Lighting { light: fold.light()?, sun: eye.clone(), sky: eye }
         } else {
-            self.scene.lighting()?
+            fold.lighting()?
         };
-        let model = self.scene.fine_model(view.grid(), &lighting)?;
+        let model = fold.fine_model(view.grid(), &lighting)?;
         Ok((view.take(&self.light(&model, reflectance)), view.corners()))
     }
 
     fn shape_picture(
         &self,
+        surface: &SurfaceSetting,
         for_screen: bool,
         reflectance: &[f64],
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
-        let (render, sources) = (&self.args.render, self.scene.sources()?);
-        let view = ShapeView::new(&self.scene.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
+        let (render, sources) = (&self.args.render, surface.sources()?);
+        let view = ShapeView::new(&surface.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
         let light = if for_screen {
-            let model = self.scene.surface_model_seen_by(vec![eye; sources.len()])?;
+            let model = surface.model_seen_by(&eye)?;
             self.light(&model, reflectance)
         } else {
             self.light(&self.model, reflectance)

@@ -7,7 +7,8 @@ use vfold::forward::FacetModel;
 use vfold::forward::bounces::Bounces;
 use vfold::forward::noise::Noise;
 use vfold::parallel::{Item, in_order};
-use vfold::stream::{Corners, GivenKernel, Output, Sample, Scene, read_matrix};
+use vfold::scene::{GivenKernel, Setting};
+use vfold::stream::{Corners, Output, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -21,6 +22,7 @@ const AHEAD: usize = 16;
 pub struct Setup<'a> {
     pub(super) args: &'a Args,
     pub(super) scene: &'a Scene,
+    pub(super) setting: Setting<'a>,
     given: Option<&'a GivenKernel>,
     pub(super) noise: Noise,
     pub(super) bounces: Bounces,
@@ -34,7 +36,9 @@ impl<'a> Setup<'a> {
         scene: &'a Scene,
         given: Option<&'a GivenKernel>,
     ) -> Result<Self> {
-        Ok(Self { args, scene, given, noise, bounces: args.bounces.of(scene)?, model: scene.model()? })
+        let setting = Setting::of(scene)?;
+        let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
+        Ok(Self { args, scene, setting, given, noise, bounces, model })
     }
 
     /// Writes a sample a sheet or file; the first says where its panels are `seen`.
@@ -64,7 +68,7 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let surface = Nonuniform::of(self.scene, self.given)?;
+        let surface = Nonuniform::of(&self.setting, self.given)?;
         for (n, path) in files.iter().enumerate() {
             let rgb = surface.facet_rgb(&self.facet_reflectance(path)?)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -74,7 +78,7 @@ impl<'a> Setup<'a> {
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
-        let shape = [(self.scene.facets()?, "facets"), (self.scene.grid()?.len(), "wavebands")];
+        let shape = [(self.setting.facets()?, "facets"), (self.scene.grid()?.len(), "wavebands")];
         let reflectance = read_matrix(path, shape)?;
         match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
             Some(r) => Err(Error::Array {
@@ -96,7 +100,7 @@ impl<'a> Setup<'a> {
         let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
         let mut sample = Sample::new(&self.scene.id()?, id)?;
         let sd = (!noise.is_none()).then(|| rows(&sd));
-        sample.set_facets(&rows(&values), sd.as_ref(), self.scene.pictures()?)?;
+        sample.set_facets(&rows(&values), sd.as_ref(), self.setting.pictures()?)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
     }

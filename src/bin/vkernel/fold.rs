@@ -10,6 +10,7 @@ use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
 use vfold::kernel::skipped::skipped;
 use vfold::kernel::{FoldKernel, Method, exact};
 use vfold::plot::surface::draw;
+use vfold::scene::FoldSetting;
 use vfold::stream::{Output, Scene, write_matrix};
 use vfold::{Error, Result};
 
@@ -45,7 +46,7 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
     if let Some(path) = out.saves.take("kernel") {
         save(&path, &method.form_factors(fold).0)?;
     }
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &scene.fold_light()?))?;
+    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &FoldSetting::of(&scene)?.facet_light()?))?;
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;
     }

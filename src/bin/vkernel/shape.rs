@@ -11,6 +11,7 @@ use vfold::kernel::surface::SurfaceKernel;
 use vfold::kernel::surface::patches::{Division, patches};
 use vfold::kernel::surface::refinement::{Solved, solve};
 use vfold::plot::surface::draw;
+use vfold::scene::SurfaceSetting;
 use vfold::stream::{Output, Scene, Surface, read_shape, write_matrix};
 use vfold::{Error, Result};
 
@@ -80,7 +81,7 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = &args.plot {
-        draw(path, &scene.surface_light(solved.kernel.facet_row_sums())?)?;
+        draw(path, &SurfaceSetting::of(&scene).facet_light(solved.kernel.facet_row_sums())?)?;
     }
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;

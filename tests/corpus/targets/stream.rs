@@ -7,6 +7,7 @@ use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{SKY, SceneModel, TILT};
 use vfold::estimate::{Exposure, map};
+use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
 use vfold::stream::{NewEstimate, Output, Reader, Record, Sample, Scene};
 use vfold::{Error, Result};
@@ -58,12 +59,13 @@ fn written(records: &[Record]) -> Vec<u8> {
 
 /// What samples need of a scene.
 fn look_at(scene: &Scene) -> Result<(WavelengthGrid, SceneModel)> {
+    let setting = Setting::of(scene)?;
     for unknown in [&TILT, &SKY] {
-        taken(scene.model_to_fit(&[unknown]));
+        taken(setting.model_to_fit(&[unknown]));
     }
-    taken(scene.open_light());
+    taken(setting.open_light());
     taken(scene.materials());
-    let (grid, model) = (scene.grid()?, scene.model()?);
+    let (grid, model) = (scene.grid()?, setting.model()?);
     for reflectance in [0.0, 0.5, 1.0] {
         let rgb = model.facet_rgb(&vec![reflectance; grid.len()]);
         Sample::new("scene", "id")?.set_facets(&rows(&rgb), None, 1)?;

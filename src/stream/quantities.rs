@@ -11,9 +11,9 @@ use crate::estimate::unknowns::{self, TABLE, Unknown};
 
 /// Something of each number of a scene that was fitted, in the order of [`TABLE`]; what was not is absent.
 #[derive(Clone, Debug)]
-pub(super) struct Fit<T>(Vec<(&'static Unknown, T)>);
+pub(super) struct Quantities<T>(Vec<(&'static Unknown, T)>);
 
-impl<T> Fit<T> {
+impl<T> Quantities<T> {
     /// Those of a list; none if it is empty.
     pub(super) fn of(list: impl IntoIterator<Item = (&'static Unknown, T)>) -> Option<Self> {
         let mut all: Vec<_> = list.into_iter().collect();
@@ -27,14 +27,14 @@ impl<T> Fit<T> {
     }
 }
 
-impl<T: Serialize> Serialize for Fit<T> {
+impl<T: Serialize> Serialize for Quantities<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.iter().map(|(unknown, one)| (unknown.name, one)))
     }
 }
 
 /// Names that the tools do not know are passed over.
-impl<'de, T: DeserializeOwned> Deserialize<'de> for Fit<T> {
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Quantities<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut all = Vec::new();
         for (name, value) in Map::deserialize(deserializer)? {
@@ -47,13 +47,13 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for Fit<T> {
     }
 }
 
-impl<T: JsonSchema> JsonSchema for Fit<T> {
+impl<T: JsonSchema> JsonSchema for Quantities<T> {
     fn schema_name() -> Cow<'static, str> {
-        "Fit".into()
+        "Quantities".into()
     }
 
     fn schema_id() -> Cow<'static, str> {
-        format!("Fit<{}>", T::schema_id()).into()
+        format!("Quantities<{}>", T::schema_id()).into()
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
@@ -86,14 +86,14 @@ mod tests {
 
     #[test]
     fn fits_are_written_in_the_order_of_the_table() {
-        let fit = Fit::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&ANGLE, 45.0)]).unwrap();
+        let fit = Quantities::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&ANGLE, 45.0)]).unwrap();
         assert_eq!(serde_json::to_string(&fit).unwrap(), r#"{"exposure":1.5,"angle_deg":45.0,"sky":0.2}"#);
-        assert!(Fit::<f64>::of([]).is_none());
+        assert!(Quantities::<f64>::of([]).is_none());
     }
 
     #[test]
     fn what_is_not_known_is_passed_over() {
-        let fit: Fit<f64> = serde_json::from_str(r#"{"fog":{},"sky":0.2,"angle_deg":null}"#).unwrap();
+        let fit: Quantities<f64> = serde_json::from_str(r#"{"fog":{},"sky":0.2,"angle_deg":null}"#).unwrap();
         assert_eq!(fit.iter().collect::<Vec<_>>(), [(&SKY, &0.2)]);
     }
 }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::{Scene, Surface, read_rows, read_square};
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
 use crate::kernel::dense::DenseExchange;
 use crate::kernel::mesh::Accuracy;
 use crate::response::SurfaceResponse;
+use crate::stream::{Scene, Surface, read_rows, read_square};
 
 /// Relative residual of the bounces.
 const TOLERANCE: f64 = 1e-9;

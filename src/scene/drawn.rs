@@ -1,0 +1,99 @@
+//! What can be drawn of scenes and samples.
+
+use super::{FoldSetting, Setting, SurfaceSetting, residuals};
+use crate::camera::CameraResponse;
+use crate::colorimetry::{Colorimeter, Observer, encode_srgb};
+use crate::error::Result;
+use crate::geometry::Panel;
+use crate::plot::sheet::{Residuals, Sheet, SheetColours};
+use crate::plot::surface::FacetLight;
+use crate::response::ModeLight;
+use crate::spectrum::Spectrum;
+use crate::stream::{Sample, Scene, SpectrumRecord};
+
+/// What can be drawn of the sample, its colours as under `illuminant` for `observer`; none if it has no estimate. Where the
+/// scene cannot be seen, as one of nothing but a kernel, the spectrum is drawn alone.
+///
+/// # Errors
+/// [`crate::Error::Field`] if the estimate is not a spectrum.
+pub fn sheet(
+    sample: &Sample,
+    scene: &Scene,
+    illuminant: &Spectrum,
+    observer: Observer,
+) -> Result<Option<Sheet>> {
+    let Some(curve) = sample.curve()? else { return Ok(None) };
+    let setting = Setting::of(scene)?;
+    let panels: Vec<_> = setting.panels().into_iter().flatten().collect();
+    let grid = scene.grid()?;
+    let meter = Colorimeter::new(&grid, illuminant, observer).ok();
+    let is_on_grid = |reflectance: &[f64]| reflectance.len() == grid.len();
+    let meter = meter.filter(|_| is_on_grid(&curve.reflectance));
+    let colours = meter.map(|meter| SheetColours {
+        estimate: meter.srgb(&curve.reflectance),
+        truth: curve.truth.as_ref().filter(|truth| is_on_grid(&truth.1)).map(|truth| meter.srgb(&truth.1)),
+        folded: folded(&setting, &meter, &curve.reflectance).unwrap_or_default(),
+    });
+    let residuals = residuals(sample, scene).ok().flatten();
+    let residuals = residuals.map(|facets| -> Result<_> {
+        Ok(Residuals { channels: channels_of_pictures(scene, &setting)?, facets })
+    });
+    Ok(Some(Sheet { curve, colours, residuals: residuals.transpose()?, panels }))
+}
+
+/// sRGB of the facets as the eye sees them, the brightest number being that of the flat sheet.
+fn folded(setting: &Setting, meter: &Colorimeter, reflectance: &[f64]) -> Result<Vec<[f64; 3]>> {
+    let eye = CameraResponse::from_weights(meter.screen_weights());
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN_POSITIVE, f64::max);
+    let flat = eye.of_flat(reflectance);
+    let facets = setting.model_seen_by(&eye)?.facet_rgb(reflectance);
+    let scale = largest(&mut flat.into_iter()).min(1.0) / largest(&mut facets.iter().copied());
+    Ok(facets.row_iter().map(|row| [0, 1, 2].map(|channel| encode_srgb(scale * row[channel]))).collect())
+}
+
+/// Names of the values of a facet: the channels, of several pictures with the illuminants'.
+fn channels_of_pictures(scene: &Scene, setting: &Setting) -> Result<Vec<String>> {
+    let (channels, pictures) = (scene.camera()?.channels, setting.pictures()?);
+    if pictures == 1 {
+        return Ok(channels);
+    }
+    let under = |light: &SpectrumRecord| -> Vec<String> {
+        channels.iter().map(|channel| format!("{channel}, {}", light.name)).collect()
+    };
+    Ok(scene.illuminants()?.iter().flat_map(under).collect())
+}
+
+impl FoldSetting<'_> {
+    /// Row sums of the kernel and direct light of every facet, as exact as the response.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the scene is not whole.
+    pub fn facet_light(&self) -> Result<FacetLight> {
+        let (response, light) = (self.response()?, self.light()?);
+        let facets = || (0..2).flat_map(|panel| (0..response.facets()).map(move |facet| (panel, facet)));
+        let direct = |light| {
+            let at = |(panel, facet)| response.irradiance(panel, facet, light, [0.0; 2]);
+            facets().map(at).collect::<Vec<f64>>()
+        };
+        let (sun, sky) = (direct(ModeLight::Sun(light.panel_irradiance())), direct(ModeLight::Sky(1.0)));
+        let irradiance = sun.iter().zip(&sky).map(|(sun, open)| sun + light.sky() * open);
+        Ok(FacetLight {
+            panels: self.fold().panels().into_iter().enumerate().collect(),
+            irradiance: irradiance.collect(),
+            row_sums: sky.iter().map(|open| 1.0 - open).collect(),
+        })
+    }
+}
+
+impl SurfaceSetting<'_> {
+    /// The panels and the direct light on the facets, beside `row_sums` of the kernel.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the scene is not whole.
+    pub fn facet_light(&self, row_sums: Vec<f64>) -> Result<FacetLight> {
+        let responses = self.scene.responses()?;
+        let direct = |facet| responses.iter().map(|response| response.irradiance(facet, 0.0)).sum();
+        let panels: Vec<(usize, Panel)> = self.shape()?.panels().into_iter().collect();
+        Ok(FacetLight { panels, irradiance: (0..row_sums.len()).map(direct).collect(), row_sums })
+    }
+}

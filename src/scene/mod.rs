@@ -1,0 +1,115 @@
+//! What the records of a scene mean: a surface in its light before a camera, and the models of it.
+//!
+//! [`stream`](crate::stream) reads and writes the records; here they become responses, lights and models. Whether a scene is a fold,
+//! which has formulas of its own, or any other surface is decided by [`Setting::of`] and nowhere else.
+
+mod camera;
+mod drawn;
+mod expected;
+mod fit;
+mod fold;
+mod given_kernel;
+mod residuals;
+mod surface;
+
+use std::collections::BTreeMap;
+
+pub use drawn::sheet;
+pub use expected::ExpectedError;
+pub use fold::FoldSetting;
+pub use given_kernel::GivenKernel;
+pub use residuals::residuals;
+pub use surface::SurfaceSetting;
+
+use crate::camera::CameraResponse;
+use crate::error::Result;
+use crate::forward::{FacetModel, OpenLight};
+use crate::geometry::Panel;
+use crate::stream::Scene;
+
+/// A surface in its light before a camera.
+pub enum Setting<'a> {
+    /// Two panels that meet at a crease, under sun and sky.
+    Fold(FoldSetting<'a>),
+    /// Any other surface, under any sources.
+    Surface(SurfaceSetting<'a>),
+}
+
+impl<'a> Setting<'a> {
+    /// That of a scene's record.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the geometry is missing or impossible.
+    pub fn of(scene: &'a Scene) -> Result<Self> {
+        Ok(match scene.fold_if_one()? {
+            Some(fold) => Self::Fold(FoldSetting::new(scene, fold)),
+            None => Self::Surface(SurfaceSetting::of(scene)),
+        })
+    }
+
+    /// Number of facets.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the scene does not say it.
+    pub fn facets(&self) -> Result<usize> {
+        match self {
+            Self::Fold(fold) => Ok(2 * fold.fold().facets().len()),
+            Self::Surface(surface) => surface.facets(),
+        }
+    }
+
+    /// The panels by their numbers: what photographs are measured by.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the surface is not one in space.
+    pub fn panels(&self) -> Result<BTreeMap<usize, Panel>> {
+        match self {
+            Self::Fold(fold) => Ok(fold.fold().panels().into_iter().enumerate().collect()),
+            Self::Surface(surface) => Ok(surface.shape()?.panels()),
+        }
+    }
+
+    /// The model of facet RGB: of one sheet, or of a sheet and what is known beside it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a part of the scene is missing or does not fit the others.
+    pub fn model(&self) -> Result<FacetModel> {
+        match self {
+            Self::Fold(fold) => fold.model(),
+            Self::Surface(surface) => surface.model(),
+        }
+    }
+
+    /// The same as one `eye` sees it in all lights.
+    ///
+    /// # Errors
+    /// As [`Setting::model`].
+    pub fn model_seen_by(&self, eye: &CameraResponse) -> Result<FacetModel> {
+        match self {
+            Self::Fold(fold) => fold.model_seen_by(eye),
+            Self::Surface(surface) => surface.model_seen_by(eye),
+        }
+    }
+
+    /// The light as a chart beside the surface receives it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths.
+    pub fn open_light(&self) -> Result<OpenLight> {
+        match self {
+            Self::Fold(fold) => Ok((&fold.lighting()?).into()),
+            Self::Surface(surface) => surface.open_light(),
+        }
+    }
+
+    /// Pictures that are taken of a sample: one under each illuminant, or one under all.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if illuminants or sources are missing.
+    pub fn pictures(&self) -> Result<usize> {
+        match self {
+            Self::Fold(fold) => fold.pictures(),
+            Self::Surface(surface) => surface.pictures(),
+        }
+    }
+}

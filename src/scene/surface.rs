@@ -1,0 +1,152 @@
+//! Any surface under its sources: a response to each, with groups of known reflectance if it has some.
+
+use super::camera::{illuminant_responses, sky_response};
+use crate::camera::CameraResponse;
+use crate::error::{Error, Result};
+use crate::forward::{FacetModel, OpenLight};
+use crate::geometry::{LightSource, Shape};
+use crate::kernel::surface::lit::LitSurface;
+use crate::stream::{Material, Scene};
+
+/// A surface that is not a fold, under its sources, before a camera.
+pub struct SurfaceSetting<'a> {
+    pub(super) scene: &'a Scene,
+}
+
+impl<'a> SurfaceSetting<'a> {
+    /// That of a scene's record.
+    #[must_use]
+    pub fn of(scene: &'a Scene) -> Self {
+        Self { scene }
+    }
+
+    pub(super) fn facets(&self) -> Result<usize> {
+        self.scene.listed_facets()
+    }
+
+    /// The surface in space.
+    ///
+    /// # Errors
+    /// As [`Scene::shape`].
+    pub fn shape(&self) -> Result<Shape> {
+        self.scene.shape()
+    }
+
+    /// The sources around it.
+    ///
+    /// # Errors
+    /// As [`Scene::sources`].
+    pub fn sources(&self) -> Result<Vec<LightSource>> {
+        self.scene.sources()
+    }
+
+    /// The camera's responses to the sources. Of several illuminants each is that of a source, the skies aside, or, where there
+    /// is one source, that of a picture.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths, or if there are more than one but
+    /// not as many illuminants as sources.
+    pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
+        let sources = self.sources()?;
+        let responses = self.lamp_responses(&sources)?;
+        let sky = sky_response(self.scene, &responses[0])?;
+        let mut of_lamps = responses.iter().cycle();
+        let of = |source: &LightSource| if source.is_sky() { Some(&sky) } else { of_lamps.next() };
+        Ok(sources.iter().filter_map(of).cloned().collect())
+    }
+
+    /// One response for all sources, or one for each that is no sky.
+    fn lamp_responses(&self, sources: &[LightSource]) -> Result<Vec<CameraResponse>> {
+        let illuminants = self.scene.illuminants()?;
+        let pictures = illuminant_responses(self.scene)?;
+        let lamps = lamps(sources);
+        if lamps <= 1 {
+            return Ok(vec![CameraResponse::of_pictures(pictures)]);
+        }
+        if illuminants.len() > 1 && illuminants.len() != lamps {
+            let problem = format!(
+                "{} for {lamps} sources; give --illuminant once, or once a source",
+                illuminants.len()
+            );
+            return Err(Error::field("illuminants", problem));
+        }
+        // Powers are relative: in which amounts the sources light the surface is said of the first one's strongest channel.
+        let (grid, camera) = (self.scene.grid()?, self.scene.camera()?);
+        let others = illuminants[1..]
+            .iter()
+            .map(|illuminant| pictures[0].to_other_light(&grid, &camera.sensitivities, &illuminant.power));
+        std::iter::once(Ok(pictures[0].clone())).chain(others).collect()
+    }
+
+    pub(super) fn open_light(&self) -> Result<OpenLight> {
+        let responses = self.source_responses()?;
+        Ok(OpenLight::new(&self.sources()?.into_iter().zip(responses).collect::<Vec<_>>()))
+    }
+
+    pub(super) fn pictures(&self) -> Result<usize> {
+        Ok(if lamps(&self.sources()?) > 1 { 1 } else { self.scene.illuminants()?.len() })
+    }
+
+    pub(super) fn model(&self) -> Result<FacetModel> {
+        self.model_of(&self.source_responses()?)
+    }
+
+    /// The model as one `eye` sees it in all lights.
+    ///
+    /// # Errors
+    /// As [`Setting::model`](super::Setting::model).
+    pub fn model_seen_by(&self, eye: &CameraResponse) -> Result<FacetModel> {
+        self.model_of(&vec![eye.clone(); self.sources()?.len()])
+    }
+
+    /// The model, `cameras` being the responses to the sources.
+    fn model_of(&self, cameras: &[CameraResponse]) -> Result<FacetModel> {
+        if self.scene.fields.has("reference_panel") {
+            let problem = "panels are those of a fold; say which group is known with --material GROUP=SPEC";
+            return Err(Error::field("reference_panel", problem));
+        }
+        let materials = self.scene.materials()?;
+        if materials.is_empty() {
+            let lights: Vec<_> = self.scene.responses()?.into_iter().zip(cameras.iter().cloned()).collect();
+            return Ok(FacetModel::of_surface(&lights));
+        }
+        let part_of_facet = part_of_facets(&self.shape()?, &materials)?;
+        let exchange = self.lit()?.reduce(&part_of_facet, self.scene.tolerance()?)?;
+        let known = materials.into_iter().map(|material| Some(material.reflectance));
+        let parts: Vec<_> = std::iter::once(None).chain(known).collect();
+        FacetModel::beside_known(&exchange, &parts, cameras)
+    }
+
+    /// The surface in its light, divided as its response was solved.
+    ///
+    /// # Errors
+    /// As [`Scene::shape`] and [`Scene::sources`].
+    pub fn lit(&self) -> Result<LitSurface> {
+        let (unknowns, tolerance) = (self.scene.unknowns()?, self.scene.tolerance()?);
+        LitSurface::again(&self.shape()?, &self.sources()?, unknowns, tolerance)
+    }
+}
+
+/// Number of sources that are no skies.
+fn lamps(sources: &[LightSource]) -> usize {
+    sources.iter().filter(|source| !source.is_sky()).count()
+}
+
+/// The part of every facet: 0 where nothing is known, then one a material.
+fn part_of_facets(shape: &Shape, materials: &[Material]) -> Result<Vec<usize>> {
+    let mut part_of = vec![0; shape.len()];
+    for (n, material) in materials.iter().enumerate() {
+        let mut groups = shape.groups().iter().filter(|group| group.name == material.group).peekable();
+        if groups.peek().is_none() {
+            let names: Vec<_> = shape.groups().iter().map(|group| group.name.as_str()).collect();
+            let problem = format!("no group is called '{}'; there are {}", material.group, names.join(", "));
+            return Err(Error::field("materials", problem));
+        }
+        groups.for_each(|group| part_of[group.facets.clone()].fill(n + 1));
+    }
+    if part_of.contains(&0) {
+        Ok(part_of)
+    } else {
+        Err(Error::field("materials", "all groups are known: leave out the one that is the sheet"))
+    }
+}
