@@ -54,7 +54,7 @@ pub struct EstimateRecord {
     pub covariance: Option<Vec<Vec<f64>>>,
     /// What facets were taken to be worth, by a method that weighs them.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) noise: Option<NoiseRecord>,
+    noise: Option<NoiseRecord>,
 }
 
 /// An estimate for [`Sample::set_estimate`].
@@ -186,6 +186,17 @@ impl Sample {
                 noise: noise.map(NoiseRecord::of).transpose()?,
             },
         )
+    }
+
+    /// What an estimate of this sample took facets to be worth.
+    ///
+    /// # Errors
+    /// As [`Sample::noise`].
+    pub fn noise_of(&self, estimate: &EstimateRecord) -> Result<Noise> {
+        match &estimate.noise {
+            Some(NoiseRecord { sd, model_error, .. }) => self.noise(*sd, Some(*model_error)),
+            None => self.noise(None, None),
+        }
     }
 
     /// The estimate; none if the sample has none, or carries an error.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
-use super::{EstimateRecord, Sample};
+use super::sample::Sample;
 use crate::error::Result;
 use crate::estimate::noise::{Noise, NoiseSource};
 
@@ -15,11 +15,11 @@ pub(super) struct NoiseRecord {
     from: NoiseSourceRecord,
     /// Error of the model, relative to a facet's value.
     #[schemars(range(min = 0))]
-    model_error: f64,
+    pub(super) model_error: f64,
     /// Standard deviation of all facets, where a flag told it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
-    sd: Option<f64>,
+    pub(super) sd: Option<f64>,
 }
 
 /// What tells how far facets may be off.
@@ -64,16 +64,5 @@ impl Sample {
         };
         let model_error = model_error.unwrap_or_else(|| Noise::model_error(self.is_photograph()));
         Ok(Noise { source, model_error })
-    }
-
-    /// What an estimate of this sample took facets to be worth.
-    ///
-    /// # Errors
-    /// As [`Sample::noise`].
-    pub fn noise_of(&self, estimate: &EstimateRecord) -> Result<Noise> {
-        match &estimate.noise {
-            Some(NoiseRecord { sd, model_error, .. }) => self.noise(*sd, Some(*model_error)),
-            None => self.noise(None, None),
-        }
     }
 }

@@ -1,107 +1,15 @@
-//! The sample record: one sheet's facet RGB, and what the tools make of it.
+//! A sample: one sheet's facet RGB, and what the tools make of it. Its fields have files of their own.
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::calibration::CalibrationRecord;
-use super::colours::ColoursRecord;
-use super::estimate::EstimateRecord;
 use super::fields::{Fields, LARGEST, finite};
-use super::named::Named;
-use super::photograph::ImageRecord;
-use super::regions::RegionsRecord;
-use super::scores::ColourRecord;
 use crate::error::{Error, Result};
-use crate::forward::bounces::Truncation;
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 
 /// What a sample without a name is called.
 const UNNAMED: &str = "unnamed";
-
-/// A sheet in the scene above it: the colours of its facets, and what the tools make of them.
-#[derive(Default, Serialize, JsonSchema)]
-#[serde(tag = "kind", rename = "sample")]
-#[schemars(extend("x-writer" = "vforward, vextract"))]
-pub(super) struct SampleRecord {
-    /// Name of the scene.
-    scene: String,
-    /// Name of the sample: that of its spectrum or photograph.
-    id: String,
-    /// Value of a perfect white diffuser that faces the sun, in its strongest channel, if it is known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    exposure: Option<f64>,
-    /// How a chart or a white card made the photograph's values those of the camera.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    calibration: Option<CalibrationRecord>,
-    /// The photograph.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    image: Option<ImageRecord>,
-    /// Mean value of every facet, linear, white that faces the sun being the exposure. Absent beside an error.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    facet_rgb: Option<ColoursRecord>,
-    /// Standard deviation of the same, from 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    facet_sd: Option<ColoursRecord>,
-    /// Pixels that were averaged, a number a facet; one that facets share counts by its part.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    facet_pixels: Option<Vec<f64>>,
-    /// Pixels left out because a channel is clipped, a number a facet.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    facet_clipped: Option<Vec<usize>>,
-    /// Pixels left out because they are not finite or transparent, a number a facet.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    facet_not_finite: Option<Vec<usize>>,
-    /// Pixels left out because they do not look like the rest of the facet, a number a facet.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract"))]
-    facet_outliers: Option<Vec<usize>>,
-    /// Bounces of light that the facets' values are made of; all if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward"))]
-    bounces: Option<BouncesRecord>,
-    /// The true spectrum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vscore"))]
-    truth: Option<ReflectanceRecord>,
-    /// Where the panels are in the picture that was taken: what `vextract --regions` reads.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward"))]
-    regions: Option<RegionsRecord>,
-    /// The estimated spectrum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vestimate"))]
-    estimate: Option<EstimateRecord>,
-    /// Scores of the estimate by name: rmse, ciede2000, pd, gfc, `angle_deg`, metamerism; `ciede2000_A` and the like under further
-    /// illuminants.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vscore"))]
-    metrics: Option<Named<f64>>,
-    /// Colour of the estimate.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vscore"))]
-    colour: Option<ColourRecord>,
-    /// What went wrong with this sample; the tools pass it on as it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vextract, vestimate, vscore"))]
-    error: Option<String>,
-}
-
-/// The first bounces of light, where not all are counted.
-#[derive(Serialize, JsonSchema)]
-struct BouncesRecord {
-    /// Number of bounces.
-    count: u32,
-    /// Largest share of a facet's value that the others would add.
-    #[schemars(range(min = 0, max = 1))]
-    missing: f64,
-}
 
 /// A sample record.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,29 +54,10 @@ impl ReflectanceRecord {
 }
 
 impl Sample {
-    /// An empty sample of a scene.
-    ///
-    /// # Errors
-    /// As [`Fields::set`].
-    pub fn new(scene: &str, id: &str) -> Result<Self> {
-        let (scene, id) = (scene.to_owned(), id.to_owned());
-        Ok(Self { fields: Fields::of(&SampleRecord { scene, id, ..SampleRecord::default() })? })
-    }
-
     /// The sample's name; a number is one, too. One sample without a name is no reason to stop with all others.
     #[must_use]
     pub fn id(&self) -> String {
         self.fields.text_at("id").ok().flatten().unwrap_or_else(|| UNNAMED.to_owned())
-    }
-
-    /// Says how many bounces of light the facets' values are made of.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn set_bounces(&mut self, truncation: &Truncation) -> Result<()> {
-        let Truncation { count, missing } = *truncation;
-        finite("bounces.missing", [&missing])?;
-        self.fields.set("bounces", BouncesRecord { count, missing })
     }
 
     /// Sets the true spectrum.

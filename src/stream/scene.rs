@@ -1,90 +1,10 @@
-//! The scene record. Its parts have files of their own.
+//! A scene: a surface in its light before a camera. Its fields have files of their own.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
-use super::accuracy::AccuracyRecord;
-use super::facets::FacetsRecord;
 use super::fields::{BY_VKERNEL, Fields};
-use super::geometry::GeometryRecord;
-use super::history::HistoryRecord;
-use super::light::LightRecord;
-use super::materials::Material;
-use super::optics::{CameraRecord, SpectrumRecord};
-use super::reference_panel::ReferencePanel;
-use super::response::ResponseRecord;
-use super::skipped::SkippedRecord;
-use super::surface::Surface;
 use crate::error::{Error, Result};
-use crate::geometry::{Fold, Light, LightSource};
-use crate::response::{Response, SurfaceResponse};
 
 /// The stream's format, in every scene.
-const FORMAT: &str = "vfold/1";
-
-/// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream belong to it.
-#[derive(Serialize, JsonSchema)]
-#[serde(tag = "kind", rename = "scene")]
-#[schemars(extend("x-writer" = "vkernel"))]
-pub(super) struct SceneRecord {
-    /// Format of the stream.
-    #[schemars(extend("const" = FORMAT))]
-    format: &'static str,
-    /// Name.
-    id: String,
-    /// The surface.
-    geometry: GeometryRecord,
-    /// Where colour is measured.
-    facets: FacetsRecord,
-    /// Where light comes from.
-    light: LightRecord,
-    /// What all bounces make of light, for every reflectance r at once. On a fold, irradiance 1 on a panel becomes
-    /// `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same with `r·poles[k]·residues[i][k]` on that of the other panel; on
-    /// any other surface a source gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
-    response: ResponseRecord,
-    #[serde(flatten)]
-    further: FurtherRecord,
-}
-
-/// What is added to a scene.
-#[derive(Default, Serialize, JsonSchema)]
-struct FurtherRecord {
-    /// How well the bounces are solved.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    accuracy: Option<AccuracyRecord>,
-    /// What need not be computed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vkernel, vforward"))]
-    skipped: Option<Vec<SkippedRecord>>,
-    /// The tools that made the scene and all below it, in their order.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "all"))]
-    history: Option<Vec<HistoryRecord>>,
-    /// Wavelengths of all spectra of the scene and its samples, nm, increasing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vextract"))]
-    wavelengths_nm: Option<Vec<f64>>,
-    /// The camera.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vextract"))]
-    camera: Option<CameraRecord>,
-    /// Spectra of the light: one for all sources, one for each that is no sky, or, of one source, one for each picture.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
-    illuminants: Option<Vec<SpectrumRecord>>,
-    /// Spectrum of the sky; that of the first illuminant if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vextract"))]
-    sky_illuminant: Option<SpectrumRecord>,
-    /// A card in the place of one panel of a fold.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vestimate"))]
-    reference_panel: Option<ReferencePanel>,
-    /// Groups of facets, of a surface that is no fold, whose reflectance is known; all others are the sheet.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-writer" = "vforward, vestimate"))]
-    materials: Option<Vec<Material>>,
-}
+pub(super) const FORMAT: &str = "vfold/1";
 
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,48 +14,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The scene of a fold and its light, bounces solved.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn new(id: &str, fold: &Fold, light: &Light, response: &Response) -> Result<Self> {
-        Self::of_record(SceneRecord {
-            format: FORMAT,
-            id: id.to_owned(),
-            geometry: GeometryRecord::Fold(fold.into()),
-            facets: FacetsRecord::Grid(fold.into()),
-            light: LightRecord::Sun(light.into()),
-            response: response.into(),
-            further: FurtherRecord::default(),
-        })
-    }
-
-    /// The scene of any surface under `sources`, the bounces of each solved.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if a number is not finite.
-    pub fn of_surface(
-        id: &str,
-        surface: &Surface,
-        sources: &[LightSource],
-        responses: &[SurfaceResponse],
-    ) -> Result<Self> {
-        Self::of_record(SceneRecord {
-            format: FORMAT,
-            id: id.to_owned(),
-            geometry: surface.into(),
-            facets: FacetsRecord::List(surface.into()),
-            light: LightRecord::Sources(sources.into()),
-            response: responses.into(),
-            further: FurtherRecord::default(),
-        })
-    }
-
-    fn of_record(record: SceneRecord) -> Result<Self> {
-        record.response.check()?;
-        Ok(Self { fields: Fields::of(&record)? })
-    }
-
     /// A scene from its record.
     ///
     /// # Errors

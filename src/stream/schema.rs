@@ -6,8 +6,8 @@ use schemars::{JsonSchema, Schema};
 use serde_json::{Map, Value, json};
 
 use super::plan::PlanRecord;
-use super::sample::SampleRecord;
-use super::scene::SceneRecord;
+use super::sample_record::SampleRecord;
+use super::scene_record::SceneRecord;
 use super::scores::SummaryRecord;
 use super::trace::IterationRecord;
 
