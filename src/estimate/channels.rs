@@ -1,10 +1,10 @@
-//! What compressed data take of the terms of the reflectance: linear maps, one a channel and source.
+//! What compressed data take of the terms of the reflectance: linear maps, one per channel and source.
 
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-/// What one channel's compressed data take of the terms, and the camera's weights: one of each a source.
+/// What one channel's compressed data take of the terms, and the camera's weights: one of each for every source.
 #[derive(Clone)]
 pub struct ChannelModel {
     pub sources: Vec<DMatrix<f64>>,
@@ -35,7 +35,7 @@ impl Channels {
         parts
     }
 
-    /// Sum of the sources in these amounts a waveband, and `more` columns of zeros.
+    /// Sum of the sources in these amounts, per waveband, and `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.ncols() + more);
         self.each_part(|rows, source, compressed, weights| {
@@ -49,7 +49,7 @@ impl Channels {
         columns
     }
 
-    /// `Σ λᵢ` times the model a waveband, without forming its columns.
+    /// `Σ λᵢ` times the model, per waveband, without forming its columns.
     pub fn along(
         &self,
         multipliers: &DVector<f64>,
@@ -65,7 +65,7 @@ impl Channels {
     }
 
     /// Visits every channel under every source: its rows of the compressed data, the source, what the rows take of the
-    /// terms, and the camera's weights a waveband.
+    /// terms, and the camera's weights in every waveband.
     fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
         let mut start = 0;
         for channel in &self.0 {

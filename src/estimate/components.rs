@@ -29,7 +29,7 @@ const KNOWN: f64 = 1e-7;
 pub struct FlatSheet {
     /// What channels take of wavebands at exposure 1: channel by waveband.
     pub view: DMatrix<f64>,
-    /// Value a channel.
+    /// Value per channel.
     pub values: Vec<f64>,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel; if none is known, values are divided by their
     /// sum, as the paper does where no chart is in the picture (section 5D), and the scale of the spectrum stays open.

@@ -1,6 +1,6 @@
 //! Facet RGB as data to fit, compressed to what the noise lets through.
 //!
-//! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers a channel
+//! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers per channel
 //! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
 
 use std::borrow::Cow;
@@ -16,7 +16,7 @@ use crate::estimate::unknowns::{Amounts, SceneModel};
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
-/// A point of the model is a reflectance a waveband, and a standard normal number for each unknown of the scene.
+/// A point of the model is a reflectance in every waveband, and a standard normal number for each unknown of the scene.
 #[derive(Clone)]
 pub struct FacetData<'a> {
     scene: Cow<'a, SceneModel>,
@@ -45,7 +45,7 @@ pub struct Residuals {
     pub exposure: f64,
 }
 
-/// Residuals with the derivatives of the model: a column a waveband by its reflectance, then a column an unknown of the scene.
+/// Residuals with the derivatives of the model: one column per waveband by its reflectance, then one per unknown of the scene.
 pub struct LinearisedFacets {
     /// Data minus model.
     pub residuals: DVector<f64>,
@@ -79,9 +79,9 @@ pub struct SecondDerivatives {
 
 /// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
 pub struct Curvature {
-    /// `Σ λᵢ ∂mᵢ/∂r` a waveband.
+    /// `Σ λᵢ ∂mᵢ/∂r` per waveband.
     pub slopes: DVector<f64>,
-    /// `Σ λᵢ ∂²mᵢ/∂r²` a waveband.
+    /// `Σ λᵢ ∂²mᵢ/∂r²` per waveband.
     pub reflectance: DVector<f64>,
     /// By reflectance and unknown: waveband by unknown.
     pub mixed: DMatrix<f64>,
@@ -257,7 +257,7 @@ impl<'a> FacetData<'a> {
         }
     }
 
-    /// Sum over all facets and channels, a waveband.
+    /// Sum over all facets and channels, per waveband.
     fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
         let mut sum = DVector::zeros(terms.ncols());
         for channel in &self.channels.0 {

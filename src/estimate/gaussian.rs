@@ -40,7 +40,7 @@ impl Gaussian {
         Self { mean, basis }
     }
 
-    /// Mean logit a waveband.
+    /// Mean logit in every waveband.
     #[must_use]
     pub fn mean(&self) -> &DVector<f64> {
         &self.mean
@@ -60,7 +60,7 @@ impl Gaussian {
         logit
     }
 
-    /// Whitened coordinates whose logits come nearest to those of `reflectance`, a waveband each.
+    /// Whitened coordinates whose logits come nearest to those of `reflectance`, one per waveband.
     #[must_use]
     pub fn nearest(&self, reflectance: &[f64]) -> DVector<f64> {
         let off =

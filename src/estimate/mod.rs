@@ -41,9 +41,9 @@ pub enum Exposure {
 /// An estimated spectrum and how it was reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Reflectance a waveband, in (0, 1].
+    /// Reflectance in every waveband, in (0, 1].
     pub reflectance: Vec<f64>,
-    /// How far it may be off, a column a waveband: the product of its transpose with it is the covariance of the reflectance.
+    /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance of the reflectance.
     /// None from a method that has no model of its error.
     pub spread: Option<DMatrix<f64>>,
     /// Exposure: as known, or as found.
@@ -76,7 +76,7 @@ pub struct Fitted {
 }
 
 impl Estimate {
-    /// Standard deviation a waveband.
+    /// Standard deviation in every waveband.
     #[must_use]
     pub fn reflectance_sd(&self) -> Option<Vec<f64>> {
         Some(self.spread.as_ref()?.column_iter().map(|column| column.norm()).collect())

@@ -17,13 +17,13 @@ pub struct GivenKernel {
     name: String,
     /// The exchange between the facets, one patch each.
     pub exchange: DenseExchange,
-    /// Direct light, a number a facet, of every source.
+    /// Direct light of every source, one value per facet.
     pub sources: Vec<Vec<f64>>,
 }
 
 impl GivenKernel {
     /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
-    /// `irradiance` holds direct light, a number a facet, or a row a source (1 everywhere if there is none); `areas` those of the
+    /// `irradiance` holds direct light, one value per facet, or a row of them per source (1 everywhere if there is none); `areas` those of the
     /// facets (by reciprocity if there is none).
     ///
     /// # Errors

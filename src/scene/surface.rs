@@ -65,7 +65,7 @@ impl<'a> SurfaceSetting<'a> {
         }
         if illuminants.len() > 1 && illuminants.len() != lamps {
             let problem = format!(
-                "{} for {lamps} sources; give --illuminant once, or once a source",
+                "{} for {lamps} sources; give --illuminant once, or once per source",
                 illuminants.len()
             );
             return Err(Error::field("illuminants", problem));

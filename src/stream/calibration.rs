@@ -30,7 +30,7 @@ pub struct CalibrationRecord {
     exposure_sd: f64,
     /// Constant, linear and quadratic coefficient of each channel: from the photograph's values to those of the camera.
     coefficients: Vec<[f64; 3]>,
-    /// Root mean square of the patches' residuals, a number a channel.
+    /// Root mean square of the patches' residuals, one per channel.
     #[schemars(inner(range(min = 0)))]
     residual_rms: Vec<f64>,
     /// The patches, row by row.
@@ -42,11 +42,11 @@ pub struct CalibrationRecord {
 struct PatchRecord {
     /// Name.
     name: String,
-    /// Value in the photograph, a number a channel.
+    /// Value in the photograph, one per channel.
     measured: Vec<f64>,
-    /// Value in the scene's camera at exposure 1, a number a channel.
+    /// Value in the scene's camera at exposure 1, one per channel.
     expected: Vec<f64>,
-    /// How far the calibrated value is off, as a share of what was expected, a number a channel.
+    /// How far the calibrated value is off, as a share of what was expected, one per channel.
     residual: Vec<f64>,
 }
 

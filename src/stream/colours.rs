@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// Facet by channel, those of several pictures one after the other; none for a facet that was not measured in all of them.
 pub type Colours = Vec<Option<Vec<f64>>>;
 
-/// A number a channel, in the order of the camera's; null for a facet that was not measured.
+/// One value per channel, in the order of the camera's; null for a facet that was not measured.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColoursRecord {
@@ -67,7 +67,7 @@ impl Sample {
     }
 
     fn pictures(&self, name: &str) -> Result<Vec<Colours>> {
-        let needs = "needs lists of numbers, a facet each, or a list of such lists, a picture each";
+        let needs = "needs lists of numbers, one per facet, or a list of such lists, one per picture";
         self.fields.require(name, "").map_err(|_| Error::field(name, needs))
     }
 }

@@ -26,7 +26,7 @@ pub struct EstimateRecord {
     prior: String,
     /// Wavelengths, nm, increasing: those of the scene.
     pub wavelengths_nm: Vec<f64>,
-    /// Reflectance, a number a wavelength.
+    /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
     /// Exposure, as known or as found.
@@ -42,7 +42,7 @@ pub struct EstimateRecord {
     /// Why they ended.
     #[serde(skip_deserializing)]
     termination: Option<TerminationRecord>,
-    /// Standard deviation of the reflectance, a number a wavelength; absent where the method does not know it.
+    /// Standard deviation of the reflectance, one per wavelength; absent where the method does not know it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
@@ -231,7 +231,7 @@ impl Sample {
         else {
             return Ok(None);
         };
-        // vscore judges the truth; what is none cannot be drawn.
+        // vscore judges the truth; what is not a spectrum cannot be drawn.
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
         Ok(Some(Curve { name: self.id(), wavelengths_nm, reflectance, reflectance_sd, truth }))
     }

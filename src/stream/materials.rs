@@ -14,7 +14,7 @@ pub struct Material {
     pub group: String,
     /// Built-in name or file.
     pub name: String,
-    /// Reflectance, a number a waveband.
+    /// Reflectance, one per waveband.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
 }
@@ -32,7 +32,7 @@ impl Scene {
     /// The materials that are known; none where the surface is of one reflectance.
     ///
     /// # Errors
-    /// [`Error::Field`] if a reflectance is none, or not on the scene's wavelengths.
+    /// [`Error::Field`] if a number is not a reflectance, or not on the scene's wavelengths.
     pub fn materials(&self) -> Result<Vec<Material>> {
         let materials: Vec<Material> = self.fields.get("materials")?.unwrap_or_default();
         let bands = self.grid()?.len();
@@ -41,7 +41,7 @@ impl Scene {
                 return Err(Error::field("materials", format!("'{group}' has two reflectances; keep one")));
             }
             if reflectance.len() != bands || !reflectance.iter().all(|r| (0.0..=1.0).contains(r)) {
-                let problem = format!("that of '{group}' needs a number from 0 to 1 a waveband");
+                let problem = format!("that of '{group}' needs one number from 0 to 1 per waveband");
                 return Err(Error::field("materials", problem));
             }
         }

@@ -13,7 +13,7 @@ use crate::spectrum::WavelengthGrid;
 pub struct SpectrumRecord {
     /// Built-in name or file.
     pub name: String,
-    /// Relative power, a number a waveband.
+    /// Relative power, one per waveband.
     #[schemars(inner(range(min = 0)))]
     pub power: Vec<f64>,
     /// How it was found between samples, where it was: `sprague` or `linear`.
@@ -79,12 +79,15 @@ impl Scene {
         let camera: CameraRecord = self.fields.require("camera", "give --camera to vforward or vextract")?;
         let (bands, channels) = (self.grid()?.len(), camera.channels.len());
         if camera.sensitivities.len() != channels {
-            return Err(Error::field("camera.channels", format!("{channels} names, not one a sensitivity")));
+            return Err(Error::field(
+                "camera.channels",
+                format!("{channels} names, not one per sensitivity"),
+            ));
         }
         if camera.sensitivities.is_empty()
             || camera.sensitivities.iter().any(|channel| channel.len() != bands)
         {
-            return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers a channel")));
+            return Err(Error::field("camera.sensitivities", format!("needs {bands} numbers per channel")));
         }
         not_negative("camera.sensitivities", camera.sensitivities.iter().flatten())?;
         Ok(camera)

@@ -33,7 +33,7 @@ pub struct ImageRecord {
     /// What the camera did to the picture, and was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
-    /// How many neighbouring pixels make one independent number, a number a channel, 1 where noise is not shared.
+    /// How many neighbouring pixels make one independent number, per channel; 1 where noise is not shared.
     pixels_sharing_noise: Vec<f64>,
     /// The camera's maker.
     #[serde(skip_serializing_if = "Option::is_none")]

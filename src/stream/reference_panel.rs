@@ -16,7 +16,7 @@ pub struct ReferencePanel {
     pub panel: usize,
     /// Built-in name or file.
     name: String,
-    /// Reflectance, a number a waveband.
+    /// Reflectance, one per waveband.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
 }
@@ -26,7 +26,7 @@ fn panel_1() -> usize {
 }
 
 impl ReferencePanel {
-    /// A card on `panel`, 0 or 1, with its reflectance a waveband.
+    /// A card on `panel`, 0 or 1, with its reflectance in every waveband.
     #[must_use]
     pub fn new(panel: usize, name: &str, reflectance: Vec<f64>) -> Self {
         Self { panel, name: name.to_owned(), reflectance }
@@ -55,7 +55,10 @@ impl Scene {
         if card.reflectance.len() != self.grid()?.len()
             || !card.reflectance.iter().all(|r| (0.0..=1.0).contains(r))
         {
-            return Err(Error::field("reference_panel.reflectance", "needs a number from 0 to 1 a waveband"));
+            return Err(Error::field(
+                "reference_panel.reflectance",
+                "needs one number from 0 to 1 per waveband",
+            ));
         }
         Ok(Some(card))
     }

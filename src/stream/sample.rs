@@ -23,7 +23,7 @@ pub struct Sample {
 pub struct ReflectanceRecord {
     /// Wavelengths, nm, increasing.
     pub wavelengths_nm: Vec<f64>,
-    /// Reflectance, a number a wavelength.
+    /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
     /// How it was found between samples, where it was: `sprague` or `linear`.

@@ -42,19 +42,19 @@ pub(super) struct SampleRecord {
     /// Standard deviation of the same, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     facet_sd: Option<ColoursRecord>,
-    /// Pixels that were averaged, a number a facet; one that facets share counts by its part.
+    /// Pixels that were averaged, a count per facet; one that facets share counts by its part.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_pixels: Option<Vec<f64>>,
-    /// Pixels left out because a channel is clipped, a number a facet.
+    /// Pixels left out because a channel is clipped, a count per facet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_clipped: Option<Vec<usize>>,
-    /// Pixels left out because they are not finite or transparent, a number a facet.
+    /// Pixels left out because they are not finite or transparent, a count per facet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_not_finite: Option<Vec<usize>>,
-    /// Pixels left out because they do not look like the rest of the facet, a number a facet.
+    /// Pixels left out because they do not look like the rest of the facet, a count per facet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_outliers: Option<Vec<usize>>,

@@ -78,7 +78,7 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     reference_panel: Option<ReferencePanel>,
-    /// Groups of facets, of a surface that is no fold, whose reflectance is known; all others are the sheet.
+    /// Groups of facets, of a surface that is not a fold, whose reflectance is known; all others are the sheet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     materials: Option<Vec<Material>>,

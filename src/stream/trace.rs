@@ -1,4 +1,4 @@
-//! `vestimate --trace`: the iterations of every estimate, a record each.
+//! `vestimate --trace`: the iterations of every estimate, one record each.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub(super) struct IterationRecord {
     noise: f64,
 }
 
-/// The iterations that led to the estimate of a `sample`, a record each.
+/// The iterations that led to the estimate of a `sample`, one record each.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if a number is not finite.

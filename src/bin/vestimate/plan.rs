@@ -18,7 +18,7 @@ const NOISE_SD: f64 = 1e-3;
 #[derive(Args)]
 #[command(next_help_heading = "Planning")]
 pub struct PlanArgs {
-    /// Take scenes without samples and say how far off estimates will be: one record a scene, for --noise-sd [default: 1e-3]
+    /// Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]
     #[arg(long, conflicts_with_all = ["plot", "trace"])]
     pub plan: bool,
     /// Reflectances that will be photographed [default: cc24]
@@ -27,7 +27,7 @@ pub struct PlanArgs {
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none; repeated: a picture under each, or one a light as for vforward [default: D65]
+    /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
