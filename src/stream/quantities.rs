@@ -82,12 +82,12 @@ mod tests {
     #![allow(clippy::unwrap_used)] // a test stops at the first surprise
 
     use super::*;
-    use crate::estimate::unknowns::{ANGLE, EXPOSURE, SKY};
+    use crate::estimate::unknowns::{EXPOSURE, SKY, TILT};
 
     #[test]
     fn fits_are_written_in_the_order_of_the_table() {
-        let fit = Quantities::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&ANGLE, 45.0)]).unwrap();
-        assert_eq!(serde_json::to_string(&fit).unwrap(), r#"{"exposure":1.5,"angle_deg":45.0,"sky":0.2}"#);
+        let fit = Quantities::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&TILT, 4.5)]).unwrap();
+        assert_eq!(serde_json::to_string(&fit).unwrap(), r#"{"exposure":1.5,"tilt_deg":4.5,"sky":0.2}"#);
         assert!(Quantities::<f64>::of([]).is_none());
     }
 

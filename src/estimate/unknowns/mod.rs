@@ -1,7 +1,8 @@
 //! Numbers of the scene that are fitted along with the spectrum, one file each; [`TABLE`] lists them.
 //!
-//! A new one is a file with an [`Unknown`] and a row of the table. The values of `vestimate --fit` and their help, the records with
-//! their schema, residuals and messages follow from the two.
+//! A new one is a file with an [`Unknown`] and a row of the table: without one of its parts it does not compile, without the row
+//! it does not pass the lints. The values of `vestimate --fit` and their help, the records with their schema, residuals and
+//! messages follow from the two.
 //!
 //! Facets are sums over sources (a lamp on a fold), and an unknown changes in what amounts they shine ([`Factor`]) or replaces
 //! some by others ([`Sources`]). So a source's amount is a product of one function of each unknown. What is not linear (the angle of
@@ -19,19 +20,19 @@ mod tilt;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-pub use angle::ANGLE;
+use angle::ANGLE;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
 pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
-pub use sky_colour::SKY_COLOUR;
+use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
 pub use tilt::TILT;
 
 use crate::error::Result;
 
 /// All unknowns, in the order of the records.
-pub static TABLE: [&Unknown; 5] = [&EXPOSURE, &ANGLE, &TILT, &SKY, &SKY_COLOUR];
+pub static TABLE: &[&Unknown] = &[&EXPOSURE, &ANGLE, &TILT, &SKY, &SKY_COLOUR];
 
 /// A number of the scene that can be fitted.
 pub struct Unknown {
@@ -114,19 +115,20 @@ impl Scale {
 /// The unknown of this name in records.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Unknown> {
-    TABLE.into_iter().find(|unknown| unknown.name == name)
+    TABLE.iter().copied().find(|unknown| unknown.name == name)
 }
 
 /// The values of `vestimate --fit`, each once.
 pub fn flags() -> impl Iterator<Item = &'static Flag> {
-    let is_first = |(n, unknown): &(usize, &Unknown)| !TABLE[..*n].iter().any(|one| one.flag == unknown.flag);
-    TABLE.into_iter().enumerate().filter(is_first).map(|(_, unknown)| unknown.flag)
+    let is_first = |(n, flag): &(usize, &Flag)| !TABLE[..*n].iter().any(|one| one.flag == *flag);
+    let all = TABLE.iter().map(|unknown| unknown.flag).enumerate();
+    all.filter(is_first).map(|(_, flag)| flag)
 }
 
 /// What `asked` asks for, in the order of the table.
 #[must_use]
 pub fn of_flags(asked: &[&Flag]) -> Vec<&'static Unknown> {
-    TABLE.into_iter().filter(|unknown| asked.contains(&unknown.flag)).collect()
+    TABLE.iter().copied().filter(|unknown| asked.contains(&unknown.flag)).collect()
 }
 
 /// Names tell unknowns apart.
@@ -150,9 +152,9 @@ mod tests {
 
     #[test]
     fn names_tell_unknowns_apart() {
-        for (n, unknown) in TABLE.into_iter().enumerate() {
-            assert_eq!(TABLE.iter().position(|one| *one == unknown), Some(n));
-            assert_eq!(named(unknown.name), Some(unknown));
+        for (n, unknown) in TABLE.iter().enumerate() {
+            assert_eq!(TABLE.iter().position(|one| one == unknown), Some(n));
+            assert_eq!(named(unknown.name), Some(*unknown));
         }
     }
 

@@ -156,7 +156,7 @@ impl Amounts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimate::unknowns::SKY_COLOUR;
+    use crate::estimate::unknowns::sky_colour::SKY_COLOUR;
 
     #[test]
     fn a_temperature_is_the_reciprocal_of_its_normal_number() {
