@@ -1,6 +1,7 @@
 //! Arrays made elsewhere.
 
-use vfold::stream::{GivenKernel, read_rows, read_square, write_matrix};
+use vfold::scene::GivenKernel;
+use vfold::stream::{read_rows, read_square, write_matrix};
 
 use super::{assert_finite, taken, with_file};
 
