@@ -61,8 +61,10 @@ pub mod report;
 pub mod response;
 pub mod scene;
 pub mod score;
+pub mod sheet;
 pub mod solve;
 pub mod spectrum;
 pub mod stream;
+pub mod transport;
 
 pub use error::{Error, Result};

@@ -13,6 +13,7 @@ pub mod map;
 pub mod measured;
 pub mod noise;
 pub mod park;
+pub mod photograph;
 pub mod prior;
 pub mod smooth;
 mod starts;

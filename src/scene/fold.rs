@@ -31,6 +31,20 @@ impl<'a> FoldSetting<'a> {
         Ok(Self::new(scene, scene.fold()?))
     }
 
+    /// The record of the scene.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        self.scene
+    }
+
+    /// Whether the colour of the sky is given.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if it is not a spectrum.
+    pub fn has_sky_illuminant(&self) -> Result<bool> {
+        Ok(self.scene.sky_illuminant()?.is_some())
+    }
+
     /// The fold and its facets.
     #[must_use]
     pub fn fold(&self) -> &Fold {

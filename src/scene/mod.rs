@@ -9,6 +9,7 @@ mod expected;
 mod fit;
 mod fold;
 mod given_kernel;
+mod photograph;
 mod residuals;
 mod surface;
 
@@ -18,6 +19,7 @@ pub use drawn::sheet;
 pub use expected::ExpectedError;
 pub use fold::FoldSetting;
 pub use given_kernel::GivenKernel;
+pub use photograph::FoldLight;
 pub use residuals::residuals;
 pub use surface::SurfaceSetting;
 

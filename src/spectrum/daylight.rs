@@ -32,6 +32,22 @@ pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
     Ok(Spectrum::from_table(name, basis[0].wavelengths_nm.clone(), values).linear())
 }
 
+/// M1 and M2 of daylight of the correlated colour temperature `cct_k`, in K: a smooth function of it.
+#[must_use]
+pub fn daylight_weights(cct_k: f64) -> [f64; 2] {
+    let (m1, m2) = exact_weights(chromaticity(cct_k));
+    [m1, m2]
+}
+
+/// Mean daylight and its characteristic vectors, S0, S1 and S2.
+///
+/// # Errors
+/// [`Error::Spectrum`] if the table is damaged.
+pub fn daylight_vectors() -> Result<[Spectrum; 3]> {
+    let basis = builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    Ok([0, 1, 2].map(|i| basis[i].clone().linear()))
+}
+
 /// CIE 1931 (x, y) of daylight.
 fn chromaticity(cct_k: f64) -> (f64, f64) {
     let [c3, c2, c1, c0] = if cct_k <= 7000.0 {
@@ -44,11 +60,16 @@ fn chromaticity(cct_k: f64) -> (f64, f64) {
 }
 
 /// M1 and M2, rounded to three decimals as CIE 15 asks.
-fn weights((x, y): (f64, f64)) -> (f64, f64) {
+fn weights(chromaticity: (f64, f64)) -> (f64, f64) {
+    let (m1, m2) = exact_weights(chromaticity);
+    ((m1 * 1e3).round() / 1e3, (m2 * 1e3).round() / 1e3)
+}
+
+fn exact_weights((x, y): (f64, f64)) -> (f64, f64) {
     let m = 0.0241 + 0.2562 * x - 0.7341 * y;
     let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / m;
     let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / m;
-    ((m1 * 1e3).round() / 1e3, (m2 * 1e3).round() / 1e3)
+    (m1, m2)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod own;
 pub mod spec;
 mod tables;
 
+pub use daylight::{daylight_vectors, daylight_weights};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;

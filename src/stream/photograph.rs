@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Sample;
 use super::development::DevelopmentRecord;
@@ -162,7 +162,36 @@ impl ImageRecord {
     }
 }
 
+/// Where the panels are in a photograph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Framing {
+    /// Four corners of each panel: crease end 0, crease end 1, outer end 1, outer end 0, [x, y] each, px.
+    pub panels: [Option<[[f64; 2]; 4]>; 2],
+    /// Width and height of the picture, px.
+    pub size: [u32; 2],
+}
+
+/// What is read of the record of a photograph.
+#[derive(Deserialize)]
+struct FramingRecord {
+    width: u32,
+    height: u32,
+    panels: Vec<Option<[[f64; 2]; 4]>>,
+}
+
 impl Sample {
+    /// Where the panels are in the photograph; none if the sample is not one of two panels.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn framing(&self) -> Result<Option<Framing>> {
+        let record: Option<FramingRecord> = self.fields.get("image")?;
+        Ok(record.and_then(|FramingRecord { width, height, panels }| {
+            let panels = <[_; 2]>::try_from(panels).ok()?;
+            Some(Framing { panels, size: [width, height] })
+        }))
+    }
+
     /// Sets the facets as measured in a photograph.
     ///
     /// # Errors

@@ -5,10 +5,11 @@ use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
+use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{self, EXPOSURE, SceneModel, Unknown};
-use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
-use vfold::scene::Setting;
+use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, SceneModel, Unknown};
+use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, photograph, smooth};
+use vfold::scene::{FoldLight, FoldSetting, Setting};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
@@ -22,6 +23,11 @@ use super::settings::{MUNSELL, NoiseSd, Smoothness};
 const SMOOTH_CUTOFF: f64 = 1e-8;
 /// Least change that counts, in standard deviations.
 const CUTOFF: f64 = 1e-2;
+
+/// Residuals, in units of their expected size, below which a photograph is taken to be of an ideal fold.
+const IDEAL: f64 = 2.0;
+/// What no unknown explains in photographs.
+const MODEL_ERROR: ModelError = ModelError { shared: 0.012, own: 0.004, white: 0.004, at_crease: 0.05 };
 
 /// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
 const UNEXPLAINED: f64 = 0.3;
@@ -43,6 +49,8 @@ pub struct Context {
     scene: SceneModel,
     method: SceneMethod,
     start: Option<Vec<f64>>,
+    /// The scene's record, if it is that of a fold.
+    record: Option<Scene>,
 }
 
 /// The method on the wavelengths of a scene.
@@ -130,8 +138,9 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
+        let record = scene.fold_if_one()?.map(|_| scene.clone());
         let scene = Setting::of(scene)?.model_to_fit(&self.fit)?;
-        Ok(Context { grid, scene, method, start })
+        Ok(Context { grid, scene, method, start, record })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
@@ -143,7 +152,11 @@ impl Transform for Estimator<'_> {
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
                 let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                (map::estimate(&data, prior, context.start.as_deref()), how)
+                let ideal = map::estimate(&data, prior, context.start.as_deref());
+                match self.of_photograph(context, sample, prior, exposure, &ideal)? {
+                    Some(real) => (real, how),
+                    None => (ideal, how),
+                }
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
@@ -216,6 +229,31 @@ impl<'a> Estimator<'a> {
         };
         let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
         Ok(map::estimate(&data, prior, context.start.as_deref()))
+    }
+
+    /// The estimate from a photograph of a real sheet, if the sample is one that an ideal fold does not explain.
+    fn of_photograph(
+        &self,
+        context: &Context,
+        sample: &Sample,
+        prior: &Prior,
+        exposure: Exposure,
+        ideal: &Estimate,
+    ) -> Result<Option<Estimate>> {
+        let known = match exposure {
+            Exposure::Known(exposure) => Some(exposure),
+            Exposure::Free => None,
+            Exposure::Sum => return Ok(None),
+        };
+        let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
+        if !is_auto || !sample.is_photograph() || ideal.residual_rms < IDEAL {
+            return Ok(None);
+        }
+        let Some(record) = &context.record else { return Ok(None) };
+        let setting = FoldSetting::of(record)?;
+        let Some(parts) = FoldLight::of(&setting).parts(sample, known)? else { return Ok(None) };
+        let (estimate, _albedo) = photograph::estimate(&parts, prior, MODEL_ERROR)?;
+        Ok(Some(estimate))
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.

@@ -1,6 +1,6 @@
 //! How far the fold is open.
 
-use super::{Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Told, Unknown};
 use crate::error::{Error, Result};
 use crate::kernel::mesh::{Mesh, respond};
 
@@ -13,6 +13,7 @@ pub static ANGLE: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
+    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.angle_deg = value }),
 };
 
 /// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet that springs back
@@ -42,4 +43,11 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     };
     sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;
     Ok(())
+}
+
+/// Standard deviation in a photograph of a fold whose angle was measured, degrees.
+const PHOTOGRAPH_SD_DEG: f64 = 1.2;
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.angle_deg, sd: PHOTOGRAPH_SD_DEG })
 }

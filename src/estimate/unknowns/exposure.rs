@@ -1,6 +1,6 @@
 //! How bright the picture is.
 
-use super::{Flag, Role, Scale, Unknown};
+use super::{Effect, Flag, Normal, Role, Scale, Told, Unknown};
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
 pub static EXPOSURE: Unknown = Unknown {
@@ -9,6 +9,17 @@ pub static EXPOSURE: Unknown = Unknown {
     unit: None,
     flag: &Flag { value: "exposure", help: "Value of white facing the sun, as --exposure free" },
     range: 0.0..=f64::INFINITY,
-    scale: Scale::Linear,
+    scale: Scale::Logarithm,
     role: Role::Exposure,
+    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.exposure = value }),
 };
+
+/// A chart or a card is uneven, not quite where the sheet is, nor turned as it was said to be: standard deviation of the logarithm of an
+/// exposure that is known, and of one that is not.
+const KNOWN_SD: f64 = 0.04;
+const FREE_SD: f64 = 1.0;
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd: KNOWN_SD });
+    Some(known.unwrap_or(Normal { mean: told.exposure_guess.ln(), sd: FREE_SD }))
+}

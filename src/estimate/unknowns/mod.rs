@@ -9,30 +9,80 @@
 //! the fold, the colour of the sky) is interpolated between three sources.
 
 mod angle;
+mod body_roughness;
+mod bow;
+mod bow_difference;
+mod crease;
 mod exposure;
 mod factor;
+mod first_gain;
+mod glare;
+mod gloss;
+mod gloss_roughness;
+mod ground;
+mod ground_redness;
+mod last_gain;
 mod scene_model;
 mod sky;
 mod sky_colour;
 mod sources;
+mod sun_colour;
 mod tilt;
+mod vignetting;
 
 use std::fmt;
 use std::ops::RangeInclusive;
 
 use angle::ANGLE;
+use body_roughness::BODY_ROUGHNESS;
+use bow::BOW;
+use bow_difference::BOW_DIFFERENCE;
+use crease::CREASE;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
+use first_gain::FIRST_GAIN;
+use glare::GLARE;
+use gloss::GLOSS;
+use gloss_roughness::GLOSS_ROUGHNESS;
+use ground::GROUND;
+use ground_redness::GROUND_REDNESS;
+use last_gain::LAST_GAIN;
 pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
 use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
+use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
+use vignetting::VIGNETTING;
 
+use super::photograph::{Conditions, Told};
 use crate::error::Result;
 
 /// All unknowns, in the order of the records.
-pub static TABLE: &[&Unknown] = &[&EXPOSURE, &ANGLE, &TILT, &SKY, &SKY_COLOUR];
+pub static TABLE: &[&Unknown] = &[
+    &EXPOSURE,
+    &ANGLE,
+    &TILT,
+    &SKY,
+    &SKY_COLOUR,
+    &SUN_COLOUR,
+    &GROUND,
+    &GROUND_REDNESS,
+    &GLOSS,
+    &GLOSS_ROUGHNESS,
+    &BODY_ROUGHNESS,
+    &CREASE,
+    &BOW,
+    &BOW_DIFFERENCE,
+    &VIGNETTING,
+    &GLARE,
+    &FIRST_GAIN,
+    &LAST_GAIN,
+];
+
+/// What asks for everything that photographs of real sheets need.
+pub static AUTO: Flag =
+    Flag { value: "auto", help: "All that sets a real sheet apart from an ideal one, bounded by priors" };
 
 /// A number of the scene that can be fitted.
 pub struct Unknown {
@@ -48,8 +98,18 @@ pub struct Unknown {
     pub range: RangeInclusive<f64>,
     /// What of the value is normal before a picture is taken.
     pub scale: Scale,
-    /// How it enters the model.
+    /// How it enters the model of an ideal fold.
     pub role: Role,
+    /// How it enters that of a photograph of a real sheet.
+    pub photograph: Option<Effect>,
+}
+
+/// How an unknown enters the model of a photograph.
+pub struct Effect {
+    /// What is known of it before the picture is looked at, on its scale; none where it does not occur.
+    pub prior: fn(&Told) -> Option<Normal>,
+    /// Makes it one of the conditions.
+    pub set: fn(&mut Conditions, f64),
 }
 
 /// A value of `vestimate --fit`; unknowns that share it are fitted together.
@@ -65,6 +125,8 @@ pub struct Flag {
 pub enum Role {
     /// The model is proportional to it: the best one is a quotient for every spectrum tried, and nothing is known of it before.
     Exposure,
+    /// It is none of an ideal fold's.
+    Photograph,
     /// It changes the sources.
     Sources {
         /// What is known of it before a picture is taken; none where the scene leaves nothing open.
@@ -84,12 +146,19 @@ pub struct Normal {
 }
 
 /// A monotone map between the value of an unknown and the number that is normal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
     /// The value itself.
     Linear,
     /// A million over the value: colour temperatures in K differ to the eye as their reciprocals in 1e-6/K do.
     Reciprocal,
+    /// The logarithm: what is known of the value is a factor.
+    Logarithm,
+    /// `unit·ln(1 + eˣ)` is the value: it is never negative, near to nothing below and proportional to x above.
+    Positive {
+        /// Value where x is 0.54, about its slope far above.
+        unit: f64,
+    },
 }
 
 impl Scale {
@@ -99,6 +168,11 @@ impl Scale {
         match self {
             Self::Linear => (x, 1.0),
             Self::Reciprocal => (1e6 / x, -1e6 / (x * x)),
+            Self::Logarithm => (x.exp(), x.exp()),
+            Self::Positive { unit } => {
+                let value = if x > 30.0 { x } else { x.exp().ln_1p() };
+                (unit * value, unit / (1.0 + (-x).exp()))
+            }
         }
     }
 
@@ -108,6 +182,8 @@ impl Scale {
         match self {
             Self::Linear => value,
             Self::Reciprocal => 1e6 / value,
+            Self::Logarithm => value.ln(),
+            Self::Positive { unit } => (value / unit).exp_m1().ln(),
         }
     }
 }
@@ -166,8 +242,8 @@ mod tests {
 
     #[test]
     fn scales_and_their_inverses_agree() {
-        for scale in [Scale::Linear, Scale::Reciprocal] {
-            for x in [30.0, 100.0, 160.0] {
+        for scale in [Scale::Linear, Scale::Reciprocal, Scale::Logarithm, Scale::Positive { unit: 0.1 }] {
+            for x in [3.0, 5.0, 7.0] {
                 let (value, slope) = scale.value(x);
                 assert!((scale.normal(value) - x).abs() < 1e-12 * x);
                 let rise = scale.value(x + 1e-4).0 - scale.value(x - 1e-4).0;

@@ -1,7 +1,7 @@
 //! How much light comes from the sky.
 
 use super::sources::Source;
-use super::{Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown};
 use crate::error::Result;
 
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
@@ -16,6 +16,7 @@ pub static SKY: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
+    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.sky = value }),
 };
 
 /// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of it, of which
@@ -35,4 +36,12 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     let sky = Source::new(Lamp::Sky { irradiance: 1.0 }, scene.lighting.sky.clone());
     sources.add(sky.with(&SKY, Factor::Amount));
     Ok(())
+}
+
+/// A clear sky gives a tenth to a third of the sun's light, on a horizontal plane; mean and standard deviation on the scale of
+/// [`Scale::Positive`] in a photograph, whose unknown is that.
+const OF_PHOTOGRAPH: Normal = Normal { mean: 0.12, sd: 0.06 };
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    told.is_outdoors.then_some(OF_PHOTOGRAPH)
 }

@@ -1,6 +1,6 @@
 //! The colour of the sky: daylight of unknown temperature.
 
-use super::{Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Unknown};
+use super::{Effect, Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::spectrum::{self, Outside};
@@ -14,6 +14,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
+    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.sky_mired = Some(1e6 / value) }),
 };
 
 /// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three between 7700 K and
@@ -46,4 +47,11 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
 fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
     let power = spectrum::illuminant(&format!("daylight:{cct_k}"))?.on(&scene.grid, Outside::Refuse)?;
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
+}
+
+/// A clear sky's, in photographs that have direct sun: 10500 K, two of three between 9100 K and 12500 K.
+const OF_PHOTOGRAPH: Normal = Normal { mean: 95.0, sd: 15.0 };
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    (told.is_outdoors && !told.has_sky_illuminant).then_some(OF_PHOTOGRAPH)
 }

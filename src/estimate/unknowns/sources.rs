@@ -170,7 +170,7 @@ impl SceneModel {
         let (mut sources, mut unknowns) = (Sources::of(scene), Vec::new());
         for unknown in fit {
             let (prior, enter) = match unknown.role {
-                Role::Exposure => continue,
+                Role::Exposure | Role::Photograph => continue,
                 Role::Sources { prior, enter } => (prior, enter),
             };
             if let Some(prior) = prior(scene)? {

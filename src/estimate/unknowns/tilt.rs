@@ -1,6 +1,6 @@
 //! Where the sun stands across the crease.
 
-use super::{Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown};
 use crate::error::Result;
 
 /// Angle of the sun off the bisecting plane, degrees.
@@ -12,6 +12,7 @@ pub static TILT: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
+    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.tilt_deg = value }),
 };
 
 /// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to the sun by eye errs
@@ -35,4 +36,11 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
         Lamp::EvenSun | Lamp::OddSun | Lamp::Sky { .. } => vec![source],
     });
     Ok(())
+}
+
+/// Standard deviation in a photograph whose sheet was turned to the sun with care, degrees.
+const PHOTOGRAPH_SD_DEG: f64 = 2.0;
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.tilt_deg, sd: PHOTOGRAPH_SD_DEG })
 }

@@ -1,0 +1,63 @@
+//! Under which conditions a photograph was taken.
+
+/// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditions {
+    /// Value of a perfect white diffuser facing the sun in its strongest channel, or what a chart in the light of sun and sky made of it.
+    pub exposure: f64,
+    /// Gains of the first and the last of three channels beside the second.
+    pub gains: [f64; 2],
+    /// Angle between the panels, degrees.
+    pub angle_deg: f64,
+    /// Angle of the sun off the bisecting plane, degrees.
+    pub tilt_deg: f64,
+    /// Reciprocal colour temperature of the sun, 1e-6/K, if it is daylight.
+    pub sun_mired: Option<f64>,
+    /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being 1.
+    pub sky: f64,
+    /// Reciprocal colour temperature of the sky, 1e-6/K; none if its colour is given.
+    pub sky_mired: Option<f64>,
+    /// Reflectance of the ground at 550 nm.
+    pub ground: f64,
+    /// Rise of the ground's reflectance over 150 nm, relative to that at 550 nm.
+    pub ground_redness: f64,
+    /// Radius of the rounded crease, in depths of the panels.
+    pub crease_radius: f64,
+    /// By how much both panels turn over their depth, degrees.
+    pub bow_deg: f64,
+    /// By how much panel 0 turns more than their mean, and panel 1 less, degrees.
+    pub bow_difference_deg: f64,
+    /// Share of the light that the lens loses in the corners of the picture.
+    pub vignetting: f64,
+    /// Share of the picture's mean light that the lens spreads over all of it.
+    pub glare: f64,
+    /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+    pub gloss: f64,
+    /// Roughness of the surface: α of its microfacets' distribution (GGX).
+    pub gloss_roughness: f64,
+    /// Roughness of the body: Oren and Nayar's σ, degrees.
+    pub body_roughness_deg: f64,
+}
+
+/// What was said of a photograph.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Told {
+    /// The exposure, if it is known.
+    pub exposure: Option<f64>,
+    /// An exposure to set out from where it is not.
+    pub exposure_guess: f64,
+    /// Whether a chart or a card in the light of sun and sky told the exposure and balanced the channels.
+    pub by_chart: bool,
+    /// Number of channels.
+    pub channels: usize,
+    /// Angle between the panels, degrees.
+    pub angle_deg: f64,
+    /// Angle of the sun off the bisecting plane, degrees.
+    pub tilt_deg: f64,
+    /// Reciprocal colour temperature of the illuminant, 1e-6/K, if it is CIE daylight.
+    pub daylight_mired: Option<f64>,
+    /// Whether the sky's colour is given.
+    pub has_sky_illuminant: bool,
+    /// Whether up and down are known, so that sky and ground are.
+    pub is_outdoors: bool,
+}

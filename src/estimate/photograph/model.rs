@@ -1,0 +1,371 @@
+//! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's albedo, the unknowns
+//! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::conditions::Conditions;
+use super::parts::{Ambient, Parts, Radiance};
+use super::sheets::{Departure, Kind};
+use crate::estimate::gaussian::{Gaussian, logistic};
+use crate::estimate::unknowns::{Expected, TABLE};
+use crate::solve::posterior::{Linearised, Model};
+
+/// Step of the difference quotients by unknowns of the scene, in standard deviations.
+const STEP: f64 = 1e-3;
+/// Of a value that is compared with a measured one, the least share of the brightest.
+const DARKEST: f64 = 1e-6;
+
+/// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
+#[derive(Clone, Debug)]
+struct Terms {
+    /// Node by waveband.
+    values: DMatrix<f64>,
+    /// Their derivatives by albedo.
+    slopes: DMatrix<f64>,
+}
+
+/// Chebyshev nodes of [0, 1], from the first kind.
+#[must_use]
+pub fn nodes(count: usize) -> Vec<f64> {
+    let angle = |n: usize| std::f64::consts::PI * (n as f64 + 0.5) / count as f64;
+    (0..count).map(|n| 0.5 * (1.0 - angle(n).cos())).collect()
+}
+
+/// Facets as they are predicted, with what they are made of.
+struct Predicted {
+    /// Facet by channel.
+    values: DMatrix<f64>,
+    /// Brightness of each facet and channel for radiance and weights of 1: exposure, gains, lens.
+    scale: DMatrix<f64>,
+    /// Radiances and weights (channel by waveband) of the lights.
+    lights: Vec<(Radiance, DMatrix<f64>)>,
+}
+
+/// The model under one kind of sheet and one Gaussian of albedos.
+pub struct PhotographModel<'a> {
+    parts: &'a Parts,
+    kind: Kind,
+    gaussian: &'a Gaussian,
+    whitening: &'a DMatrix<f64>,
+    unknowns: Vec<Expected>,
+    /// From values at the nodes to Chebyshev coefficients.
+    coefficients: DMatrix<f64>,
+}
+
+/// A point of the model in its own units.
+pub struct Point {
+    /// Albedo of the sheet in every waveband: reflectance for light from all directions into all directions.
+    pub albedo: Vec<f64>,
+    /// Conditions.
+    pub conditions: Conditions,
+    /// How the sheet departs from a Lambertian one.
+    pub departure: Departure,
+    /// Exposure: value of a perfect white diffuser that faces the sun, in the sun alone.
+    pub exposure: f64,
+}
+
+/// Unknowns of a photograph, of which something is known before.
+#[must_use]
+pub fn unknowns_of(parts: &Parts, kind: Kind) -> Vec<Expected> {
+    let of_family = ["gloss", "gloss_roughness", "body_roughness_deg"];
+    let expected = |unknown: &&'static crate::estimate::unknowns::Unknown| {
+        let effect = unknown.photograph.as_ref()?;
+        if kind != Kind::Family && of_family.contains(&unknown.name) {
+            return None;
+        }
+        Some(Expected { unknown, prior: (effect.prior)(&parts.told)? })
+    };
+    TABLE.iter().filter_map(expected).collect()
+}
+
+impl<'a> PhotographModel<'a> {
+    /// The model; `whitening` makes residuals of all values, facet by facet and in each channel by channel, standard normal.
+    #[must_use]
+    pub fn new(parts: &'a Parts, kind: Kind, gaussian: &'a Gaussian, whitening: &'a DMatrix<f64>) -> Self {
+        let count = parts.sun.even.ncols();
+        let chebyshev = chebyshev(&nodes(count), count).0;
+        let coefficients = chebyshev.transpose().try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
+        Self { parts, kind, gaussian, whitening, unknowns: unknowns_of(parts, kind), coefficients }
+    }
+
+    /// The unknowns of the scene.
+    #[must_use]
+    pub fn scene_unknowns(&self) -> &[Expected] {
+        &self.unknowns
+    }
+
+    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, and how many numbers there are.
+    #[must_use]
+    pub fn layout(&self) -> [usize; 4] {
+        let scene = self.gaussian.basis().ncols();
+        let sheet = scene + self.unknowns.len();
+        let camera = sheet + self.parts.sheets.variations.len();
+        [scene, sheet, camera, camera + self.parts.eye.errors.len()]
+    }
+
+    /// Conditions at `w`.
+    fn conditions(&self, w: &DVector<f64>) -> Conditions {
+        let told = &self.parts.told;
+        let mut conditions = Conditions {
+            exposure: told.exposure_guess,
+            gains: [1.0; 2],
+            angle_deg: told.angle_deg,
+            tilt_deg: told.tilt_deg,
+            sun_mired: None,
+            sky: 0.0,
+            sky_mired: None,
+            ground: 0.0,
+            ground_redness: 0.0,
+            crease_radius: 0.0,
+            bow_deg: 0.0,
+            bow_difference_deg: 0.0,
+            vignetting: 0.0,
+            glare: 0.0,
+            gloss: 0.0,
+            gloss_roughness: 0.42,
+            body_roughness_deg: 0.0,
+        };
+        let [first, ..] = self.layout();
+        for (n, expected) in self.unknowns.iter().enumerate() {
+            if let Some(effect) = &expected.unknown.photograph {
+                (effect.set)(&mut conditions, expected.at(w[first + n]).0);
+            }
+        }
+        conditions
+    }
+
+    fn terms(&self, albedo: &[f64]) -> Terms {
+        let (values, slopes) = chebyshev(albedo, self.coefficients.nrows());
+        Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes }
+    }
+
+    /// Logits of albedo.
+    fn logit(&self, w: &DVector<f64>) -> DVector<f64> {
+        self.gaussian.logit_at(&w.rows(0, self.gaussian.basis().ncols()).into_owned())
+    }
+
+    /// What `w` means.
+    #[must_use]
+    pub fn point(&self, w: &DVector<f64>) -> Point {
+        let conditions = self.conditions(w);
+        let [_, sheet, camera, _] = self.layout();
+        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        Point {
+            albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
+            departure: self.parts.sheets.departure(self.kind, &conditions, &variations),
+            exposure: self.exposure(&conditions),
+            conditions,
+        }
+    }
+
+    /// Sunlight on the facets.
+    fn sunlit(&self, conditions: &Conditions, variations: &[f64]) -> Radiance {
+        let sun = &self.parts.sun;
+        let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
+        let mut radiance = cos * &sun.even + sin * &sun.odd;
+        sun.angle_deg.add_to(&mut radiance, conditions.angle_deg - self.parts.told.angle_deg);
+        sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
+        sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
+        sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
+        radiance + self.parts.sheets.departure(self.kind, conditions, variations).radiance
+    }
+
+    /// Powers of sun, sky and ground, the sun giving 1 in the reference channel, the others for an irradiance of 1 by the sky in
+    /// that channel and for a reflectance of the ground of 1.
+    fn powers(&self, conditions: &Conditions) -> [DVector<f64>; 3] {
+        let eye = &self.parts.eye;
+        let sun = conditions.sun_mired.map_or_else(|| eye.sun.clone(), |mired| daylight(&eye.daylight, mired));
+        let sky = conditions.sky_mired.map_or_else(|| eye.sky.clone(), |mired| daylight(&eye.daylight, mired));
+        let white = |power: &DVector<f64>| eye.sensitivities.row(eye.reference).transpose().dot(power);
+        let (sun, sky) = (&sun / white(&sun), &sky / white(&sky));
+        let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
+        let ground = DVector::from_iterator(sun.len(), eye.wavelengths_nm.iter().map(redness)).component_mul(&sun);
+        [sun, sky, ground]
+    }
+
+    /// Irradiance by sky and ground of open planes that face them.
+    fn ambient(&self, conditions: &Conditions) -> [f64; 2] {
+        let sky = conditions.sky.max(0.0);
+        [sky, conditions.ground * (self.parts.sun_height + sky)]
+    }
+
+    /// What a chart or a card that faces the sun receives, channel by channel, the light of the sun as it was said being 1.
+    fn white(&self, conditions: &Conditions) -> DVector<f64> {
+        let [sun, sky, ground] = self.powers(conditions);
+        let (eye, [sky_amount, ground_amount]) = (&self.parts.eye, self.ambient(conditions));
+        let said = &eye.sensitivities * &eye.sun;
+        let said = &said / said[eye.reference];
+        let light = sun + sky_amount * self.parts.sky.open * sky + ground_amount * self.parts.ground.open * ground;
+        (&eye.sensitivities * light).component_div(&said)
+    }
+
+    fn exposure(&self, conditions: &Conditions) -> f64 {
+        let reference = self.parts.eye.reference;
+        let lit = if self.parts.told.by_chart { self.white(conditions)[reference] } else { 1.0 };
+        conditions.exposure / lit
+    }
+
+    fn predicted(&self, w: &DVector<f64>, terms: &Terms) -> Predicted {
+        let (parts, conditions) = (self.parts, self.conditions(w));
+        let [_, sheet, camera, _] = self.layout();
+        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        let mut sensitivities = parts.eye.sensitivities.clone();
+        for ((channel, error), size) in parts.eye.errors.iter().zip(w.rows(camera, w.len() - camera).iter()) {
+            for (sensitivity, error) in sensitivities.row_mut(*channel).iter_mut().zip(error.iter()) {
+                *sensitivity += size * error;
+            }
+        }
+        let weighted = |power: &DVector<f64>| {
+            DMatrix::from_fn(sensitivities.nrows(), sensitivities.ncols(), |c, band| sensitivities[(c, band)] * power[band])
+        };
+        let [sun, sky, ground] = self.powers(&conditions);
+        let amounts = self.ambient(&conditions);
+        let ambient = |light: &Ambient, amount: f64, power| (amount * &light.radiance, weighted(power));
+        let mut lights = vec![(self.sunlit(&conditions, &variations), weighted(&sun))];
+        if parts.told.is_outdoors {
+            lights.push(ambient(&parts.sky, amounts[0], &sky));
+            lights.push(ambient(&parts.ground, amounts[1], &ground));
+        }
+        let mut gains = DVector::from_element(sensitivities.nrows(), 1.0);
+        if parts.told.by_chart {
+            // a chart makes the channels those of the light that was said, in the light that there is
+            let white = self.white(&conditions);
+            gains = white.map(|value| white[parts.eye.reference] / value);
+        }
+        if gains.len() == 3 {
+            gains[0] *= conditions.gains[0];
+            gains[2] *= conditions.gains[1];
+        }
+        let exposure = self.exposure(&conditions);
+        let scale = DMatrix::from_fn(parts.places.len(), gains.len(), |facet, c| {
+            exposure * gains[c] * (1.0 - conditions.vignetting * parts.places[facet].off_centre)
+        });
+        let mut values: DMatrix<f64> =
+            lights.iter().map(|(radiance, weights)| radiance * (&terms.values * weights.transpose())).sum();
+        values.component_mul_assign(&scale);
+        for mut channel in values.column_iter_mut() {
+            let mean = channel.mean();
+            channel.add_scalar_mut(conditions.glare * mean);
+        }
+        Predicted { values, scale, lights }
+    }
+
+    /// Values in the order of residuals, in which they are compared.
+    fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
+        let most = values.max();
+        DVector::from_iterator(values.len(), values.transpose().iter().map(|value| value.max(DARKEST * most)))
+    }
+
+    /// The Gaussian of logits of albedo.
+    #[must_use]
+    pub fn gaussian(&self) -> &Gaussian {
+        self.gaussian
+    }
+
+    /// The values that were measured: facet by channel.
+    #[must_use]
+    pub fn values(&self) -> &DMatrix<f64> {
+        &self.parts.values
+    }
+
+    /// Residuals before they are whitened: facet by channel.
+    #[must_use]
+    pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        &self.parts.values - self.predicted(w, &self.terms(&albedo)).values
+    }
+}
+
+/// Chebyshev polynomials of [0, 1] at `points`, and their derivatives: polynomial by point.
+fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (mut values, mut slopes) = (DMatrix::zeros(count, points.len()), DMatrix::zeros(count, points.len()));
+    for (column, point) in points.iter().enumerate() {
+        let x = 2.0 * point - 1.0;
+        for n in 0..count {
+            let (value, slope) = match n {
+                0 => (1.0, 0.0),
+                1 => (x, 2.0),
+                _ => (
+                    2.0 * x * values[(n - 1, column)] - values[(n - 2, column)],
+                    4.0 * values[(n - 1, column)] + 2.0 * x * slopes[(n - 1, column)] - slopes[(n - 2, column)],
+                ),
+            };
+            values[(n, column)] = value;
+            slopes[(n, column)] = slope;
+        }
+    }
+    (values, slopes)
+}
+
+/// Daylight of a reciprocal colour temperature, from its mean and characteristic vectors (CIE 15:2018, section 4.1.2, not rounded).
+fn daylight(basis: &DMatrix<f64>, mired: f64) -> DVector<f64> {
+    let [m1, m2] = crate::spectrum::daylight_weights(1e6 / mired.clamp(40.0, 250.0));
+    basis * DVector::from_column_slice(&[1.0, m1, m2])
+}
+
+impl Model for PhotographModel<'_> {
+    type Second = ();
+
+    fn unknowns(&self) -> usize {
+        self.layout()[3]
+    }
+
+    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        let predicted = self.predicted(w, &self.terms(&albedo));
+        self.whitening * (Self::in_order(&self.parts.values) - Self::in_order(&predicted.values))
+    }
+
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        let terms = self.terms(&albedo);
+        let Predicted { values, scale, lights } = self.predicted(w, &terms);
+        let ordered = Self::in_order(&values);
+        let [scene, _, camera, end] = self.layout();
+        let (channels, bands) = (values.ncols(), albedo.len());
+        let mut by_logit = DMatrix::<f64>::zeros(values.len(), bands);
+        for (radiance, weights) in &lights {
+            let slopes = radiance * &terms.slopes;
+            for facet in 0..values.nrows() {
+                for channel in 0..channels {
+                    let scale = scale[(facet, channel)];
+                    let mut row = by_logit.row_mut(facet * channels + channel);
+                    for (band, entry) in row.iter_mut().enumerate() {
+                        *entry += scale * weights[(channel, band)] * slopes[(facet, band)];
+                    }
+                }
+            }
+        }
+        for (mut column, r) in by_logit.column_iter_mut().zip(&albedo) {
+            column *= r * (1.0 - r);
+        }
+        let mut jacobian = DMatrix::zeros(values.len(), end);
+        jacobian.columns_mut(0, scene).gemm(1.0, &by_logit, self.gaussian.basis(), 0.0);
+        for n in scene..camera {
+            let mut beside = w.clone();
+            beside[n] += STEP;
+            let moved = Self::in_order(&self.predicted(&beside, &terms).values);
+            jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
+        }
+        // curves enter in proportion: their columns are what each waveband gives
+        let sun = &lights[0];
+        let given = &sun.0 * &terms.values;
+        let [power, ..] = self.powers(&self.conditions(w));
+        for (n, (channel, error)) in self.parts.eye.errors.iter().enumerate() {
+            let column = &given * error.component_mul(&power);
+            for facet in 0..values.nrows() {
+                jacobian[(facet * channels + channel, camera + n)] = scale[(facet, *channel)] * column[facet];
+            }
+        }
+        Linearised {
+            residuals: self.whitening * (Self::in_order(&self.parts.values) - ordered),
+            jacobian: self.whitening * jacobian,
+            second: (),
+        }
+    }
+
+    /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
+    fn curvature(&self, (): &(), _: &DVector<f64>) -> DMatrix<f64> {
+        DMatrix::zeros(self.unknowns(), self.unknowns())
+    }
+}

@@ -1,0 +1,224 @@
+//! The most probable spectrum under all kinds of sheets and all classes of spectra.
+//!
+//! Every kind of sheet is tried under all spectra as one Gaussian; the kinds of most evidence are tried again under the classes that the
+//! model, linearised there, leaves possible. What is reported is the mean over all of these, weighed by their evidence, and the error
+//! bars hold how far they are apart.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use super::error::ModelError;
+use super::model::{PhotographModel, Point};
+use super::parts::Parts;
+use super::sheets::Kind;
+use crate::error::{Error, Result};
+use crate::estimate::prior::{Class, Prior};
+use crate::estimate::unknowns::EXPOSURE;
+use crate::estimate::{Estimate, Fitted};
+use crate::solve::Termination;
+use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+
+/// Maxima are told apart this near to them, and counted as found, in standard deviations.
+const SORTING_TOLERANCE: f64 = 0.3;
+const TOLERANCE: f64 = 3e-2;
+/// Most iterations of a search.
+const SORTING_LIMIT: usize = 25;
+const LIMIT: usize = 60;
+/// Kinds of sheets and classes of spectra that are tried further, and the least evidence for one, as the logarithm of its share of the
+/// first's.
+const KINDS: usize = 3;
+const CLASSES: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -5.0;
+/// Share of families among kinds of sheets before the picture is looked at.
+const FAMILY_SHARE: f64 = 0.5;
+/// A number is told by the facets if its standard deviation is below that share of what it was before.
+const SUPPORTED: f64 = 0.8;
+/// Step of difference quotients, in standard deviations.
+const STEP: f64 = 1e-3;
+
+/// A maximum.
+struct Maximum {
+    ln_evidence: f64,
+    point: Point,
+    reflectance: DVector<f64>,
+    /// The product of its transpose with it is the covariance of the reflectance.
+    spread: DMatrix<f64>,
+    fitted: Vec<Fitted>,
+    residual_rms: f64,
+    unexplained: f64,
+    trace: Vec<Iteration>,
+    termination: Termination,
+}
+
+/// The estimate from a photograph, and the albedo of the sheet.
+///
+/// # Errors
+/// [`Error::Numeric`] if the facets are not finite.
+pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<(Estimate, Vec<f64>)> {
+    let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
+    let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
+    let kinds = kinds(parts);
+    let sorted = kinds.iter().filter_map(|(kind, ln_share)| {
+        let model = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
+        let solution = search(&model, DVector::zeros(model.unknowns()), SORTING_TOLERANCE, SORTING_LIMIT);
+        let ln_evidence = ln_share + solution.ln_evidence(1.0)?;
+        ln_evidence.is_finite().then_some((ln_evidence, *kind, *ln_share, solution))
+    });
+    let sorted = most_evident(sorted.collect(), KINDS, |one| one.0);
+    let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.3.trace.clone()).collect();
+    let mut maxima = Vec::new();
+    for (_, kind, ln_share, solution) in &sorted {
+        let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
+        let likely = prior.classes().iter().filter_map(|class| linear(&all, solution, class));
+        for (_, class, start) in most_evident(likely.collect(), CLASSES, |one| one.0) {
+            let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
+            let found = search(&model, start, TOLERANCE, LIMIT);
+            maxima.extend(Maximum::of(&model, &found, ln_share + class.ln_share));
+        }
+    }
+    let maxima = most_evident(maxima, KINDS * CLASSES, |one| one.ln_evidence);
+    trace.extend(maxima.iter().map(|one| one.trace.clone()));
+    mean(maxima, trace).ok_or_else(not_finite)
+}
+
+/// Kinds of sheets with the logarithms of their shares.
+fn kinds(parts: &Parts) -> Vec<(Kind, f64)> {
+    let measured = parts.sheets.measured.len();
+    let share = if measured == 0 { 1.0 } else { FAMILY_SHARE };
+    let each = ((1.0 - share) / measured.max(1) as f64).ln();
+    let all = (0..measured).map(|n| (Kind::Measured(n), each));
+    std::iter::once((Kind::Family, share.ln())).chain(all).collect()
+}
+
+fn search(model: &PhotographModel, start: DVector<f64>, tolerance: f64, limit: usize) -> Solution<()> {
+    let first = first_inflation(model, &start, 1.0);
+    maximise(model, start, (first, 1.0), tolerance, limit)
+}
+
+/// Those of most evidence, most first.
+fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f64) -> Vec<T> {
+    all.retain(|one| ln_evidence(one).is_finite());
+    all.sort_by(|a, b| ln_evidence(b).total_cmp(&ln_evidence(a)));
+    all.truncate(count);
+    let least = all.first().map_or(0.0, |first| ln_evidence(first) + LN_EVIDENCE_LEAST);
+    all.retain(|one| ln_evidence(one) >= least);
+    all
+}
+
+/// The evidence for a class of spectra, and where its maximum is, the model taken to be linear about a maximum under all of them.
+fn linear<'a>(
+    all: &PhotographModel,
+    solution: &Solution<()>,
+    class: &'a Class,
+) -> Option<(f64, &'a Class, DVector<f64>)> {
+    let (broad, own) = (all.gaussian(), &class.gaussian);
+    let [scene, ..] = all.layout();
+    let others = solution.w.len() - scene;
+    // derivatives by logit, as far as the coordinates of all spectra tell them
+    let by_coordinate = solution.at.jacobian.columns(0, scene);
+    let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
+    let by_logit = by_coordinate * coordinates_of;
+    let rest = solution.at.jacobian.columns(scene, others);
+    let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
+    let jacobian = DMatrix::from_fn(by_logit.nrows(), own.basis().ncols() + others, |_, _| 0.0);
+    let mut jacobian = jacobian;
+    jacobian.columns_mut(0, own.basis().ncols()).gemm(1.0, &by_logit, own.basis(), 0.0);
+    jacobian.columns_mut(own.basis().ncols(), others).copy_from(&rest);
+    let residuals = &solution.at.residuals
+        + &by_logit * (&logit - own.mean())
+        + rest * solution.w.rows(scene, others);
+    let mut information = jacobian.tr_mul(&jacobian);
+    (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
+    let factor = Cholesky::new(information)?;
+    let w = factor.solve(&jacobian.tr_mul(&residuals));
+    let cost = (residuals - jacobian * &w).norm_squared() + w.norm_squared();
+    let ln_evidence = class.ln_share - 0.5 * (cost + factor.ln_determinant());
+    Some((ln_evidence, class, w))
+}
+
+impl Maximum {
+    fn of(model: &PhotographModel, found: &Solution<()>, ln_share: f64) -> Option<Self> {
+        let ln_evidence = ln_share + found.ln_evidence(1.0)?;
+        let point = model.point(&found.w);
+        let reflectance = reflectance(&point);
+        let [scene, sheet, camera, end] = model.layout();
+        let basis = model.gaussian().basis();
+        let bands = reflectance.len();
+        let mut slopes = DMatrix::zeros(bands, end);
+        for (band, albedo) in point.albedo.iter().enumerate() {
+            let change = point.departure.reflectance[0] * albedo * (1.0 - albedo);
+            for n in 0..scene {
+                slopes[(band, n)] = change * basis[(band, n)];
+            }
+        }
+        for n in scene..camera {
+            let mut beside = found.w.clone();
+            beside[n] += STEP;
+            let moved = model.point(&beside).departure.reflectance;
+            let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
+            for (band, albedo) in point.albedo.iter().enumerate() {
+                slopes[(band, n)] = slope * albedo + offset;
+            }
+        }
+        let lower = found.information()?.l();
+        let residual_rms = (found.at.residuals.norm_squared() / found.at.residuals.len() as f64).sqrt();
+        let widened = residual_rms.max(1.0);
+        let spread = widened * lower.solve_lower_triangular(&slopes.transpose())?;
+        let own = lower.solve_lower_triangular(&DMatrix::identity(end, end))?;
+        let sd = |n: usize| widened * own.column(n).norm();
+        let fitted = model.scene_unknowns().iter().zip(scene..sheet).map(|(expected, n)| {
+            let (value, slope) = expected.at(found.w[n]);
+            let value = if expected.unknown == &EXPOSURE { point.exposure } else { value };
+            let sd_of = sd(n);
+            Fitted { unknown: expected.unknown, value, sd: sd_of * slope.abs(), supported: sd_of < SUPPORTED }
+        });
+        let left = model.left_over(&found.w);
+        Some(Self {
+            ln_evidence,
+            fitted: fitted.collect(),
+            unexplained: left.norm() / model.values().norm().max(f64::MIN_POSITIVE),
+            point,
+            reflectance,
+            spread,
+            residual_rms,
+            trace: found.trace.clone(),
+            termination: found.termination,
+        })
+    }
+}
+
+/// 45:0 reflectance.
+fn reflectance(point: &Point) -> DVector<f64> {
+    let [slope, offset] = point.departure.reflectance;
+    let of = |albedo: &f64| (slope * albedo + offset).clamp(0.0, 1.0);
+    DVector::from_iterator(point.albedo.len(), point.albedo.iter().map(of))
+}
+
+/// The mean of all maxima by their evidence, what they do not agree on as an error; and the albedo.
+fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<(Estimate, Vec<f64>)> {
+    let most = maxima.first()?.ln_evidence;
+    let odds: Vec<f64> = maxima.iter().map(|one| (one.ln_evidence - most).exp()).collect();
+    let total: f64 = odds.iter().sum();
+    let shares = || odds.iter().map(|odds| odds / total);
+    let reflectance: DVector<f64> = maxima.iter().zip(shares()).map(|(one, share)| share * &one.reflectance).sum();
+    let bands = reflectance.len();
+    let mut albedo = vec![0.0; bands];
+    let mut rows = Vec::new();
+    for (one, share) in maxima.iter().zip(shares()) {
+        albedo.iter_mut().zip(&one.point.albedo).for_each(|(sum, albedo)| *sum += share * albedo);
+        rows.extend(one.spread.row_iter().map(|row| share.sqrt() * row));
+        rows.push(share.sqrt() * (&one.reflectance - &reflectance).transpose());
+    }
+    let best = maxima.into_iter().next()?;
+    let estimate = Estimate {
+        reflectance: reflectance.iter().copied().collect(),
+        spread: Some(DMatrix::from_rows(&rows)),
+        exposure: best.point.exposure,
+        fitted: best.fitted,
+        residual_rms: best.residual_rms,
+        unexplained: best.unexplained,
+        iterations: trace.iter().map(|run| run.len() as u32).sum(),
+        trace,
+        termination: best.termination,
+    };
+    Some((estimate, albedo))
+}

@@ -1,0 +1,105 @@
+//! Kinds of sheets: how one that is not Lambertian departs from one that is, of the same albedo.
+
+use super::conditions::Conditions;
+use super::parts::Radiance;
+
+/// How a sheet departs from a Lambertian one.
+#[derive(Clone, Debug)]
+pub struct Departure {
+    /// What its facets have more, at the nodes of albedo.
+    pub radiance: Radiance,
+    /// Its 45:0 reflectance is the first times its albedo, plus the second.
+    pub reflectance: [f64; 2],
+}
+
+impl Departure {
+    fn none(like: &Radiance) -> Self {
+        Self { radiance: Radiance::zeros(like.nrows(), like.ncols()), reflectance: [1.0, 0.0] }
+    }
+
+    fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
+        if share != 0.0 {
+            self.radiance.zip_apply(&other.radiance, |sum, one| *sum += share * one);
+            for n in 0..2 {
+                self.reflectance[n] += share * (other.reflectance[n] - reference[n]);
+            }
+        }
+    }
+}
+
+/// Where a grid of families is known: strength and roughness of the surface, roughness of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FamilyNodes {
+    /// Strengths of the surface's reflection, the first of them 0.
+    pub gloss: [f64; 3],
+    /// Its roughnesses.
+    pub gloss_roughness: [f64; 3],
+    /// Roughnesses of the body, degrees.
+    pub body_roughness_deg: [f64; 3],
+}
+
+/// The nodes that are used.
+pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
+    gloss: [0.0, 0.4, 1.0],
+    gloss_roughness: [0.28, 0.42, 0.65],
+    body_roughness_deg: [0.0, 12.0, 25.0],
+};
+
+/// All kinds that are known.
+#[derive(Clone, Debug)]
+pub struct Sheets {
+    /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength, roughness of the surface,
+    /// roughness of the body, the last fastest.
+    pub families: Vec<Departure>,
+    /// Measured sheets.
+    pub measured: Vec<Departure>,
+    /// How sheets of a kind differ, in units of a standard deviation: differences of departures.
+    pub variations: Vec<Departure>,
+}
+
+/// The kind that a sheet is taken to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A family: its numbers are among the conditions.
+    Family,
+    /// Like one that was measured.
+    Measured(usize),
+}
+
+impl Sheets {
+    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
+    #[must_use]
+    pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
+        let mut sum = match kind {
+            Kind::Measured(n) => self.measured[n].clone(),
+            Kind::Family => self.family(conditions),
+        };
+        for (variation, size) in self.variations.iter().zip(variations) {
+            sum.add(*size, variation, [0.0, 0.0]);
+        }
+        sum
+    }
+
+    fn family(&self, conditions: &Conditions) -> Departure {
+        let FamilyNodes { gloss, gloss_roughness, body_roughness_deg } = FAMILY_NODES;
+        let shares = [
+            lagrange(gloss, conditions.gloss),
+            lagrange(gloss_roughness, conditions.gloss_roughness),
+            lagrange(body_roughness_deg, conditions.body_roughness_deg),
+        ];
+        let mut sum = Departure::none(&self.families[0].radiance);
+        for (n, departure) in self.families.iter().enumerate() {
+            let share = shares[0][n / 9] * shares[1][n / 3 % 3] * shares[2][n % 3];
+            sum.add(share, departure, [1.0, 0.0]);
+        }
+        sum
+    }
+}
+
+/// Shares of three nodes at `x`.
+fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
+    [0, 1, 2].map(|at| {
+        let [own, a, b] = [0, 1, 2].map(|n| nodes[(at + n) % 3]);
+        (x - a) * (x - b) / ((own - a) * (own - b))
+    })
+}

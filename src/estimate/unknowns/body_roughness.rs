@@ -1,0 +1,22 @@
+//! How rough the sheet is under its surface.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
+pub static BODY_ROUGHNESS: Unknown = Unknown {
+    name: "body_roughness_deg",
+    about: "Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)",
+    unit: Some("degrees"),
+    flag: &AUTO,
+    range: 0.0..=90.0,
+    scale: Scale::Positive { unit: 8.0 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.body_roughness_deg = value }),
+};
+
+/// Paper and paint have 0 to 20 degrees.
+const PRIOR: Normal = Normal { mean: 1.0, sd: 1.2 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

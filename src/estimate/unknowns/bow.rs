@@ -1,0 +1,22 @@
+//! Panels that bow.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// By how much both panels turn over their depth, degrees.
+pub static BOW: Unknown = Unknown {
+    name: "bow_deg",
+    about: "By how much both panels turn over their depth",
+    unit: Some("degrees"),
+    flag: &AUTO,
+    range: f64::NEG_INFINITY..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.bow_deg = value }),
+};
+
+/// Sheets that are held at their edges turn by a few degrees.
+const PRIOR: Normal = Normal { mean: 0.0, sd: 2.0 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

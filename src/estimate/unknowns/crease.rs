@@ -1,0 +1,22 @@
+//! A crease that is round.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Radius of the rounded crease, in depths of the panels.
+pub static CREASE: Unknown = Unknown {
+    name: "crease_radius",
+    about: "Radius of the rounded crease, in depths of the panels",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive { unit: 0.01 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.crease_radius = value }),
+};
+
+/// Folded sheets have radii of 0 to 3 % of their depth.
+const PRIOR: Normal = Normal { mean: 0.9, sd: 0.9 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

@@ -1,0 +1,22 @@
+//! How much more the first channel amplifies than it should.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Gain of the first channel beside the second, relative to what was said.
+pub static FIRST_GAIN: Unknown = Unknown {
+    name: "first_gain",
+    about: "Gain of the first channel beside the second, relative to what was said",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Logarithm,
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.gains[0] = value }),
+};
+
+/// Cameras of one model differ by 2 %.
+const PRIOR: Normal = Normal { mean: 0.0, sd: 0.015 };
+
+fn prior(told: &Told) -> Option<Normal> {
+    (told.channels == 3).then_some(PRIOR)
+}

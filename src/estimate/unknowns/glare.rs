@@ -1,0 +1,22 @@
+//! A lens that spreads light over the picture.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Share of the picture's light that the lens spreads over all of it.
+pub static GLARE: Unknown = Unknown {
+    name: "glare",
+    about: "Share of the picture's light that the lens spreads over all of it",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=1.0,
+    scale: Scale::Positive { unit: 0.006 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.glare = value }),
+};
+
+/// Lenses spread 0 to 2 %.
+const PRIOR: Normal = Normal { mean: 0.5, sd: 1.2 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

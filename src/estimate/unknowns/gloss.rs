@@ -1,0 +1,22 @@
+//! What the surface of the sheet reflects before light enters it.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+pub static GLOSS: Unknown = Unknown {
+    name: "gloss",
+    about: "Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive { unit: 0.3 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.gloss = value }),
+};
+
+/// Matte papers and paints have up to a bare surface of it.
+const PRIOR: Normal = Normal { mean: 0.2, sd: 1.3 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

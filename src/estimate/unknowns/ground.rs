@@ -1,0 +1,22 @@
+//! Light from what lies below the sheet.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Reflectance of the ground at 550 nm.
+pub static GROUND: Unknown = Unknown {
+    name: "ground",
+    about: "Reflectance of the ground at 550 nm",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=1.0,
+    scale: Scale::Positive { unit: 0.15 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.ground = value }),
+};
+
+/// A table, grass, sand: 0.1 to 0.4.
+const PRIOR: Normal = Normal { mean: 0.8, sd: 0.8 };
+
+fn prior(told: &Told) -> Option<Normal> {
+    told.is_outdoors.then_some(PRIOR)
+}

@@ -1,0 +1,22 @@
+//! The colour of what lies below the sheet.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
+pub static GROUND_REDNESS: Unknown = Unknown {
+    name: "ground_redness",
+    about: "Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm",
+    unit: None,
+    flag: &AUTO,
+    range: -1.0..=2.0,
+    scale: Scale::Linear,
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.ground_redness = value }),
+};
+
+/// Earth and wood are brown: they reflect half as much again in the red.
+const PRIOR: Normal = Normal { mean: 0.4, sd: 0.3 };
+
+fn prior(told: &Told) -> Option<Normal> {
+    told.is_outdoors.then_some(PRIOR)
+}

@@ -1,0 +1,22 @@
+//! A lens that darkens the corners of the picture.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// Share of the light that the lens loses in the picture's corners.
+pub static VIGNETTING: Unknown = Unknown {
+    name: "vignetting",
+    about: "Share of the light that the lens loses in the picture's corners",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=1.0,
+    scale: Scale::Positive { unit: 0.1 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.vignetting = value }),
+};
+
+/// Lenses lose 0 to 30 %.
+const PRIOR: Normal = Normal { mean: 0.8, sd: 1.1 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

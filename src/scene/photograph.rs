@@ -1,0 +1,136 @@
+//! What the facets of a photograph are made of: the fold of the scene, the camera where the corners say it stood, and all that real sheets
+//! and light may add.
+
+mod bins;
+mod eye;
+mod framing;
+mod sheets;
+
+use bins::Bins;
+pub use framing::Pose;
+use nalgebra::Vector3;
+use ndarray::Array2;
+
+use super::FoldSetting;
+use crate::error::{Error, Result};
+use crate::estimate::photograph::model::nodes;
+use crate::estimate::photograph::parts::{Ambient, Change, Parts, Sunlit};
+use crate::estimate::photograph::Told;
+use crate::kernel::bent::{BentExchange, BentFold};
+use crate::response::ModeLight;
+use crate::stream::Sample;
+
+/// Nodes of albedo.
+const NODES: usize = 10;
+/// Sizes at which changes of the fold are known: more degrees between the panels, radii of the crease, degrees of bow.
+const ANGLES_DEG: [f64; 2] = [-2.0, 2.0];
+const CREASE_RADII: [f64; 2] = [0.012, 0.03];
+const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
+/// Sine of the height of a sun of which nothing is known: 42°.
+const SUN_HEIGHT: f64 = 0.67;
+/// What a sheet of which nothing is known reflects in its strongest channel.
+const REFLECTANCE: f64 = 0.5;
+
+/// The light of a fold on all of its facets, for what does not depend on the photograph.
+pub struct FoldLight<'a> {
+    setting: &'a FoldSetting<'a>,
+    nodes: Vec<f64>,
+}
+
+impl<'a> FoldLight<'a> {
+    /// That of a scene.
+    #[must_use]
+    pub fn of(setting: &'a FoldSetting<'a>) -> Self {
+        Self { setting, nodes: nodes(NODES) }
+    }
+
+    /// The parts of a photograph; none if where the camera stood is not known, or the scene is not one of two panels of a sheet alone.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if facets or corners do not fit the scene.
+    pub fn parts(&self, sample: &Sample, exposure: Option<f64>) -> Result<Option<Parts>> {
+        let (setting, fold) = (self.setting, self.setting.fold());
+        if setting.card()?.is_some() || !fold.is_symmetric() || setting.pictures()? != 1 {
+            return Ok(None);
+        }
+        let Some(pose) = Pose::of(sample, fold)? else { return Ok(None) };
+        let (light, facets) = (setting.light()?, fold.facets());
+        let (rgb, sd) = (sample.facet_rgb()?, sample.facet_sd()?);
+        if rgb.len() != 2 * facets.len() {
+            let problem = format!("{} facets for a scene of {}", rgb.len(), 2 * facets.len());
+            return Err(Error::field("facet_rgb", problem));
+        }
+        let bins = Bins::new(fold, &rgb, sd.as_ref(), &pose);
+        let Some(values) = bins.values() else { return Ok(None) };
+        let sun = Vector3::new(
+            light.tilt_deg().to_radians().sin() * light.slant_deg().to_radians().cos(),
+            light.slant_deg().to_radians().sin(),
+            light.tilt_deg().to_radians().cos() * light.slant_deg().to_radians().cos(),
+        );
+        let eye = eye::of(setting)?;
+        let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);
+        let mean = (0..values.nrows()).map(strongest).sum::<f64>() / values.nrows().max(1) as f64;
+        let on_panel = light.panel_irradiance().iter().sum::<f64>() / 2.0;
+        let up = pose.up(sun, SUN_HEIGHT);
+        let told = Told {
+            exposure,
+            exposure_guess: exposure.unwrap_or(mean / (REFLECTANCE * on_panel)),
+            by_chart: exposure.is_some() && sample.fields.has("calibration"),
+            channels: values.ncols(),
+            angle_deg: fold.angle_deg(),
+            tilt_deg: light.tilt_deg(),
+            daylight_mired: eye::daylight_mired(&eye),
+            has_sky_illuminant: setting.has_sky_illuminant()?,
+            is_outdoors: false,
+        };
+        let lit = self.sunlit(&bins, sun)?;
+        let [sky, ground] = [0, 1].map(|_| Ambient { radiance: 0.0 * &lit.even, open: 0.0 });
+        let sheets = sheets::of(fold, sun, pose.eye, &self.nodes, &bins, &lit.even)?;
+        Ok(Some(Parts {
+            told,
+            places: bins.places().to_vec(),
+            sd: bins.sd(),
+            values,
+            sun: lit,
+            sky,
+            ground,
+            sun_height: up.dot(&sun),
+            sheets,
+            eye,
+        }))
+    }
+
+    fn sunlit(&self, bins: &Bins, sun: Vector3<f64>) -> Result<Sunlit> {
+        let fold = self.setting.fold();
+        let [even, odd] = self.setting.light()?.even_and_odd(fold);
+        let angle_deg = fold.angle_deg();
+        let ideal = self.bent(BentFold::ideal(angle_deg), sun)?;
+        let change = |sizes: [f64; 2], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
+            let of = |size| Ok(bins.pool(&(self.bent(bend(size), sun)? - &ideal)));
+            Ok(Change { sizes, radiance: [of(sizes[0])?, of(sizes[1])?] })
+        };
+        let flat = BentFold::ideal(angle_deg);
+        Ok(Sunlit {
+            even: bins.pool(&self.exact(ModeLight::Sun([even, even]))?),
+            odd: bins.pool(&self.exact(ModeLight::Sun([odd, -odd]))?),
+            angle_deg: change(ANGLES_DEG, &|more| BentFold::ideal(angle_deg + more))?,
+            crease_radius: change(CREASE_RADII, &|crease_radius| BentFold { crease_radius, ..flat })?,
+            bow_deg: change(BOWS_DEG, &|bow| BentFold { bow_deg: [bow, bow], ..flat })?,
+            bow_difference_deg: change(BOWS_DEG, &|bow| BentFold { bow_deg: [bow, -bow], ..flat })?,
+        })
+    }
+
+    fn bent(&self, bent: BentFold, sun: Vector3<f64>) -> Result<Array2<f64>> {
+        BentExchange::new(&bent, self.setting.fold(), Vector3::z()).facet_radiance(sun, &self.nodes)
+    }
+
+    /// Radiance of the ideal fold: facet by node.
+    fn exact(&self, light: ModeLight) -> Result<Array2<f64>> {
+        let response = self.setting.response()?;
+        let facets = response.facets();
+        Ok(Array2::from_shape_fn((2 * facets, self.nodes.len()), |(facet, node)| {
+            let albedo = self.nodes[node];
+            albedo * response.irradiance(facet / facets, facet % facets, light, [albedo, albedo])
+        }))
+    }
+}

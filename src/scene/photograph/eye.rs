@@ -1,0 +1,74 @@
+//! How the camera of a scene sees light of any spectrum, and how its curves may be off.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::Result;
+use crate::estimate::photograph::parts::Eye;
+use crate::scene::FoldSetting;
+use crate::spectrum::{Outside, daylight_vectors, daylight_weights};
+
+/// Two laboratories that measure the same model of a camera differ by that share of the highest point of a curve, and over that many
+/// nanometres alike.
+const CURVE_SD: f64 = 0.02;
+const CURVE_STEP_NM: f64 = 40.0;
+/// Share of the error that does not fall with the sensitivity.
+const CURVE_FLOOR: f64 = 0.03;
+/// A light is daylight if that is all that daylight of its temperature is off, relative to its mean.
+const DAYLIGHT: f64 = 0.03;
+
+/// The camera of a scene.
+pub fn of(setting: &FoldSetting) -> Result<Eye> {
+    let scene = setting.scene();
+    let (grid, camera) = (scene.grid()?, scene.camera()?);
+    let wavelengths_nm = grid.wavelengths_nm().to_vec();
+    let bands = wavelengths_nm.len();
+    let widths = grid.trapezoid_weights_nm();
+    let sensitivities = DMatrix::from_fn(camera.sensitivities.len(), bands, |channel, band| {
+        camera.sensitivities[channel][band] * widths[band]
+    });
+    let sun = DVector::from_column_slice(&scene.illuminants()?[0].power);
+    let sky = scene.sky_illuminant()?.map_or_else(|| sun.clone(), |sky| DVector::from_vec(sky.power));
+    let vectors = daylight_vectors()?.map(|vector| vector.on(&grid, Outside::Refuse));
+    let [s0, s1, s2] = vectors;
+    let daylight = DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec));
+    let white = &sensitivities * &sun;
+    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths);
+    Ok(Eye { wavelengths_nm, sensitivities, errors, sun, sky, daylight, reference: white.imax() })
+}
+
+/// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow filter, and is right.
+fn errors(sensitivities: &[Vec<f64>], wavelengths_nm: &[f64], widths: &[f64]) -> Vec<(usize, DVector<f64>)> {
+    let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
+    let count = ((last - first) / CURVE_STEP_NM).round().max(1.0) as usize;
+    let mut all = Vec::new();
+    for (channel, curve) in sensitivities.iter().enumerate() {
+        let most = curve.iter().copied().fold(0.0, f64::max);
+        if curve.iter().filter(|value| **value > 1e-3 * most).count() < 10 {
+            continue;
+        }
+        for bump in 0..=count {
+            let middle = first + (last - first) * bump as f64 / count as f64;
+            let of = |band: usize| {
+                let off = (wavelengths_nm[band] - middle) / CURVE_STEP_NM;
+                let envelope = (curve[band] / most + CURVE_FLOOR).sqrt().min(1.0);
+                CURVE_SD * most * envelope * (-0.5 * off * off).exp() * widths[band]
+            };
+            all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
+        }
+    }
+    all
+}
+
+/// Reciprocal colour temperature of the sun as it was said to be, 1e-6/K, if it is daylight.
+pub fn daylight_mired(eye: &Eye) -> Option<f64> {
+    let sun = &eye.sun / eye.sun.mean();
+    let off = |mired: f64| {
+        let [m1, m2] = daylight_weights(1e6 / mired);
+        let daylight = &eye.daylight * DVector::from_column_slice(&[1.0, m1, m2]);
+        let daylight = &daylight / daylight.mean();
+        ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
+    };
+    // 4500 K to 8000 K: what people call daylight, in steps of 1e-6/K
+    let best = (125..=222).map(f64::from).map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 < DAYLIGHT).then_some(best.1)
+}
