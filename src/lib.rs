@@ -60,8 +60,10 @@ pub mod progress;
 pub mod report;
 pub mod response;
 pub mod score;
+pub mod sheet;
 pub mod solve;
 pub mod spectrum;
 pub mod stream;
+pub mod transport;
 
 pub use error::{Error, Result};
