@@ -1,0 +1,94 @@
+//! Reflection of sheets by a few numbers: a rough or fuzzy body under a rough surface.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use super::Angles;
+
+/// Refractive index of the surface.
+const INDEX: f64 = 1.5;
+/// Mean Fresnel reflectance of an index of 1.5 over cosine-weighted directions: Walsh's formula.
+const FRESNEL_MEAN: f64 = 0.091_777_961_370_270_7;
+/// How steeply fuzz rises towards grazing angles.
+const FUZZ_POWER: i32 = 3;
+
+/// A body, colour of its own, under a colourless surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Family {
+    /// Standard deviation of the body's slopes, degrees (Oren and Nayar); 0: Lambertian.
+    pub body_roughness_deg: f64,
+    /// Share of the reflection that a closed surface of index 1.5 would have, [0, 1] and a little more.
+    pub gloss: f64,
+    /// Roughness of that surface, (0, 1]: the parameter of the GGX distribution.
+    pub roughness: f64,
+    /// How much brighter the body is where the light grazes it, or the eye: fibres that stand up, as those of felt.
+    pub fuzz: f64,
+}
+
+/// What evaluating a [`Family`] needs, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    family: Family,
+    /// The two numbers of Oren and Nayar's qualitative model.
+    even: f64,
+    towards_light: f64,
+}
+
+impl Terms {
+    pub(super) fn new(family: Family) -> Self {
+        let variance = family.body_roughness_deg.to_radians().powi(2);
+        Self {
+            family,
+            even: 1.0 - 0.5 * variance / (variance + 0.33),
+            towards_light: 0.45 * variance / (variance + 0.09),
+        }
+    }
+
+    /// Body and surface, 1/sr, neither normalised.
+    ///
+    /// # Source
+    /// M. Oren, S. Nayar, SIGGRAPH 1994, eq. (30); B. Walter et al., EGSR 2007, for GGX and its shadowing.
+    pub(super) fn at(&self, angles: &Angles) -> [f64; 2] {
+        let Angles { cos_in, cos_out, cos_between, .. } = *angles;
+        let Family { gloss, fuzz, .. } = self.family;
+        let towards = angles.along_sheet().max(0.0) / cos_in.max(cos_out);
+        let mut body = FRAC_1_PI * (self.even + self.towards_light * towards);
+        if fuzz != 0.0 {
+            body *= 1.0 + fuzz * ((1.0 - cos_in).powi(FUZZ_POWER) + (1.0 - cos_out).powi(FUZZ_POWER));
+        }
+        if gloss == 0.0 {
+            return [body, 0.0];
+        }
+        let passes = |cos: f64| 1.0 - gloss * fresnel(cos);
+        body *= passes(cos_in) * passes(cos_out) / (1.0 - gloss * FRESNEL_MEAN);
+        let square = self.family.roughness * self.family.roughness;
+        // of the half vector: to the normal and to either direction
+        let cos_half = 0.5_f64.sqrt() * (cos_in + cos_out) / (1.0 + cos_between).max(1e-12).sqrt();
+        let cos_apart = (0.5 * (1.0 + cos_between)).sqrt();
+        let slopes = square / (PI * (cos_half * cos_half * (square - 1.0) + 1.0).powi(2));
+        // 2 cos / (1 + Λ) of Smith's shadowing: the cosines cancel those of the reflection's 4 cos cos
+        let shadow = |cos: f64| 1.0 / (cos + (square + (1.0 - square) * cos * cos).sqrt());
+        [body, gloss * slopes * fresnel(cos_apart) * shadow(cos_in) * shadow(cos_out)]
+    }
+}
+
+/// Reflectance of a smooth surface of index 1.5 in unpolarised light.
+fn fresnel(cos: f64) -> f64 {
+    let g = (INDEX * INDEX - 1.0 + cos * cos).sqrt();
+    let (minus, plus) = (g - cos, g + cos);
+    let ratio = minus / plus;
+    let other = (cos * plus - 1.0) / (cos * minus + 1.0);
+    0.5 * ratio * ratio * (1.0 + other * other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::quadrature::Rule;
+
+    #[test]
+    fn a_smooth_surface_reflects_what_walsh_says() {
+        let mean: f64 = Rule::gauss_legendre(60).on(0.0, 1.0).map(|(c, w)| w * 2.0 * c * fresnel(c)).sum();
+        assert!((mean - FRESNEL_MEAN).abs() < 1e-9, "{mean}");
+        assert!((fresnel(1.0) - 0.04).abs() < 1e-15);
+    }
+}

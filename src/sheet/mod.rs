@@ -1,0 +1,206 @@
+//! How a sheet reflects: a coloured body and a colourless surface, both with a shape of their own over the directions.
+//!
+//! `f(a) = (a − s)/b · B + S`, 1/sr: `a` the sheet's albedo in a waveband, that is its reflectance averaged over cosine-weighted
+//! directions of incidence and exit; `B` the body, normalised to `π·B = 1` for light from 45 degrees seen from above; `S` the surface, 0 there; `b` and
+//! `s` their own albedos. What a spectrophotometer of that geometry says is then `ρ = (a − s)/b`.
+
+mod angles;
+mod family;
+mod table;
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use crate::kernel::quadrature::Rule;
+
+pub use angles::Angles;
+pub use family::Family;
+use family::Terms;
+use table::Table;
+pub use table::{measured, measured_names};
+
+/// Nodes of the cosines and of the azimuth over which albedos are integrated.
+const COSINES: usize = 20;
+const AZIMUTHS: usize = 16;
+
+/// The shape of a sheet's reflection over the directions, whatever its colour.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    parts: Parts,
+    /// Body and surface at 45:0 before they are normalised, times π.
+    instrument: [f64; 2],
+    /// Albedos of the normalised body and surface.
+    albedos: [f64; 2],
+}
+
+/// Where body and surface come from.
+#[derive(Clone, Debug)]
+enum Parts {
+    Family(Terms),
+    Table(Table),
+}
+
+impl From<Family> for Shape {
+    fn from(family: Family) -> Self {
+        Self::of(Parts::Family(Terms::new(family)))
+    }
+}
+
+impl Shape {
+    /// That of a perfectly matt sheet.
+    #[must_use]
+    pub fn lambertian() -> Self {
+        Self {
+            parts: Parts::Family(Terms::new(Family::default())),
+            instrument: [1.0, 0.0],
+            albedos: [1.0, 0.0],
+        }
+    }
+
+    fn of(parts: Parts) -> Self {
+        let instrument = parts.at(&Angles::instrument()).map(|value| PI * value);
+        let mut shape = Self { parts, instrument, albedos: [1.0, 0.0] };
+        shape.albedos = bihemispherical(|angles| shape.at(angles));
+        shape
+    }
+
+    /// Body and surface, 1/sr: `π·B` is 1 and `S` is 0 for light from 45 degrees seen from above.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::sheet::{Angles, Family, Shape};
+    /// let shape = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+    /// let [body, surface] = shape.at(&Angles::instrument());
+    /// assert!((std::f64::consts::PI * body - 1.0).abs() < 1e-12 && surface.abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn at(&self, angles: &Angles) -> [f64; 2] {
+        let [body, surface] = self.parts.at(angles);
+        let body = body / self.instrument[0];
+        [body, surface - self.instrument[1] * body]
+    }
+
+    /// What the body counts for in a sheet of this albedo, which is also its 45:0 reflectance.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::sheet::{Family, Shape};
+    /// assert!((Shape::from(Family::default()).reflectance_45_0(0.3) - 0.3).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn reflectance_45_0(&self, albedo: f64) -> f64 {
+        let [slope, offset] = self.slope_and_offset();
+        slope * albedo + offset
+    }
+
+    /// Slope and offset of the 45:0 reflectance as a function of the albedo.
+    #[must_use]
+    pub fn slope_and_offset(&self) -> [f64; 2] {
+        let [body, surface] = self.albedos;
+        [1.0 / body, -surface / body]
+    }
+
+    /// The reflection of a sheet of this albedo, 1/sr.
+    #[must_use]
+    pub fn brdf(&self, albedo: f64, angles: &Angles) -> f64 {
+        let [body, surface] = self.at(angles);
+        self.reflectance_45_0(albedo) * body + surface
+    }
+}
+
+impl Parts {
+    fn at(&self, angles: &Angles) -> [f64; 2] {
+        match self {
+            Self::Family(terms) => terms.at(angles),
+            Self::Table(table) => table.at(angles),
+        }
+    }
+}
+
+/// Albedos of two reflections: averages over cosine-weighted incidence and exit.
+fn bihemispherical(reflections: impl Fn(&Angles) -> [f64; 2]) -> [f64; 2] {
+    let rule = Rule::gauss_legendre(COSINES);
+    // in the square of the cosine the weight is even
+    let cosines: Vec<(f64, f64)> =
+        rule.on(0.0, 1.0).map(|(square, weight)| (square.sqrt(), weight)).collect();
+    let azimuths: Vec<f64> = (0..AZIMUTHS).map(|k| PI * (k as f64 + 0.5) / AZIMUTHS as f64).collect();
+    let direction = |cos: f64, azimuth: f64| {
+        let sin = (1.0 - cos * cos).sqrt();
+        Vector3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos)
+    };
+    let mut sums = [0.0; 2];
+    for (n, &(cos_in, weight_in)) in cosines.iter().enumerate() {
+        let from = direction(cos_in, 0.0);
+        // reciprocity: half of the pairs are enough
+        for (m, &(cos_out, weight_out)) in cosines[..=n].iter().enumerate() {
+            let pairs = if m == n { 1.0 } else { 2.0 };
+            let weight = pairs * weight_in * weight_out * PI / AZIMUTHS as f64;
+            for azimuth in &azimuths {
+                let values = reflections(&Angles::new(&from, &direction(cos_out, *azimuth)));
+                sums[0] += weight * values[0];
+                sums[1] += weight * values[1];
+            }
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn families() -> Vec<Family> {
+        let mut families = vec![Family::default(), Family { fuzz: 0.5, ..Family::default() }];
+        for body_roughness_deg in [0.0, 15.0, 30.0] {
+            for (gloss, roughness) in [(0.3, 0.3), (0.5, 0.4), (1.0, 0.6)] {
+                families.push(Family { body_roughness_deg, gloss, roughness, fuzz: 0.0 });
+            }
+        }
+        families
+    }
+
+    #[test]
+    fn light_goes_both_ways_alike() {
+        let directions = [[0.3, 0.1, 0.9], [-0.8, 0.3, 0.4], [0.1, -0.95, 0.1], [0.0, 0.0, 1.0]];
+        let directions = directions.map(|d| Vector3::from(d).normalize());
+        for shape in families().into_iter().map(Shape::from).chain(measured().unwrap().iter().cloned()) {
+            for (from, to) in directions.iter().flat_map(|a| directions.iter().map(move |b| (a, b))) {
+                let [there, back] =
+                    [shape.at(&Angles::new(from, to)), shape.at(&Angles::new(to, from))].map(|v| v[0] + v[1]);
+                assert!((there - back).abs() < 1e-9 * (1.0 + there.abs()), "{there} {back}");
+            }
+        }
+    }
+
+    /// Under light from everywhere a white sheet of albedo 1 sends out no more than it gets, within what is lost to rough slopes.
+    #[test]
+    fn albedos_are_what_is_asked_for() {
+        for family in families() {
+            let shape = Shape::from(family);
+            for albedo in [0.1, 0.5, 0.9] {
+                let fine = 48;
+                let rule = Rule::gauss_legendre(fine);
+                let mut sum = 0.0;
+                for (square_in, weight_in) in rule.on(0.0, 1.0) {
+                    let mut lit = 0.0;
+                    let from = Vector3::new((1.0 - square_in).sqrt(), 0.0, square_in.sqrt());
+                    for (square, weight) in rule.on(0.0, 1.0) {
+                        for k in 0..fine {
+                            let (y, x) = (PI * (k as f64 + 0.5) / fine as f64).sin_cos();
+                            let sin = (1.0 - square).sqrt();
+                            let to = Vector3::new(sin * x, sin * y, square.sqrt());
+                            lit += weight * PI / fine as f64 * shape.brdf(albedo, &Angles::new(&from, &to));
+                        }
+                    }
+                    sum += weight_in * lit;
+                    assert!(
+                        lit > 0.0 && (lit < 1.0 || family.fuzz > 0.0),
+                        "{family:?} {albedo} {square_in}: {lit}"
+                    );
+                }
+                assert!((sum - albedo).abs() < 2e-3, "{family:?}: {sum} for {albedo}");
+            }
+        }
+    }
+}

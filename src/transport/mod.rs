@@ -1,0 +1,71 @@
+//! What a sheet that is not Lambertian sends to the eye more than a Lambertian one of the same albedo, all over a fold.
+//!
+//! Eq. (4) with a reflection that depends on the directions: light that leaves one panel is followed towards each place of the other. What is
+//! reflected once is exact, and what is reflected twice is integrated over the directions at each [point](points); only what is reflected
+//! more often goes through flat [patches]. Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
+
+mod frame;
+pub mod patches;
+pub mod points;
+mod pooling;
+
+use nalgebra::{Point3, Vector3};
+use ndarray::{Array2, Array3, Axis};
+use rayon::prelude::*;
+
+use crate::geometry::Fold;
+use crate::sheet::Shape;
+use frame::Frame;
+use patches::Patches;
+use points::Points;
+
+/// Radiance of every facet towards the eye beyond that of a Lambertian sheet of the same albedo: shapes by facets by albedos.
+///
+/// # Arguments
+/// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: where the camera stands, in the fold's unit.
+/// - `shapes`: of the sheet's reflection; `albedos`: for which the radiance is computed.
+///
+/// # Returns
+/// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has radiance 1.
+///
+/// # Source
+/// `real-sheets` prototypes of directed radiances; Deeb et al., eq. (4), without its Lambertian assumption.
+///
+/// # Example
+/// ```
+/// use nalgebra::{Point3, Vector3};
+/// use vfold::geometry::{FacetGrid, Fold};
+/// use vfold::sheet::{Family, Shape};
+/// use vfold::transport::departures;
+/// let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
+/// let matt = Shape::from(Family::default());
+/// let glossy = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+/// let beyond = departures(&fold, &Vector3::z(), &Point3::new(1.0, 1.1, 8.4), &[matt, glossy], &[0.1, 0.6]);
+/// assert!(beyond.slice(ndarray::s![0, .., ..]).iter().all(|value| value.abs() < 1e-12));
+/// assert!(beyond[[1, 5, 0]] > 0.01); // a dark sheet shows its gloss
+/// # Ok::<(), vfold::Error>(())
+/// ```
+#[must_use]
+pub fn departures(
+    fold: &Fold,
+    sun: &Vector3<f64>,
+    eye: &Point3<f64>,
+    shapes: &[Shape],
+    albedos: &[f64],
+) -> Array3<f64> {
+    let frames = [0, 1].map(|panel| Frame::new(fold, panel, sun, eye));
+    let points = Points::new(fold, &frames);
+    let patches = (!fold.is_flat()).then(|| Patches::new(fold, &frames));
+    let lambertian = patches.as_ref().map(|patches| patches.radiances(&Shape::lambertian(), albedos));
+    let departure = |shape: &Shape| {
+        let mut beyond = points.departures(shape, albedos);
+        if let (Some(patches), Some(lambertian)) = (&patches, &lambertian) {
+            beyond += &patches.pooled(&(patches.radiances(shape, albedos) - lambertian));
+        }
+        beyond
+    };
+    let each: Vec<Array2<f64>> = shapes.par_iter().map(departure).collect();
+    let mut all = Array3::zeros((shapes.len(), 2 * fold.facets().len(), albedos.len()));
+    all.axis_iter_mut(Axis(0)).zip(&each).for_each(|(mut all, one)| all.assign(one));
+    all
+}

@@ -1,0 +1,223 @@
+//! Light that is reflected three times and more, between flat patches.
+//!
+//! `L(i → k)`, what patch i of one panel sends to patch k of the other, obeys
+//! `L(i → k) = f(sun, i → k) E + Σⱼ f(j → i → k) π F(i, j) L(j → i)`, F the form factors. Patches repeat along the crease: what lies between two directions
+//! depends on the row and on the columns' differences.
+
+use std::f64::consts::PI;
+
+use ndarray::Array2;
+
+use super::frame::Frame;
+use super::pooling::Pooling;
+use crate::geometry::Fold;
+use crate::kernel::exact::Wedge;
+use crate::sheet::{Angles, Shape};
+
+/// Where rows of patches begin and end, as shares of the panel's depth.
+const EDGES: [f64; 7] = [0.0, 0.06, 0.15, 0.3, 0.5, 0.75, 1.0];
+const ROWS: usize = EDGES.len() - 1;
+/// Patches along the crease.
+const COLS: usize = 5;
+const COUNT: usize = ROWS * COLS;
+/// Differences of columns.
+const SHIFTS: usize = 2 * COLS - 1;
+/// Directions from a row of patches to the other panel's patches, repeated along the crease.
+const DIRECTIONS: usize = ROWS * SHIFTS;
+/// Most reflections that are followed one by one.
+const REFLECTIONS: usize = 40;
+/// Light that is let go, relative to what the sun sends.
+const NEGLIGIBLE: f64 = 2e-5;
+
+/// The patches of both panels, with all directions between them.
+pub struct Patches {
+    panels: [Panel; 2],
+    /// Angles between the directions of each row of patches, each pair once.
+    between: Vec<Vec<Angles>>,
+    /// The same of panel 1 where it is another.
+    between_1: Option<Vec<Vec<Angles>>>,
+    pooling: Pooling,
+}
+
+/// The patches of one panel.
+struct Panel {
+    /// Irradiance from the sun.
+    lit: f64,
+    /// π times the form factor from each patch to each of the other panel.
+    factors: Vec<f64>,
+    /// From the sun, towards each patch of the other panel: row by row of directions.
+    from_sun: Vec<Angles>,
+    /// From each patch of the other panel, towards the eye: patch by patch.
+    to_eye: Vec<Angles>,
+}
+
+/// A shape's body and surface at a list of angles.
+type Parts = Vec<[f64; 2]>;
+
+impl Patches {
+    /// Those of `fold`, in the light of a sun and before an eye that the frames know.
+    pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
+        let middles: Vec<f64> = EDGES.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+        let columns: Vec<f64> = (0..COLS).map(|col| (col as f64 + 0.5) / COLS as f64).collect();
+        let wedge = Wedge::new(fold);
+        Self {
+            panels: frames.each_ref().map(|frame| Panel::new(frame, &wedge, &middles)),
+            between: pairs(&frames[0], &middles),
+            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1], &middles)),
+            pooling: Pooling::straight(fold, &middles, &columns),
+        }
+    }
+
+    /// What the eye sees of light that was reflected three times or more: patches of both panels by albedos.
+    #[must_use]
+    pub fn radiances(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
+        let at = |angles: &[Angles]| angles.iter().map(|angles| shape.at(angles)).collect::<Parts>();
+        let sun = self.panels.each_ref().map(|panel| at(&panel.from_sun));
+        let eye = self.panels.each_ref().map(|panel| at(&panel.to_eye));
+        let between = expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
+        let between_1 =
+            self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
+        let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
+        for (n, &albedo) in albedos.iter().enumerate() {
+            let r = shape.reflectance_45_0(albedo);
+            let mixed = |parts: &[[f64; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f64>>();
+            let matrix = mixed(&between);
+            let matrix_1 = between_1.as_ref().map(|between| mixed(between));
+            let matrices = [&matrix, matrix_1.as_ref().unwrap_or(&matrix)];
+            let sent = self.sent([0, 1].map(|p| self.panels[p].direct(&mixed(&sun[p]))), matrices);
+            for p in 0..2 {
+                let (panel, eye) = (&self.panels[p], mixed(&eye[p]));
+                for i in 0..COUNT {
+                    let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
+                    radiances[[p * COUNT + i, n]] =
+                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| light * eye).sum();
+                }
+            }
+        }
+        radiances
+    }
+
+    /// Means over the facets.
+    #[must_use]
+    pub fn pooled(&self, radiances: &Array2<f64>) -> Array2<f64> {
+        self.pooling.pool(radiances)
+    }
+
+    /// Light sent by each patch of either panel to each of the other after two reflections and more.
+    fn sent(&self, direct: [Vec<f64>; 2], matrices: [&Vec<f64>; 2]) -> [Vec<f64>; 2] {
+        let total = |light: &[Vec<f64>; 2]| light.iter().flatten().map(|value| value.abs()).sum::<f64>();
+        let first = total(&direct);
+        let (mut light, mut before, mut ratio) = (direct, first, 0.0);
+        let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
+        for _ in 1..REFLECTIONS {
+            light = [0, 1].map(|p| self.panels[p].reflected(&light[1 - p], matrices[p]));
+            let now = total(&light);
+            add(&mut sent, &light, 1.0);
+            let last = std::mem::replace(&mut ratio, now / before.max(f64::MIN_POSITIVE));
+            before = now;
+            let tail = ratio.min(0.999) / (1.0 - ratio.min(0.999));
+            // the rest falls in proportion, by now
+            if now * tail < NEGLIGIBLE * first
+                || (ratio - last).abs() * now * tail * tail < NEGLIGIBLE * first
+            {
+                break;
+            }
+        }
+        let ratio = ratio.min(0.999);
+        add(&mut sent, &light, ratio / (1.0 - ratio));
+        sent
+    }
+}
+
+fn add(sums: &mut [Vec<f64>; 2], light: &[Vec<f64>; 2], weight: f64) {
+    for (sum, value) in sums.iter_mut().flatten().zip(light.iter().flatten()) {
+        *sum += weight * value;
+    }
+}
+
+impl Panel {
+    fn new(frame: &Frame, wedge: &Wedge, middles: &[f64]) -> Self {
+        // the kernel wants lengths in widths of a patch
+        let unit = frame.width / COLS as f64;
+        let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
+        let (mut factors, mut shifts) = (vec![0.0; COUNT * COUNT], [0.0; COLS]);
+        let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
+        for i in 0..ROWS {
+            from_sun.extend(directions(frame, middles, i).iter().map(|to| Angles::new(&frame.sun, to)));
+            let here = row(frame.depth, i);
+            for j in 0..ROWS {
+                wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
+                for (col, other) in (0..COLS).flat_map(|col| (0..COLS).map(move |other| (col, other))) {
+                    factors[(i * COLS + col) * COUNT + j * COLS + other] =
+                        PI * shifts[col.abs_diff(other)] / (here.end - here.start);
+                }
+            }
+        }
+        let place = |depth: f64, n: usize| {
+            let along = ((n % COLS) as f64 + 0.5) / COLS as f64 - 0.5;
+            [middles[n / COLS] * depth, along * frame.width]
+        };
+        for i in 0..COUNT {
+            let from = place(frame.depth, i);
+            let eye = frame.to_eye(from);
+            let others = (0..COUNT).map(|j| frame.to_other(from, place(frame.other_depth, j)));
+            to_eye.extend(others.map(|light| Angles::new(&light, &eye)));
+        }
+        Self { lit: frame.lit(), factors, from_sun, to_eye }
+    }
+
+    /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
+    fn direct(&self, from_sun: &[f64]) -> Vec<f64> {
+        let patches = (0..COUNT).flat_map(|i| (0..COUNT).map(move |k| (i, k)));
+        patches.map(|(i, k)| PI * self.lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
+    }
+
+    /// What this panel's patches send on of the light that the other's sent.
+    fn reflected(&self, light: &[f64], matrix: &[f64]) -> Vec<f64> {
+        let mut reflected = vec![0.0; COUNT * COUNT];
+        for (i, to) in reflected.chunks_exact_mut(COUNT).enumerate() {
+            let rows = matrix[i * COUNT * COUNT..].chunks_exact(COUNT);
+            for (j, row) in rows.take(COUNT).enumerate() {
+                let arriving = self.factors[i * COUNT + j] * light[j * COUNT + i];
+                to.iter_mut().zip(row).for_each(|(to, f)| *to += arriving * f);
+            }
+        }
+        reflected
+    }
+}
+
+/// Which direction of its row leads from patch `i` to patch `k` of the other panel.
+fn direction(i: usize, k: usize) -> usize {
+    k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
+}
+
+/// Directions from the patches of a row to those of the other panel.
+fn directions(frame: &Frame, middles: &[f64], row: usize) -> Vec<nalgebra::Vector3<f64>> {
+    let shift = |n: usize| (n as f64 + 1.0 - COLS as f64) / COLS as f64 * frame.width;
+    let ends = middles.iter().flat_map(|out| (0..SHIFTS).map(move |n| [out * frame.other_depth, shift(n)]));
+    ends.map(|end| frame.to_other([middles[row] * frame.depth, 0.0], end)).collect()
+}
+
+/// Angles between all directions of each row of patches, each pair once.
+fn pairs(frame: &Frame, middles: &[f64]) -> Vec<Vec<Angles>> {
+    let row = |row: usize| {
+        let to = directions(frame, middles, row);
+        let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
+    };
+    (0..ROWS).map(row).collect()
+}
+
+/// For each patch a matrix: from each patch of the other panel towards each.
+fn expand(rows: &[Parts]) -> Parts {
+    let mut all = Vec::with_capacity(COUNT * COUNT * COUNT);
+    for (i, j) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j))) {
+        let from = direction(i, j);
+        all.extend((0..COUNT).map(|k| {
+            let to = direction(i, k);
+            let (high, low) = (from.max(to), from.min(to));
+            rows[i / COLS][high * (high + 1) / 2 + low]
+        }));
+    }
+    all
+}

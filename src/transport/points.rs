@@ -1,0 +1,136 @@
+//! Light that is reflected once or twice, at points of both panels.
+//!
+//! Seen from a point, the direction `(ψ, t)`, ψ in the plane across the crease from the perpendicular to the other panel and t
+//! towards the crease's end, has `dω = cos t dψ dt` and `cosθ = cos t cos(ψ − θ)`. The sun is far: what comes from there depends on the
+//! direction alone, so that Gauss rules in ψ and t converge fast wherever the point is, at the crease too.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use nalgebra::Vector3;
+use ndarray::Array2;
+
+use super::frame::Frame;
+use super::pooling::Pooling;
+use crate::geometry::Fold;
+use crate::kernel::quadrature::Rule;
+use crate::sheet::{Angles, Shape};
+
+/// Points of a panel away from the crease and along it.
+const OUT: usize = 8;
+const ALONG: usize = 6;
+/// Directions at each point: across the crease and along it.
+const ACROSS: usize = 10;
+const SIDEWAYS: usize = 8;
+
+/// The points of both panels, with all directions of light to the eye by one or two reflections.
+pub struct Points {
+    points: Vec<Sight>,
+    pooling: Pooling,
+}
+
+/// What the eye sees of one point.
+struct Sight {
+    /// Irradiance of its panel and of the other.
+    lit: [f64; 2],
+    from_sun: Angles,
+    ways: Vec<Way>,
+}
+
+/// A way of light by two reflections.
+struct Way {
+    at_other: Angles,
+    at_point: Angles,
+    /// Cosine of incidence times solid angle.
+    weight: f64,
+}
+
+impl Points {
+    /// Those of `fold`, in the light of a sun and before an eye that the frames know.
+    pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
+        let shares =
+            |order: usize| Rule::gauss_legendre(order).on(0.0, 1.0).map(|(x, _)| x).collect::<Vec<_>>();
+        let (out, along) = (shares(OUT), shares(ALONG));
+        let rules = [ACROSS, SIDEWAYS].map(Rule::gauss_legendre);
+        let mut points = Vec::with_capacity(2 * OUT * ALONG);
+        for (here, other) in [(&frames[0], &frames[1]), (&frames[1], &frames[0])] {
+            for out in &out {
+                for along in &along {
+                    let place = [out * here.depth, (along - 0.5) * here.width];
+                    points.push(Sight::new(here, other, place, &rules, fold.is_flat()));
+                }
+            }
+        }
+        Self { points, pooling: Pooling::smooth(fold, &out, &along) }
+    }
+
+    /// Facet means of what a sheet of this shape sends to the eye beyond a Lambertian one: facets by albedos.
+    #[must_use]
+    pub fn departures(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
+        let mut values = Array2::zeros((self.points.len(), albedos.len()));
+        for (mut row, sight) in values.outer_iter_mut().zip(&self.points) {
+            let once = shape.at(&sight.from_sun);
+            let twice = sight.twice(shape);
+            for (value, &albedo) in row.iter_mut().zip(albedos) {
+                let (r, lambertian) = (shape.reflectance_45_0(albedo), albedo * FRAC_1_PI);
+                let once = r * once[0] + once[1] - lambertian;
+                let twice = r * (r * twice[0] + twice[1]) + twice[2] - lambertian * lambertian * twice[3];
+                *value = PI * (sight.lit[0] * once + sight.lit[1] * twice);
+            }
+        }
+        self.pooling.pool(&values)
+    }
+}
+
+impl Sight {
+    fn new(here: &Frame, other: &Frame, place: [f64; 2], rules: &[Rule; 2], flat: bool) -> Self {
+        let to_eye = here.to_eye(place);
+        let from_sun = Angles::new(&here.sun, &to_eye);
+        let ways = if flat { Vec::new() } else { ways(here, &other.sun, place, &to_eye, rules) };
+        Self { lit: [here.lit(), other.lit()], from_sun, ways }
+    }
+
+    /// Twice reflected per unit of π times the other panel's irradiance: by body and body, once by each, by surface and surface; and by
+    /// two reflections of 1/sr.
+    fn twice(&self, shape: &Shape) -> [f64; 4] {
+        let mut sums = [0.0; 4];
+        for Way { at_other, at_point, weight } in &self.ways {
+            let ([body, surface], [next_body, next_surface]) = (shape.at(at_other), shape.at(at_point));
+            sums[0] += weight * body * next_body;
+            sums[1] += weight * (body * next_surface + surface * next_body);
+            sums[2] += weight * surface * next_surface;
+            sums[3] += weight;
+        }
+        sums
+    }
+}
+
+/// The directions from which light of the other panel reaches a point.
+fn ways(
+    here: &Frame,
+    other_sun: &Vector3<f64>,
+    [out, along]: [f64; 2],
+    to_eye: &Vector3<f64>,
+    [across, sideways]: &[Rule; 2],
+) -> Vec<Way> {
+    let Frame { sin, cos, .. } = *here;
+    let opening = sin.atan2(cos);
+    // from the crease to the other panel's edge
+    let edge = ((here.other_depth / out - cos) / sin).atan();
+    let mut ways = Vec::with_capacity(ACROSS * SIDEWAYS);
+    for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
+        let away = out * sin / psi.cos();
+        let [low, high] = [-0.5, 0.5].map(|end| ((end * here.width - along) / away).atan());
+        for (t, weight) in sideways.on(low, high) {
+            let (side, flat) = t.sin_cos();
+            let (slope, cosine) = (psi - opening).sin_cos();
+            let from = Vector3::new(flat * slope, side, flat * cosine);
+            let back = Vector3::new(-flat * psi.sin(), -side, flat * psi.cos());
+            ways.push(Way {
+                at_other: Angles::new(other_sun, &back),
+                at_point: Angles::new(&from, to_eye),
+                weight: weight_across * weight * flat * flat * cosine,
+            });
+        }
+    }
+    ways
+}
