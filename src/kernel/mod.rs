@@ -4,6 +4,7 @@
 //! own file ([`method`] names them, [`exact`] is right to rounding) and checked by [`check`]; [`continuum`] holds the exchange
 //! between surfaces that are not divided at all, eqs. (1) to (4), which [`refinement`] resolves as finely as asked for.
 
+pub mod bent;
 pub mod check;
 pub mod continuum;
 pub mod dense;
