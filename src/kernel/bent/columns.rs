@@ -13,11 +13,14 @@ pub struct Columns {
     edges: Vec<Vec<(usize, f64)>>,
     /// Columns of one half, the middle one included.
     half: usize,
+    /// What a column's mirror image shines relative to it.
+    image: f64,
 }
 
 impl Columns {
-    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`.
-    pub fn seen_from(places: &[f64], count: usize, width: f64) -> Self {
+    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`, in light whose mirror image about the middle is `image`
+    /// times itself.
+    pub fn seen_from(places: &[f64], count: usize, width: f64, image: f64) -> Self {
         let mut distances: Vec<f64> = Vec::new();
         let mut number = |offset: f64| {
             let known = distances.iter().position(|distance| (distance - offset.abs()).abs() < SAME * width);
@@ -32,7 +35,7 @@ impl Columns {
         for place in places {
             edges.push((0..=count).map(|n| number(edge(n) - place)).collect());
         }
-        Self { distances, edges, half: count.div_ceil(2) }
+        Self { distances, edges, half: count.div_ceil(2), image }
     }
 
     /// Adds `weight` times the shares of each place's light that land on the columns of `strip`, place by column of one half.
@@ -42,7 +45,7 @@ impl Columns {
             let last = edges.len() - 2;
             for (n, pair) in edges.windows(2).enumerate() {
                 let [from, to] = [pair[0], pair[1]].map(|(number, side)| side * up_to[number]);
-                shares[n.min(last - n)] += to - from;
+                shares[n.min(last - n)] += if n <= last - n { to - from } else { self.image * (to - from) };
             }
         }
     }

@@ -42,6 +42,11 @@ impl BentExchange {
     /// bottom of the crease to the outer edge. Coordinates are those of [`Fold::panels`].
     #[must_use]
     pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
+        Self::of_light(bent, fold, eye, 1.0)
+    }
+
+    /// The same for light whose mirror image about the plane that halves the crease is `image` (1 or -1) times itself.
+    pub(crate) fn of_light(bent: &BentFold, fold: &Fold, eye: Vector3<f64>, image: f64) -> Self {
         let panels = section::strips(bent, fold);
         let view = Vector2::new(eye.x, eye.z);
         let edges = fold.spacing().edges(fold.facets().rows);
@@ -61,8 +66,8 @@ impl BentExchange {
                 .iter()
                 .flat_map(|strip| (0..HALF).map(|c| strip.depth() * column_width(c, fold)))
                 .collect(),
-            exchange: exchange(&strips, fold),
-            gather: gather(&strips, &numbered, fold),
+            exchange: exchange(&strips, fold, image),
+            gather: gather(&strips, &numbered, fold, image),
             normals,
             cols: fold.facets().cols,
             strips,
@@ -98,6 +103,24 @@ impl BentExchange {
         Ok(radiance)
     }
 
+    /// Middles of the patches of one half with their normals, in the order of [`BentExchange::bounced`]'s irradiances.
+    pub(crate) fn places(&self, width: f64) -> impl Iterator<Item = [Vector3<f64>; 2]> + '_ {
+        self.strips.iter().flat_map(move |strip| {
+            let middle = strip.at(0.5);
+            (0..HALF).map(move |c| {
+                let y = ((c as f64 + 0.5) / COLUMNS as f64 - 0.5) * width;
+                [Vector3::new(middle.x, y, middle.y), Vector3::new(strip.normal.x, 0.0, strip.normal.y)]
+            })
+        })
+    }
+
+    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches get from outside.
+    pub(crate) fn bounced(&self, irradiance: &[f64], albedo: f64) -> Result<Vec<f64>> {
+        let power = irradiance.iter().zip(&self.areas).map(|(e, area)| e * area);
+        let power = DMatrix::from_iterator(self.areas.len(), 1, power);
+        Ok((&self.gather * self.radiosity(&power, albedo)?).as_slice().to_vec())
+    }
+
     /// Light leaving every patch, from what light it receives from outside times its area.
     fn radiosity(&self, power: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
         let mut system = -&self.exchange;
@@ -118,12 +141,12 @@ fn column_width(column: usize, fold: &Fold) -> f64 {
 }
 
 /// Area times form factor of all pairs of patches. Of two strips the shallower one looks at the other.
-fn exchange(strips: &[Strip], fold: &Fold) -> DMatrix<f64> {
+fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
     let [across, along] = POINTS.map(Rule::gauss_legendre);
     let width = fold.width() / COLUMNS as f64;
     let column = |c: usize| along.on(0.0, width).map(move |(y, _)| c as f64 * width - 0.5 * fold.width() + y);
     let places: Vec<f64> = (0..HALF).flat_map(column).collect();
-    let columns = Columns::seen_from(&places, COLUMNS, fold.width());
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
     let mut exchange = DMatrix::zeros(strips.len() * HALF, strips.len() * HALF);
     let mut shares = vec![0.0; places.len() * HALF];
     for (i, one) in strips.iter().enumerate() {
@@ -150,11 +173,11 @@ fn exchange(strips: &[Strip], fold: &Fold) -> DMatrix<f64> {
 }
 
 /// Share of its view that each facet of one half has filled with each patch; samples with their panels.
-fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold) -> DMatrix<f64> {
+fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64) -> DMatrix<f64> {
     let (rows, cols) = (fold.facets().rows, fold.facets().cols);
     let half = cols.div_ceil(2);
     let places: Vec<f64> = (0..half).map(|c| ((c as f64 + 0.5) / cols as f64 - 0.5) * fold.width()).collect();
-    let columns = Columns::seen_from(&places, COLUMNS, fold.width());
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
     let mut gather = DMatrix::zeros(2 * rows * half, strips.len() * HALF);
     let mut shares = vec![0.0; half * HALF];
     for (panel, sample) in samples {
