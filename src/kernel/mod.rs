@@ -8,6 +8,7 @@ pub mod bent;
 pub mod check;
 pub mod continuum;
 pub mod dense;
+pub mod environment;
 pub mod exact;
 pub mod exchange;
 pub mod facets;

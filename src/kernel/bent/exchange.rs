@@ -1,0 +1,211 @@
+//! Exchange of light between the parts of a bent sheet, and what its facets gather.
+
+use nalgebra::{Cholesky, DMatrix, Vector2, Vector3};
+use ndarray::Array2;
+
+use crate::error::{Error, Result};
+use crate::geometry::Fold;
+use crate::kernel::quadrature::Rule;
+
+use super::BentFold;
+use super::columns::Columns;
+use super::section::{self, Strip};
+use super::seen::{self, Sample};
+use super::view::SeenStrip;
+
+/// Columns of a strip.
+const COLUMNS: usize = 5;
+/// Columns of one half, the middle one included: light and sheet are the same at either end of the crease.
+const HALF: usize = COLUMNS.div_ceil(2);
+/// Gauss points across a strip and along a column.
+const POINTS: [usize; 2] = [3, 2];
+
+/// What the parts of a bent sheet and its facets see of each other, whatever the light and the albedo.
+pub struct BentExchange {
+    strips: Vec<Strip>,
+    /// Area of each patch (strip, then column of one half) together with its mirror image.
+    areas: Vec<f64>,
+    /// Area times form factor, patch by patch: symmetric.
+    exchange: DMatrix<f64>,
+    /// Share of its view that each facet of one half (panel, row, column) has filled with each patch.
+    gather: DMatrix<f64>,
+    /// For each row of facets of both panels: the sheet's normals in it, with their shares.
+    normals: Vec<Vec<(f64, Vector2<f64>)>>,
+    /// Columns of facets.
+    cols: usize,
+}
+
+impl BentExchange {
+    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away from the direction `eye`.
+    ///
+    /// The eye decides what the facets show of a crease that is rounded: they divide the flat quadrilateral that was clicked, from the
+    /// bottom of the crease to the outer edge. Coordinates are those of [`Fold::panels`].
+    #[must_use]
+    pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
+        Self::of_light(bent, fold, eye, 1.0)
+    }
+
+    /// The same for light whose mirror image about the plane that halves the crease is `image` (1 or -1) times itself.
+    pub(crate) fn of_light(bent: &BentFold, fold: &Fold, eye: Vector3<f64>, image: f64) -> Self {
+        let panels = section::strips(bent, fold);
+        let view = Vector2::new(eye.x, eye.z);
+        let edges = fold.spacing().edges(fold.facets().rows);
+        let samples = panels.each_ref().map(|strips| seen::samples(strips, &edges, view));
+        let normals = normals(&panels, &samples, fold.facets().rows);
+        let strips = panels.concat();
+        let offsets = [0, panels[0].len()];
+        let numbered: Vec<(usize, Sample)> = (0..2)
+            .flat_map(|p: usize| {
+                let move_on =
+                    move |sample: &Sample| (p, Sample { strip: sample.strip + offsets[p], ..*sample });
+                samples[p].iter().map(move_on)
+            })
+            .collect();
+        Self {
+            areas: strips
+                .iter()
+                .flat_map(|strip| (0..HALF).map(|c| strip.depth() * column_width(c, fold)))
+                .collect(),
+            exchange: exchange(&strips, fold, image),
+            gather: gather(&strips, &numbered, fold, image),
+            normals,
+            cols: fold.facets().cols,
+            strips,
+        }
+    }
+
+    /// Radiance of the facets in parallel light from the direction `sun`, as [`BentFold::facet_radiance`] has it.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if light does not leave the fold.
+    pub fn facet_radiance(&self, sun: Vector3<f64>, albedos: &[f64]) -> Result<Array2<f64>> {
+        let sun = Vector2::new(sun.x, sun.z);
+        let lit = |normal: &Vector2<f64>| normal.dot(&sun).max(0.0);
+        let patches = self.strips.iter().flat_map(|strip| [lit(&strip.normal); HALF]);
+        let power =
+            DMatrix::from_iterator(self.areas.len(), 1, patches.zip(&self.areas).map(|(e, area)| e * area));
+        let direct: Vec<f64> = self
+            .normals
+            .iter()
+            .map(|row| row.iter().map(|(share, normal)| share * lit(normal)).sum())
+            .collect();
+        let half = self.cols.div_ceil(2);
+        let mut radiance = Array2::zeros((self.normals.len() * self.cols, albedos.len()));
+        for (node, albedo) in albedos.iter().enumerate() {
+            let gathered = &self.gather * self.radiosity(&power, *albedo)?;
+            for (row, direct) in direct.iter().enumerate() {
+                for col in 0..self.cols {
+                    let facet = row * half + col.min(self.cols - 1 - col);
+                    radiance[(row * self.cols + col, node)] = albedo * (direct + gathered[facet]);
+                }
+            }
+        }
+        Ok(radiance)
+    }
+
+    /// Middles of the patches of one half with their normals, in the order of [`BentExchange::bounced`]'s irradiances.
+    pub(crate) fn places(&self, width: f64) -> impl Iterator<Item = [Vector3<f64>; 2]> + '_ {
+        self.strips.iter().flat_map(move |strip| {
+            let middle = strip.at(0.5);
+            (0..HALF).map(move |c| {
+                let y = ((c as f64 + 0.5) / COLUMNS as f64 - 0.5) * width;
+                [Vector3::new(middle.x, y, middle.y), Vector3::new(strip.normal.x, 0.0, strip.normal.y)]
+            })
+        })
+    }
+
+    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches get from outside.
+    pub(crate) fn bounced(&self, irradiance: &[f64], albedo: f64) -> Result<Vec<f64>> {
+        let power = irradiance.iter().zip(&self.areas).map(|(e, area)| e * area);
+        let power = DMatrix::from_iterator(self.areas.len(), 1, power);
+        Ok((&self.gather * self.radiosity(&power, albedo)?).as_slice().to_vec())
+    }
+
+    /// Light leaving every patch, from what light it receives from outside times its area.
+    fn radiosity(&self, power: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
+        let mut system = -&self.exchange;
+        for (n, area) in self.areas.iter().enumerate() {
+            system[(n, n)] += area / albedo;
+        }
+        let solved = Cholesky::new(system).map(|factors| factors.solve(power));
+        solved.ok_or_else(|| {
+            Error::Numeric(format!("a bent sheet of albedo {albedo} keeps all light that it receives"))
+        })
+    }
+}
+
+/// Width of a column and its mirror image.
+fn column_width(column: usize, fold: &Fold) -> f64 {
+    let alike = if 2 * column + 1 == COLUMNS { 1.0 } else { 2.0 };
+    alike * fold.width() / COLUMNS as f64
+}
+
+/// Area times form factor of all pairs of patches. Of two strips the shallower one looks at the other.
+fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
+    let [across, along] = POINTS.map(Rule::gauss_legendre);
+    let width = fold.width() / COLUMNS as f64;
+    let column = |c: usize| along.on(0.0, width).map(move |(y, _)| c as f64 * width - 0.5 * fold.width() + y);
+    let places: Vec<f64> = (0..HALF).flat_map(column).collect();
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
+    let mut exchange = DMatrix::zeros(strips.len() * HALF, strips.len() * HALF);
+    let mut shares = vec![0.0; places.len() * HALF];
+    for (i, one) in strips.iter().enumerate() {
+        for (j, other) in strips.iter().enumerate().skip(i + 1) {
+            let ((i, from), (j, to)) =
+                if one.depth() <= other.depth() { ((i, one), (j, other)) } else { ((j, other), (i, one)) };
+            shares.fill(0.0);
+            for (share, weight) in across.on(0.0, 1.0) {
+                if let Some(seen) = SeenStrip::new(from.at(share), from.normal, to) {
+                    columns.add_shares(&seen, weight, &mut shares);
+                }
+            }
+            for (place, shares) in shares.chunks_exact(HALF).enumerate() {
+                let (c, weight) = (place / POINTS[1], 0.5 * along.weights[place % POINTS[1]]);
+                for (d, share) in shares.iter().enumerate() {
+                    let flux = weight * share * from.depth() * column_width(c, fold);
+                    exchange[(i * HALF + c, j * HALF + d)] += flux;
+                    exchange[(j * HALF + d, i * HALF + c)] += flux;
+                }
+            }
+        }
+    }
+    exchange
+}
+
+/// Share of its view that each facet of one half has filled with each patch; samples with their panels.
+fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64) -> DMatrix<f64> {
+    let (rows, cols) = (fold.facets().rows, fold.facets().cols);
+    let half = cols.div_ceil(2);
+    let places: Vec<f64> = (0..half).map(|c| ((c as f64 + 0.5) / cols as f64 - 0.5) * fold.width()).collect();
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
+    let mut gather = DMatrix::zeros(2 * rows * half, strips.len() * HALF);
+    let mut shares = vec![0.0; half * HALF];
+    for (panel, sample) in samples {
+        let from = &strips[sample.strip];
+        for (j, to) in strips.iter().enumerate() {
+            let Some(seen) = SeenStrip::new(from.at(sample.share), from.normal, to) else { continue };
+            shares.fill(0.0);
+            columns.add_shares(&seen, sample.weight, &mut shares);
+            for (n, share) in shares.iter().enumerate() {
+                gather[((panel * rows + sample.row) * half + n / HALF, j * HALF + n % HALF)] += share;
+            }
+        }
+    }
+    gather
+}
+
+/// Normals that the rows of both panels show, with their shares.
+fn normals(
+    panels: &[Vec<Strip>; 2],
+    samples: &[Vec<Sample>; 2],
+    rows: usize,
+) -> Vec<Vec<(f64, Vector2<f64>)>> {
+    let mut normals = vec![Vec::new(); 2 * rows];
+    for (p, samples) in samples.iter().enumerate() {
+        for sample in samples {
+            normals[p * rows + sample.row]
+                .push((sample.weight, panels[p][sample.strip].bent_at(sample.share)));
+        }
+    }
+    normals
+}

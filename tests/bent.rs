@@ -1,0 +1,208 @@
+//! Bent folds against the exact solution of ideal ones, laws, and a rendered photograph.
+
+// a test stops at the first surprise, and prints what it measured
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::PathBuf;
+
+use nalgebra::Vector3;
+use ndarray::Array2;
+use serde_json::Value;
+use vfold::geometry::{FacetGrid, Fold};
+use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure};
+use vfold::kernel::bent::{BentExchange, BentFold};
+use vfold::kernel::environment::{Environment, Surroundings};
+use vfold::kernel::refinement::refine;
+use vfold::response::ModeLight;
+
+const GRID: FacetGrid = FacetGrid { rows: 10, cols: 10 };
+
+fn fold(angle_deg: f64) -> Fold {
+    Fold::new(angle_deg, 1.0, 1.0, GRID).unwrap()
+}
+
+/// Ten albedos at the Chebyshev nodes of [0, 1].
+fn nodes() -> Vec<f64> {
+    (0..10).map(|n| 0.5 - 0.5 * (PI * (f64::from(n) + 0.5) / 10.0).cos()).collect()
+}
+
+/// Towards a sun that leans by `tilt_deg` towards panel 1.
+fn sun(tilt_deg: f64) -> Vector3<f64> {
+    let (sin, cos) = tilt_deg.to_radians().sin_cos();
+    Vector3::new(sin, 0.0, cos)
+}
+
+/// Facet radiance of an ideal fold, to 1e-5.
+fn exact(angle_deg: f64, tilt_deg: f64, albedos: &[f64]) -> Array2<f64> {
+    let fold = fold(angle_deg);
+    let response = refine(&fold, 1e-5).unwrap().response;
+    let light =
+        ModeLight::Sun([1.0, -1.0].map(|side| (angle_deg / 2.0 + side * tilt_deg).to_radians().sin()));
+    Array2::from_shape_fn((200, albedos.len()), |(facet, node)| {
+        albedos[node] * response.irradiance(facet / 100, facet % 100, light, [albedos[node]; 2])
+    })
+}
+
+/// Largest relative difference in the rows at the crease, and in the others.
+fn worst(got: &Array2<f64>, want: &Array2<f64>) -> [f64; 2] {
+    let mut worst = [0.0_f64; 2];
+    for ((facet, node), want) in want.indexed_iter() {
+        let at = usize::from(facet % 100 >= 10);
+        worst[at] = worst[at].max((got[(facet, node)] / want - 1.0).abs());
+    }
+    worst
+}
+
+#[test]
+fn an_ideal_fold_has_the_exact_solution() {
+    for (angle_deg, tilt_deg) in [(48.0, 0.0), (48.0, 5.0), (30.0, 0.0), (72.0, 2.0)] {
+        let got =
+            BentFold::ideal(angle_deg).facet_radiance(&fold(angle_deg), sun(tilt_deg), &nodes()).unwrap();
+        let [crease, others] = worst(&got, &exact(angle_deg, tilt_deg, &nodes()));
+        println!("{angle_deg}° {tilt_deg}°: {crease:.5} {others:.5}");
+        let coarse = 48.0 / angle_deg;
+        assert!(
+            crease < 0.08 * coarse * coarse && others < 0.035 * coarse * coarse,
+            "{angle_deg}: {crease} {others}"
+        );
+    }
+}
+
+#[test]
+fn the_derivative_by_angle_is_that_of_the_exact_solution() {
+    let albedos = nodes();
+    let bent = |angle_deg: f64| {
+        BentFold::ideal(angle_deg).facet_radiance(&fold(angle_deg), sun(0.0), &albedos).unwrap()
+    };
+    let got = bent(49.0) - bent(47.0);
+    let want = exact(49.0, 0.0, &albedos) - exact(47.0, 0.0, &albedos);
+    let scale = exact(48.0, 0.0, &albedos);
+    let error = (&got - &want) / &scale;
+    let [crease, others] = worst(&(1.0 + &error), &Array2::ones(error.raw_dim()));
+    println!("of the facet, 2°: {crease:.5} {others:.5}");
+    assert!(crease < 0.008 && others < 0.005, "{crease} {others}");
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// A rendered photograph: its sidecar and the mean colours of its facets, panel 0 first.
+fn photograph(name: &str) -> Option<(Value, Array2<f64>)> {
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/real"));
+    let Ok(text) = fs::read_to_string(folder.join(name).with_extension("json")) else {
+        println!("left out: the photographs of {}, which is not there", folder.display());
+        return None;
+    };
+    let sidecar: Value = serde_json::from_str(&text).unwrap();
+    let panels = ["panel0", "panel1"].map(|panel| {
+        let corners = [0, 1, 2, 3].map(|n| {
+            let corner = numbers(&sidecar["told"][panel][n]);
+            Point::new(corner[0], corner[1])
+        });
+        Grid::even(Homography::from_unit_square(corners).unwrap(), [10, 10])
+    });
+    let photograph =
+        Photograph::open(&folder.join(name).with_extension("tif"), &ReadOptions::default()).unwrap();
+    let means: Vec<f64> = measure(&photograph, &panels, 0.0)
+        .unwrap()
+        .into_iter()
+        .flat_map(|facet| facet.mean.unwrap())
+        .collect();
+    Some((sidecar, Array2::from_shape_vec((200, 3), means).unwrap()))
+}
+
+/// Weight of each wavelength in each channel: a perfect diffuser that faces light of this spectrum has the `white_rgb` of the sidecar if
+/// the light is the sun.
+fn weights(sidecar: &Value, spectrum: &[f64]) -> Array2<f64> {
+    let curves: Vec<Vec<f64>> =
+        sidecar["camera_sensitivities_rgb"].as_array().unwrap().iter().map(numbers).collect();
+    let scale = sidecar["exposure_scale"].as_f64().unwrap();
+    Array2::from_shape_fn((3, spectrum.len()), |(channel, band)| {
+        let width = if band == 0 || band + 1 == spectrum.len() { 2.5 } else { 5.0 };
+        scale / PI * width * curves[channel][band] * spectrum[band]
+    })
+}
+
+#[test]
+fn a_rounded_crease_is_as_photographed() {
+    let Some((sidecar, rgb)) = photograph("one_crease") else { return };
+    let reflectance = numbers(&sidecar["reflectance_body"]);
+    let eye = numbers(&sidecar["camera_pose"]["position_mm"]);
+    let fold = fold(48.0);
+    let ideal = BentFold::ideal(48.0);
+    let rounded = BentFold { crease_radius: 0.015, ..ideal };
+    let sharp = exact(48.0, 0.0, &reflectance);
+    let weights = weights(&sidecar, &numbers(&sidecar["illuminant_spd"]));
+    let at = |shape: BentFold, eye: Vector3<f64>| {
+        BentExchange::new(&shape, &fold, eye).facet_radiance(sun(0.0), &reflectance).unwrap()
+    };
+    let eye = Vector3::new(eye[0], eye[1], eye[2] - 20.0);
+    for (label, model) in [
+        ("ideal", sharp.clone()),
+        ("rounded", &sharp + &(at(rounded, Vector3::z()) - at(ideal, Vector3::z()))),
+        ("rounded, eye", &sharp + &(at(rounded, eye) - at(ideal, eye))),
+    ] {
+        let error = model.dot(&weights.t()) / &rgb - 1.0;
+        let rms = |rows: std::ops::Range<usize>| {
+            let all: Vec<f64> = error
+                .indexed_iter()
+                .filter(|((facet, _), _)| rows.contains(&(facet % 100 / 10)))
+                .map(|(_, e)| e * e)
+                .collect();
+            100.0 * (all.iter().sum::<f64>() / all.len() as f64).sqrt()
+        };
+        let mean = |panel: usize, row: usize| {
+            let at = panel * 100 + row * 10;
+            100.0 * (at..at + 10).flat_map(|facet| error.row(facet).to_vec()).sum::<f64>() / 30.0
+        };
+        println!(
+            "{label}: crease {:.3} % others {:.3} %; rows {:?}",
+            rms(0..1),
+            rms(1..10),
+            [0, 1].map(|p| (0..4).map(|r| format!("{:.2}", mean(p, r))).collect::<Vec<_>>())
+        );
+    }
+}
+
+#[test]
+fn sky_and_ground_are_as_photographed() {
+    let Some((sidecar, rgb)) = photograph("one_sky_ground") else { return };
+    let [reflectance, sun_spectrum, sky_spectrum, ground] =
+        ["reflectance_body", "illuminant_spd", "sky_spd", "ground_albedo"]
+            .map(|name| numbers(&sidecar[name]));
+    let up = Vector3::from_vec(numbers(&sidecar["rendered"]["up"])).normalize();
+    let by_sun = exact(48.0, 0.0, &reflectance).dot(&weights(&sidecar, &sun_spectrum).t());
+    let lit_ground: Vec<f64> =
+        (0..ground.len()).map(|n| ground[n] * (up.z * sun_spectrum[n] + sky_spectrum[n])).collect();
+    let fold = fold(48.0);
+    let by = |part: Surroundings, spectrum: &[f64]| {
+        let radiance = Environment::new(part, up).facet_radiance(&fold, &reflectance).unwrap();
+        radiance.dot(&weights(&sidecar, spectrum).t())
+    };
+    let by_ground = by(Surroundings::Ground, &lit_ground);
+    let sky = |part: Surroundings| &by_sun + &by_ground + &by(part, &sky_spectrum);
+    for (label, model) in [
+        ("sun alone", by_sun.clone()),
+        ("even sky", sky(Surroundings::Sky)),
+        ("clear sky", sky(Surroundings::ClearSky { sun: Vector3::z() })),
+    ] {
+        let error = model / &rgb - 1.0;
+        let rms = |from: usize| {
+            let all: Vec<f64> = error
+                .indexed_iter()
+                .filter(|((facet, _), _)| facet % 100 / 10 >= from)
+                .map(|(_, e)| e * e)
+                .collect();
+            100.0 * (all.iter().sum::<f64>() / all.len() as f64).sqrt()
+        };
+        println!(
+            "{label}: {:.3} % all, {:.3} % without the crease row; mean {:.3} %",
+            rms(0),
+            rms(1),
+            100.0 * error.mean().unwrap()
+        );
+    }
+}
