@@ -26,18 +26,24 @@
 //! | - | the rivals of section 5C, on flat sheets | [`estimate::park`], [`estimate::khan`] |
 //! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
 //!
-//! Use runs one way:
+//! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
-//! bin -> report -> stream, plot, score, image, files
-//! bin -> cli -> stream -> estimate -> forward -> response -> kernel -> geometry
-//!               stream -> plot, score, progress, files, calibrate, parallel
-//!                         estimate, forward, response -> solve
-//!                                     forward -> camera -> spectrum
-//!                                     forward -> image -> colorimetry, files
-//!               plot -> geometry, image, files
-//!               score, colorimetry -> spectrum -> files                 all -> error
+//! report               -> stream, score, plot, image, colorimetry, files, markup
+//! cli                  -> stream, spectrum, progress, message
+//! stream               -> estimate, forward, kernel, response, solve, geometry, camera, spectrum, image, calibrate
+//! stream               -> score, plot, colorimetry, progress, parallel, files
+//! estimate             -> forward, solve
+//! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
+//! kernel               -> response, solve, geometry
+//! response             -> solve
+//! plot                 -> image, geometry, files, markup
+//! image                -> colorimetry, files
+//! camera, colorimetry  -> spectrum
+//! spectrum             -> files, markup
+//! progress             -> message
 //! ```
+//!
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of
 //! spectra included; other files of spectra to [`spectrum::formats`]; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 

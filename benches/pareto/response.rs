@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use vfold::geometry::FacetGrid;
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
-use vfold::kernel::panel::PanelOperator;
+use vfold::response::PanelOperator;
 use vfold::response::{Modes, Response};
 
 use crate::common::{fold, timed};

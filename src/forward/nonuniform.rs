@@ -12,10 +12,10 @@ use super::lighting::seen_bands;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::kernel::FoldKernel;
-use crate::kernel::exchange::Exchange;
 use crate::kernel::facets::FacetOperator;
-use crate::kernel::panel::PanelOperator;
+use crate::response::Exchange;
 use crate::response::ModeLight;
+use crate::response::PanelOperator;
 use crate::solve::conjugate_gradients;
 
 /// Residual of the solution of a waveband, relative to the light.

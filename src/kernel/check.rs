@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::facets::FacetOperator;
 use super::fold_kernel::FoldKernel;
-use super::panel::PanelOperator;
 use crate::geometry::FacetGrid;
+use crate::response::PanelOperator;
 use crate::response::{ModeLight, Response};
 use crate::solve::{Eigen, dot};
 

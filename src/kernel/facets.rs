@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::fold_kernel::FoldKernel;
-use super::panel::PanelOperator;
 use super::spectra::Spectra;
 use crate::geometry::FacetGrid;
+use crate::response::PanelOperator;
 
 /// Columns from which products by FFT along the crease are faster than by the entries themselves.
 const FFT_FROM: usize = 16;

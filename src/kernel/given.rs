@@ -20,7 +20,7 @@ impl DenseExchange {
     /// ```
     /// use nalgebra::dmatrix;
     /// use vfold::kernel::dense::DenseExchange;
-    /// use vfold::kernel::exchange::Exchange;
+    /// use vfold::response::Exchange;
     /// // What hands on a tenth and gets four tenths back is four times as large.
     /// let exchange = DenseExchange::from_kernel(&dmatrix![0.0, 0.1; 0.4, 0.0], None)?;
     /// assert!((exchange.root_areas()[0] / exchange.root_areas()[1] - 2.0).abs() < 1e-15);

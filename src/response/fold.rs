@@ -4,9 +4,9 @@
 //! panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
 
 use super::ModeSet;
+use super::PanelOperator;
 use super::lanczos::Excited;
 use crate::error::{Error, Result};
-use crate::kernel::panel::PanelOperator;
 
 /// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near poles, and only
 /// the sum of the two is right to all digits.

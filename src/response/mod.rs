@@ -5,14 +5,18 @@
 //! light does not excite. [`SurfaceResponse`] holds those of one light on any surface; a fold's [`Response`] holds those of
 //! any light on it. Surfaces with parts of several reflectances have other ones in every waveband: [`ReducedExchange`].
 
+mod exchange;
 mod fold;
 mod known;
 mod lanczos;
+mod panel;
 mod reduced;
 mod surface;
 
+pub use exchange::Exchange;
 pub use fold::{Excitation, ModeLight, Modes, Response};
 pub use known::BesideKnown;
+pub use panel::PanelOperator;
 pub use reduced::ReducedExchange;
 pub use surface::SurfaceResponse;
 

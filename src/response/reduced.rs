@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Exchange;
 use super::lanczos::orthogonalise;
 use crate::error::{Error, Result};
-use crate::kernel::exchange::Exchange;
 use crate::solve::dot;
 
 /// Most functions: their products with each other still fit into memory and take seconds.

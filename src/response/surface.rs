@@ -1,9 +1,9 @@
 //! One light on any surface, bounced for every reflectance at once.
 
+use super::Exchange;
 use super::ModeSet;
 use super::lanczos::Excited;
 use crate::error::{Error, Result};
-use crate::kernel::exchange::Exchange;
 
 /// What the bounces make of one light, as poles and residues for every facet: with one reflectance r, facet i receives
 /// `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.

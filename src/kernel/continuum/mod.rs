@@ -25,8 +25,8 @@ use self::exchange::Exchange;
 use self::rows::Rows;
 use self::strips::{Strips, graded};
 use self::table::{Nodes, StripPair, tabulate};
-use super::panel::PanelOperator;
 use crate::geometry::{FacetGrid, Fold};
+use crate::response::PanelOperator;
 
 /// Distances below this share of the nearest strips' count as one: nothing changes there any more.
 const NEAREST: f64 = 0.05;

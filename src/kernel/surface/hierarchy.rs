@@ -115,9 +115,9 @@ fn parts([n, m]: [usize; 2], [a, b]: [&Cluster; 2]) -> Vec<[usize; 2]> {
 mod tests {
     use crate::geometry::accordion::Accordion;
     use crate::geometry::{FacetGrid, Fold, Shape};
-    use crate::kernel::exchange::Exchange;
     use crate::kernel::surface::SurfaceKernel;
     use crate::kernel::surface::patches::{Division, patches};
+    use crate::response::Exchange;
 
     fn fold(creases: usize, facets: usize) -> Shape {
         let valley = Fold::new(100.0, 1.0, 1.0, FacetGrid { rows: facets, cols: facets }).unwrap();

@@ -37,10 +37,10 @@ use self::far_field::FarField;
 use self::hierarchy::Hierarchy;
 use self::patches::Patch;
 use self::site::Site;
-use super::exchange::Exchange;
 use super::skipped::Skipped;
 use crate::error::{Error, Result};
 use crate::geometry::shape::{FACETS_MAX, Shape};
+use crate::response::Exchange;
 
 /// Groups of rows that are multiplied apart: their number is fixed, so that sums do not depend on the threads.
 const GROUPS: usize = 16;

@@ -6,9 +6,9 @@ use super::patches::{Division, Patch, patches, patches_by};
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
 use crate::geometry::shape::Shape;
-use crate::kernel::exchange::Exchange;
 use crate::kernel::mesh::{Accuracy, KernelSource, Mesh};
 use crate::kernel::method::Method;
+use crate::response::Exchange;
 use crate::response::SurfaceResponse;
 
 /// Ever finer divisions: cells halve, and so do the strips beside valleys.
