@@ -17,8 +17,8 @@
 //! | eq. (10) | kernel matrix of the facets | [`kernel::fold_kernel::FoldKernel::matrix_row`] |
 //! | eq. (16) | radiance after all bounces | [`response::Response::solve`], [`response::SurfaceResponse::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
-//! | eq. (15), eq. (24) | facet RGB, a reflectance a facet | [`forward::nonuniform`] |
-//! | eq. (24) | the same, a reflectance a panel | [`forward::FacetModel::facet_rgb`] |
+//! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`forward::nonuniform`] |
+//! | eq. (24) | the same, one reflectance per panel | [`forward::FacetModel::facet_rgb`] |
 //! | eq. (24) | the same, known parts of a surface beside an unknown one | [`response::ReducedExchange::beside_known`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |

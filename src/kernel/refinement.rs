@@ -94,7 +94,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }
 
-/// About the least share of light that a bounce loses: a residual grows by at most its inverse.
+/// Roughly the smallest share of light that a bounce loses: a residual grows by at most its inverse.
 fn loss(fold: &Fold) -> f64 {
     (0.5 * fold.angle_rad()).sin()
 }

@@ -10,7 +10,7 @@ use super::block::Block;
 use super::cluster::{Cluster, Side, Tree};
 use super::grid::{GAP, orders};
 
-/// A pair of patches costs as much as so many pairs of nodes.
+/// A pair of patches costs as much as this many pairs of nodes.
 const PAIR: usize = 8;
 
 /// What two clusters exchange.
