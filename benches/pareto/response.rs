@@ -83,8 +83,7 @@ fn solvers() {
 fn by_poles(response: &Response, reflectances: &[f64]) -> DMatrix<f64> {
     let Modes::Shared(set) = response.modes() else { panic!("panels that are alike") };
     let poles = &set.poles;
-    let residues = DMatrix::from_row_slice(response.facets(), poles.len(), &set.residues);
-    residues
+    &set.residues
         * DMatrix::from_fn(poles.len(), reflectances.len(), |k, n| (1.0 - reflectances[n] * poles[k]).recip())
 }
 
