@@ -29,7 +29,7 @@
 //! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
-//! report               -> stream, score, plot, image, colorimetry, files, markup
+//! report               -> stream, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> stream, spectrum, progress, message
 //! stream               -> estimate, forward, kernel, response, solve, geometry, camera, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files
