@@ -108,8 +108,9 @@ impl Ql {
 
 /// Turns columns `i` and `i + 1`.
 fn rotate(vectors: &mut DMatrix<f64>, i: usize, sin: f64, cos: f64) {
-    let (left, right) = vectors.columns_range_pair_mut(i, i + 1);
-    for (x, y) in left.data.into_slice_mut().iter_mut().zip(right.data.into_slice_mut()) {
+    let rows = vectors.nrows();
+    let (left, right) = vectors.as_mut_slice()[i * rows..][..2 * rows].split_at_mut(rows);
+    for (x, y) in left.iter_mut().zip(right) {
         (*x, *y) = (cos * *x - sin * *y, sin * *x + cos * *y);
     }
 }

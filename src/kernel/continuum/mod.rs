@@ -17,11 +17,9 @@ mod strips;
 mod table;
 
 use std::f64::consts::FRAC_PI_4;
-use std::ops::Range;
 
-use nalgebra::{DMatrix, DMatrixView};
-use ndarray::parallel::prelude::*;
-use ndarray::{Array4, ArrayViewMut4, Axis};
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
+use rayon::prelude::*;
 
 use self::exchange::Exchange;
 use self::rows::Rows;
@@ -208,43 +206,43 @@ impl PanelOperator for Continuum {
 fn assemble(layout: &Layout, alike: bool, rows: &Rows, nodes: &Nodes, pairs: &[StripPair]) -> DMatrix<f64> {
     let [across0, across1] = &layout.across;
     let (along, order) = (layout.along.len(), across0.order);
-    // Functions across and along panel 1, then those of panel 0: in memory the columns of the matrix, one after the other.
+    let (height, width) = (layout.unknowns(0), layout.unknowns(1));
     // Zeros that nobody wrote take no memory: what is never set costs nothing.
-    let mut exchange = Array4::zeros((across1.len(), along, across0.len(), along));
-    let strips = exchange.axis_chunks_iter_mut(Axis(0), order).into_par_iter().enumerate();
-    strips.for_each(|(j, mut of_strip)| {
+    let mut matrix = DMatrix::from_vec(height, width, vec![0.0; height * width]);
+    // Columns of one strip of panel 1 each.
+    let strips = matrix.as_mut_slice().par_chunks_exact_mut(order * along * height).enumerate();
+    strips.for_each(|(j, columns)| {
+        let mut columns = DMatrixViewMut::from_slice(columns, height, order * along);
         for (i, strip) in across0.ends.iter().enumerate() {
             // Of panels that are alike, what strip i gives to j is the transpose of what j gives to i.
             if alike && i > j {
                 continue;
             }
-            let mut of_strips = of_strip.slice_axis_mut(Axis(2), across0.functions(i).into());
             let weights = rows.weights(*strip, across1.ends[j], nodes);
             for pair in pairs {
                 let block = &pair.values * &weights;
-                let [e, f] = pair.strips.map(|strip| layout.along.functions(strip));
-                // From (n, b, m, d) to the order of the block, (m, n, b, d).
-                let there = part(of_strips.view_mut(), [&e, &f]);
-                fill(there.permuted_axes([2, 0, 1, 3]), &block);
-                if e != f {
-                    // The kernel does not tell which end of the shift is on which panel: so b and d may change places.
-                    let back = part(of_strips.view_mut(), [&f, &e]);
-                    fill(back.permuted_axes([2, 0, 3, 1]), &block);
+                for (mn, values) in block.column_iter().enumerate() {
+                    let (m, n) = (mn / order, mn % order);
+                    let at = ((i * order + m) * along, n * along);
+                    place(
+                        columns.view_mut(at, (along, along)),
+                        values.as_slice(),
+                        pair.strips,
+                        layout.along.order,
+                    );
                 }
             }
         }
     });
-    DMatrix::from_vec(across0.len() * along, across1.len() * along, exchange.into_raw_vec_and_offset().0)
+    matrix
 }
 
-/// What these functions along panel 1 and along panel 0 have in common.
-fn part<'a>(mut all: ArrayViewMut4<'a, f64>, [on_1, on_0]: [&Range<usize>; 2]) -> ArrayViewMut4<'a, f64> {
-    all.slice_axis_inplace(Axis(1), on_1.clone().into());
-    all.slice_axis_inplace(Axis(3), on_0.clone().into());
-    all
-}
-
-/// Puts the numbers of a block where they belong: pair of functions along the crease (b, d), d fast, by pair across it (m, n), n fast.
-fn fill(mut places: ArrayViewMut4<f64>, block: &DMatrix<f64>) {
-    places.iter_mut().zip(block).for_each(|(place, value)| *place = *value);
+/// Puts what two strips along the crease exchange, polynomials (b, d), d fast, where they belong among all functions along it.
+fn place(mut along: DMatrixViewMut<f64>, values: &[f64], [e, f]: [usize; 2], order: usize) {
+    let (values, size) = (DMatrixView::from_slice(values, order, order), (order, order));
+    along.view_mut((f * order, e * order), size).copy_from(&values);
+    if e != f {
+        // The kernel does not tell which end of the shift is on which panel: so b and d may change places.
+        along.view_mut((e * order, f * order), size).tr_copy_from(&values);
+    }
 }

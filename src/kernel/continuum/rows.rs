@@ -84,7 +84,15 @@ impl Rows {
                 // What is left of sin²θ·s·t/(π q³) dt, where dt = q dw and q = s·sinθ·cosh w.
                 let factor = weight * t / (PI * s * cosh * cosh);
                 let first = nodes.place(s * self.sin * cosh, at_nodes.as_mut_slice());
-                out.columns_mut(first, nodes.on_panel()).ger(factor, &of_b, &at_nodes, 1.0);
+                // Columns are so short that nalgebra's update of rank one would take longer.
+                for (mut out, at_node) in
+                    out.columns_mut(first, nodes.on_panel()).column_iter_mut().zip(&at_nodes)
+                {
+                    out.as_mut_slice()
+                        .iter_mut()
+                        .zip(&of_b)
+                        .for_each(|(out, p)| *out += factor * at_node * p);
+                }
             }
         }
     }

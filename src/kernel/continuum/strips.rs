@@ -1,7 +1,5 @@
 //! One direction of a panel: Legendre polynomials on strips.
 
-use std::ops::Range;
-
 use nalgebra::DMatrix;
 
 use crate::kernel::quadrature::{Rule, legendre_series};
@@ -22,11 +20,6 @@ impl Strips {
     /// Number of basis functions.
     pub(super) fn len(&self) -> usize {
         self.ends.len() * self.order
-    }
-
-    /// The basis functions of a strip.
-    pub(super) fn functions(&self, strip: usize) -> Range<usize> {
-        strip * self.order..(strip + 1) * self.order
     }
 
     /// Coordinates of the function 1.
