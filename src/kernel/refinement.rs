@@ -43,7 +43,7 @@ struct Solution {
 /// solution would take too long.
 ///
 /// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as its resolution aims
-/// at less; [`SAFETY`] allows for folds that differ from the one by which resolutions were chosen.
+/// at less; `SAFETY` allows for folds that differ from the one by which resolutions were chosen.
 ///
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.

@@ -6,8 +6,8 @@
 //! more polynomials make the error ten times smaller, wherever that is needed.
 //!
 //! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only the shift
-//! `z = x − y` matters ([`correlation`]), and the result is a function of the distance q across it alone ([`table`]); the integrals
-//! across become weights of that function's values ([`rows`]), and all entries of two rows are one matrix product.
+//! `z = x − y` matters (`correlation`), and the result is a function of the distance q across it alone (`table`); the integrals
+//! across become weights of that function's values (`rows`), and all entries of two rows are one matrix product.
 //! Lengths are in units of panel 0's depth.
 
 mod correlation;

@@ -3,7 +3,7 @@
 //! A pair that nothing can stand between ([`casters`]) takes a formula ([`contour`], or [`far`] where it is right to ten digits);
 //! any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]). Pairs of one plane and pairs that show each
 //! other their backs exchange nothing. One number stands for both directions, so that reciprocity holds by construction. In large meshes
-//! clusters that see each other from afar exchange light without a number for every pair ([`far_field`], [`hierarchy`]).
+//! clusters that see each other from afar exchange light without a number for every pair (`far_field`, `hierarchy`).
 
 mod assembly;
 mod block;
