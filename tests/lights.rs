@@ -13,13 +13,13 @@ use vfold::forward::FacetModel;
 use vfold::forward::nonuniform::surface_rgb;
 use vfold::geometry::accordion::Accordion;
 use vfold::geometry::{FacetGrid, Fold, LightSource, Shape, Vec3};
-use vfold::kernel::exchange::Exchange;
 use vfold::kernel::surface::SurfaceKernel;
 use vfold::kernel::surface::direct::DirectLight;
 use vfold::kernel::surface::lit::LitSurface;
 use vfold::kernel::surface::patches::{Division, patches};
 use vfold::kernel::surface::skylight::{backs, skylight};
 use vfold::kernel::surface::sunlight::solid_angle;
+use vfold::response::Exchange;
 
 fn shape(vertices: Vec<[f64; 3]>, faces: Vec<Vec<usize>>) -> Shape {
     Shape::new(vertices, faces, vec![]).unwrap().0

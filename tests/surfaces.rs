@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use vfold::camera::CameraResponse;
 use vfold::forward::{FacetModel, nonuniform};
 use vfold::kernel::dense::DenseExchange;
-use vfold::kernel::exchange::Exchange;
+use vfold::response::Exchange;
 use vfold::response::{ReducedExchange, SurfaceResponse};
 
 /// Patches that exchange light, two of them lit.

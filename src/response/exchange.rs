@@ -2,7 +2,7 @@
 
 /// The exchange of light between the patches of a surface.
 ///
-/// Vectors hold a number a patch in coordinates in which the exchange is symmetric: the root of the patch's area times its
+/// Vectors hold one number per patch, in coordinates in which the exchange is symmetric: the root of the patch's area times its
 /// irradiance. Patches are where the bounces are solved; every one lies in a facet, where colour is measured.
 pub trait Exchange: Sync {
     /// Root of the area of every patch, in any unit, positive.
@@ -24,7 +24,7 @@ pub trait Exchange: Sync {
         self.facet_of().iter().max().map_or(0, |last| last + 1)
     }
 
-    /// The coordinates of an `irradiance`, a number a patch.
+    /// The coordinates of an `irradiance`, one number per patch.
     fn start(&self, irradiance: &[f64]) -> Vec<f64> {
         self.root_areas().iter().zip(irradiance).map(|(root, value)| root * value).collect()
     }
