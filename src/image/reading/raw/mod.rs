@@ -1,5 +1,8 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
+mod sensor;
+mod tiff_directories;
+
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
@@ -12,14 +15,10 @@ use rawler::formats::tiff::Rational;
 use rawler::rawsource::RawSource;
 use rawler::{RawImage, RawImageData, RawlerError};
 
+use self::sensor::Sensor;
 use super::decode::{DAMAGED, MAX_BYTES, TOO_LARGE, one_line};
-use super::exif::CameraNotes;
-use super::orientation::Orientation;
-use super::photograph::Photograph;
-use super::scale::ReadOptions;
-use super::sensor::Sensor;
-use super::tiff_directories;
-use super::transfer::Transfer;
+use crate::image::numbers::{ReadOptions, Transfer};
+use crate::image::photograph::{CameraNotes, Orientation, Photograph};
 use crate::{Error, Result};
 
 /// Reads a RAW file.

@@ -1,8 +1,7 @@
 //! What is known about a photograph besides its pixels.
 
-use super::development::Development;
-use super::exif::CameraNotes;
-use super::transfer::Transfer;
+use super::camera_notes::CameraNotes;
+use crate::image::numbers::{Development, Transfer};
 
 /// What is known about a photograph besides its pixels.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +37,7 @@ pub struct SensorInfo {
 
 impl PhotographInfo {
     /// Of a linear picture of `stored_size` from 0 to 1, with what the camera wrote.
-    pub(super) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
+    pub(in crate::image) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
         let (width, height) = camera.orientation.upright_size(stored_size);
         Self {
             camera,

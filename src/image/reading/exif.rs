@@ -7,28 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use exif::{Context, Exif, In, Reader, Tag, Value};
 
-use super::orientation::Orientation;
-
-/// The few EXIF fields that matter to a measurement.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct CameraNotes {
-    /// The camera's maker.
-    pub make: Option<String>,
-    /// The camera.
-    pub model: Option<String>,
-    /// Exposure time, s.
-    pub exposure_s: Option<f64>,
-    /// Focal length over aperture.
-    pub f_number: Option<f64>,
-    /// ISO sensitivity.
-    pub iso: Option<u32>,
-    /// How the picture was stored.
-    pub orientation: Orientation,
-    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
-    pub(super) is_raw: bool,
-    /// What was wrong but did no harm.
-    pub notes: Vec<String>,
-}
+use crate::image::photograph::{CameraNotes, Orientation};
 
 /// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
 const TAGS_BYTES: usize = 1 << 20;

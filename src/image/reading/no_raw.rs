@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::photograph::Photograph;
-use super::scale::ReadOptions;
+use crate::image::numbers::ReadOptions;
+use crate::image::photograph::Photograph;
 use crate::{Error, Result};
 
 /// Says how RAW files are read.

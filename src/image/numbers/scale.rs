@@ -20,7 +20,7 @@ pub struct ReadOptions {
 
 /// The meaning of a stored number v: the curve's value at (v - black)/(white - black).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
+pub(in crate::image) struct Scale {
     pub transfer: Transfer,
     pub black: f64,
     pub white: f64,

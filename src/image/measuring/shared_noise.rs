@@ -9,10 +9,8 @@
 
 use rayon::prelude::*;
 
-use super::homography::Homography;
-use super::photograph::Photograph;
-use super::pixel::Pixel;
-use super::pixel_area::Quadrilateral;
+use crate::image::photograph::{Photograph, Pixel};
+use crate::image::placing::{Homography, Quadrilateral};
 
 /// Width and height of a block, px: wider than what JPEG and demosaicing spread. In small panels it is less.
 const BLOCK_PX: usize = 12;

@@ -7,14 +7,13 @@ use std::ops::Range;
 
 use image::DynamicImage;
 
-use super::development::Development;
 use super::orientation::Layout;
 use super::pixel::Pixel;
-use super::scale::Scale;
+use crate::image::numbers::{Development, Scale};
 
 /// Pixels of one colour or three, with or without alpha.
 #[derive(Debug, Clone)]
-pub(super) struct Interleaved {
+pub(in crate::image) struct Interleaved {
     samples: Samples,
     layout: Layout,
     /// Samples a pixel.

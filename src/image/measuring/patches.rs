@@ -1,14 +1,10 @@
 //! The middles of a chart's patches.
 
-use super::corners::{CHART_CORNERS, check_inside};
-use super::distortion::Lens;
 use super::facets::measure;
-use super::grid::Grid;
-use super::homography::Homography;
 use super::measurement::FacetMeasurement;
-use super::photograph::Photograph;
-use super::point::Point;
 use crate::Result;
+use crate::image::photograph::Photograph;
+use crate::image::placing::{CHART_CORNERS, Grid, Homography, Lens, Point, check_inside};
 
 /// The part of a patch's width and height that is measured: frames between patches, blur and corners a little off stay outside.
 const MIDDLE: f64 = 0.5;

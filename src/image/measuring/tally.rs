@@ -2,8 +2,8 @@
 
 use super::measurement::{FacetMeasurement, PixelRun};
 use super::outliers::{Placed, without_outliers};
-use super::pixel::Pixel;
 use super::plane_fit::Estimate;
+use crate::image::photograph::Pixel;
 
 /// Pixels as they are found, a run at a time.
 #[derive(Default)]

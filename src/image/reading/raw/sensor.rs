@@ -10,12 +10,8 @@ use rawler::rawimage::RawPhotometricInterpretation;
 use rawler::{RawImage, RawImageData};
 use rayon::prelude::*;
 
-use super::exif::CameraNotes;
-use super::info::{PhotographInfo, SensorInfo};
-use super::mosaic::Mosaic;
-use super::photograph::Photograph;
-use super::scale::{ReadOptions, Scale};
-use super::transfer::Transfer;
+use crate::image::numbers::{ReadOptions, Scale, Transfer};
+use crate::image::photograph::{CameraNotes, Mosaic, Photograph, PhotographInfo, SensorInfo};
 use crate::{Error, Result};
 
 /// The numbers of a sensor and how they are to be understood.

@@ -5,11 +5,9 @@ use std::path::Path;
 use image::ImageFormat;
 
 use super::decode::{Decoded, Picture, decode};
-use super::info::PhotographInfo;
-use super::interleaved::Interleaved;
-use super::photograph::Photograph;
 use super::raw;
-use super::scale::{ReadOptions, Scale};
+use crate::image::numbers::{ReadOptions, Scale};
+use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
 use crate::{Error, Result};
 
 impl Photograph {

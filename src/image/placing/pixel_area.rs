@@ -58,7 +58,7 @@ impl HalfPlane {
 
 /// What lies inside four straight lines.
 #[derive(Debug, Clone)]
-pub(super) struct Sides([HalfPlane; 4]);
+pub(in crate::image) struct Sides([HalfPlane; 4]);
 
 impl Sides {
     /// Inside four directed lines, each from one point to the next, in order round it: clockwise in the picture if `sense` is 1,
@@ -79,7 +79,7 @@ impl Sides {
 
 /// A convex quadrilateral of the picture.
 #[derive(Debug, Clone)]
-pub(super) struct Quadrilateral {
+pub(in crate::image) struct Quadrilateral {
     sides: Sides,
     corners: [Point; 4],
 }
@@ -126,7 +126,7 @@ impl Quadrilateral {
 }
 
 /// 1 if corners follow each other clockwise in the picture, else -1.
-pub(super) fn sense(corners: &[Point; 4]) -> f64 {
+pub(in crate::image) fn sense(corners: &[Point; 4]) -> f64 {
     cross(corners[0], corners[1], corners[2]).signum()
 }
 

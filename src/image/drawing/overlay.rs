@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use super::grid::Grid;
-use super::measurement::PixelRun;
-use super::photograph::Photograph;
-use super::pixel_area::Quadrilateral;
-use super::point::Point;
 use super::preview::Canvas;
 use crate::Result;
+use crate::image::measuring::PixelRun;
+use crate::image::photograph::Photograph;
+use crate::image::placing::{Grid, Point, Quadrilateral};
 
 /// Longest side of an overlay, px; small photographs are enlarged in whole pixels.
 const LONGEST_PX: f64 = 1600.0;

@@ -1,6 +1,6 @@
 //! What one pixel of a photograph says.
 
-use super::development::Development;
+use crate::image::numbers::Development;
 
 /// What a pixel says.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -60,7 +60,7 @@ fn parse_point(pair: &str) -> Option<Point> {
 const TOLERANCE_PX: f64 = 1.0;
 
 /// Whether a point lies in a picture of `width` x `height` px, give or take one pixel.
-pub(super) fn is_inside(p: Point, width: usize, height: usize) -> bool {
+pub(in crate::image) fn is_inside(p: Point, width: usize, height: usize) -> bool {
     (-TOLERANCE_PX..=width as f64 + TOLERANCE_PX).contains(&p.x)
         && (-TOLERANCE_PX..=height as f64 + TOLERANCE_PX).contains(&p.y)
 }

@@ -1,17 +1,29 @@
-//! A photograph as linear light, pixel by pixel.
+//! A photograph as linear light, pixel by pixel, however it was stored.
+
+mod camera_notes;
+mod flat_field;
+mod info;
+mod interleaved;
+mod mosaic;
+mod orientation;
+mod pixel;
+mod pixels;
+mod sites;
+
+pub use camera_notes::CameraNotes;
+pub use flat_field::FlatField;
+pub use info::{PhotographInfo, SensorInfo};
+pub(in crate::image) use interleaved::Interleaved;
+pub use mosaic::Mosaic;
+pub use orientation::Orientation;
+pub use pixel::Pixel;
 
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::exif::CameraNotes;
-use super::flat_field::FlatField;
-use super::info::PhotographInfo;
-use super::interleaved::Interleaved;
-use super::mosaic::Mosaic;
-use super::pixel::Pixel;
-use super::pixels::{PixelLayer, Pixels};
-use super::sites::Sites;
+use self::pixels::{PixelLayer, Pixels};
+use self::sites::Sites;
 use crate::{Error, Result};
 
 /// A decoded photograph, seen upright.
@@ -25,7 +37,7 @@ pub struct Photograph {
 impl Photograph {
     /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
     ///
-    /// [`measure`](super::measure) averages each colour's pixels where they are; nothing is interpolated between them.
+    /// [`measure`](crate::image::measure) averages each colour's pixels where they are; nothing is interpolated between them.
     ///
     /// # Arguments
     /// - `mosaic`: the colours, from the top left pixel on.
@@ -51,7 +63,11 @@ impl Photograph {
     }
 
     /// From the light of a sensor's sites as stored; none if it is not as many as the picture has pixels.
-    pub(super) fn from_sites(light: Vec<f32>, mosaic: &Mosaic, info: PhotographInfo) -> Option<Self> {
+    pub(in crate::image) fn from_sites(
+        light: Vec<f32>,
+        mosaic: &Mosaic,
+        info: PhotographInfo,
+    ) -> Option<Self> {
         let sites = Sites::new(light, mosaic, info.camera.orientation, (info.width, info.height))?;
         Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
     }
@@ -85,14 +101,18 @@ impl Photograph {
     }
 
     /// From linear light as stored, 1 or 3 numbers a pixel of the picture.
-    pub(super) fn from_stored_light(light: Vec<f32>, channels: usize, info: PhotographInfo) -> Self {
+    pub(in crate::image) fn from_stored_light(
+        light: Vec<f32>,
+        channels: usize,
+        info: PhotographInfo,
+    ) -> Self {
         let layout =
             info.camera.orientation.layout(info.camera.orientation.upright_size((info.width, info.height)));
         Self::from_interleaved(Interleaved::from_light(light, layout, channels), info)
     }
 
     /// From pixels with their colours side by side.
-    pub(super) fn from_interleaved(pixels: Interleaved, info: PhotographInfo) -> Self {
+    pub(in crate::image) fn from_interleaved(pixels: Interleaved, info: PhotographInfo) -> Self {
         Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
     }
 
@@ -160,14 +180,14 @@ impl Photograph {
     }
 
     /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
-    pub(super) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
+    pub(in crate::image) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
         self.pixels.layers().map(|pixels| Layer { photograph: self, pixels })
     }
 }
 
 /// One of a photograph's layers.
 #[derive(Clone, Copy)]
-pub(super) struct Layer<'a> {
+pub(in crate::image) struct Layer<'a> {
     photograph: &'a Photograph,
     pixels: PixelLayer<'a>,
 }

@@ -8,10 +8,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::distortion::Lens;
 use super::edge::{Edge, Side};
-use super::photograph::Photograph;
-use super::point::Point;
+use crate::image::photograph::Photograph;
+use crate::image::placing::{Lens, Point};
 use crate::{Error, Result};
 
 /// Where a panel was seen, and which of its corners it shares.
@@ -19,7 +18,7 @@ use crate::{Error, Result};
 pub struct Marked {
     /// Its number.
     pub panel: usize,
-    /// Its corners, by the order of [`PANEL_CORNERS`](super::PANEL_CORNERS).
+    /// Its corners, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS).
     pub corners: [Point; 4],
     /// A number for each corner, from 0 on, the same for the same corner of several panels.
     pub joints: [usize; 4],

@@ -7,11 +7,8 @@
 
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
-use super::distortion::Lens;
-use super::photograph::Photograph;
-use super::pixel::Pixel;
-use super::pixel_area::Quadrilateral;
-use super::point::Point;
+use crate::image::photograph::{Photograph, Pixel};
+use crate::image::placing::{Lens, Point, Quadrilateral};
 
 /// Pieces along a side.
 const PIECES: usize = 24;

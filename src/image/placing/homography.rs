@@ -92,7 +92,7 @@ impl Homography {
     }
 
     /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its corners.
-    pub(super) fn bow(&self, u: [f64; 2], v: [f64; 2]) -> f64 {
+    pub(in crate::image) fn bow(&self, u: [f64; 2], v: [f64; 2]) -> f64 {
         let corners = self.rectangle(u, v);
         let (u_middle, v_middle) = ((u[0] + u[1]) / 2.0, (v[0] + v[1]) / 2.0);
         let middles = [(u_middle, v[0]), (u[1], v_middle), (u_middle, v[1]), (u[0], v_middle)];
@@ -104,7 +104,7 @@ impl Homography {
     }
 
     /// The panel's point (u, v) and the panel's area in a pixel there, the inverse of the Jacobian's size.
-    pub(super) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
+    pub(in crate::image) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
         let (ideal, ideal_area) = self.lens.undistort_with_area(p);
         let [u, v, scale] = multiply(&self.to_panel, [ideal.x, ideal.y, 1.0]);
         let inverse_scale = 1.0 / scale;

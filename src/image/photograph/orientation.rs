@@ -34,12 +34,15 @@ impl Orientation {
     }
 
     /// Width and height of the upright picture.
-    pub(super) fn upright_size(self, (stored_width, stored_height): (usize, usize)) -> (usize, usize) {
+    pub(in crate::image) fn upright_size(
+        self,
+        (stored_width, stored_height): (usize, usize),
+    ) -> (usize, usize) {
         if self.transposed() { (stored_height, stored_width) } else { (stored_width, stored_height) }
     }
 
     /// Where the pixels of the upright picture are stored, row by row.
-    pub(super) fn layout(self, (stored_width, stored_height): (usize, usize)) -> Layout {
+    pub(in crate::image) fn layout(self, (stored_width, stored_height): (usize, usize)) -> Layout {
         let mirrored_columns = matches!(self.0, 2 | 3 | 7 | 8);
         let mirrored_rows = matches!(self.0, 3 | 4 | 6 | 7);
         let column = if mirrored_columns { -1 } else { 1 };
@@ -57,7 +60,7 @@ impl Orientation {
 
 /// The pixel (x, y) of the upright picture is the stored pixel number `first` + x `x` + y `y`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Layout {
+pub(in crate::image) struct Layout {
     first: isize,
     x: isize,
     y: isize,

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
-use super::exif::{self, CameraNotes};
+use super::exif;
+use crate::image::photograph::CameraNotes;
 use crate::{Error, Result};
 
 /// What a file turned out to hold.

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use super::photograph::Photograph;
-use super::pixel::Pixel;
 use super::write::write_srgb_png_with_text;
 use crate::Result;
 use crate::colorimetry::encode_srgb;
+use crate::image::photograph::{Photograph, Pixel};
 
 /// Longest side of a preview, px: it fills a screen.
 const LONGEST_PX: usize = 1600;

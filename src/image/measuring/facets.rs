@@ -9,23 +9,18 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::corners::is_inside;
-use super::grid::Grid;
-use super::homography::Homography;
 use super::measurement::{FacetMeasurement, PixelRun};
 use super::outliers::Placed;
-use super::photograph::{Layer, Photograph};
-use super::pixel::Pixel;
-use super::pixel_area::{Quadrilateral, Sides, sense};
 use super::plane_fit::Run;
-use super::point::Point;
 use super::tally::Tally;
+use crate::image::photograph::{Layer, Photograph, Pixel};
+use crate::image::placing::{Grid, Homography, Point, Quadrilateral, Sides, is_inside, sense};
 use crate::{Error, Result};
 
 /// Measures every facet of one panel or more.
 ///
 /// # Arguments
-/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](super::PANEL_CORNERS), and how it is divided.
+/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), and how it is divided.
 /// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a little off
 ///   ask for one or two.
 ///

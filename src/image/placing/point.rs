@@ -16,12 +16,12 @@ impl Point {
         Self { x, y }
     }
 
-    pub(super) fn distance(self, other: Self) -> f64 {
+    pub(in crate::image) fn distance(self, other: Self) -> f64 {
         (self.x - other.x).hypot(self.y - other.y)
     }
 }
 
 /// Twice the signed area of the triangle a, b, c.
-pub(super) fn cross(a: Point, b: Point, c: Point) -> f64 {
+pub(in crate::image) fn cross(a: Point, b: Point, c: Point) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
