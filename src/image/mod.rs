@@ -8,7 +8,7 @@
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
 //! pixel (i, j) covers [i, i+1) x [j, j+1). Panel coordinates run from 0 to 1: u along the crease, v outwards from it.
 //!
-//! Six rooms, each of which uses only those to its right:
+//! Each room uses only those to its right:
 //!
 //! ```text
 //! drawing -> measuring -> placing

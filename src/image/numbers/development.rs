@@ -1,15 +1,18 @@
 //! What a camera does to its numbers on the way to a picture for the eye, and how that is undone.
 
+use nalgebra::{Matrix3, Vector3};
+
 use crate::{Error, Result};
 
-type Matrix = [[f64; 3]; 3];
+/// Rows of three numbers.
+type Rows = [[f64; 3]; 3];
 
 /// White balance, then a matrix to linear sRGB.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Development {
     white_balance_gains: [f64; 3],
-    camera_to_linear_srgb: Matrix,
-    linear_srgb_to_balanced: Matrix,
+    camera_to_linear_srgb: Rows,
+    linear_srgb_to_balanced: Matrix3<f64>,
 }
 
 /// A matrix whose determinant is this small a part of the product of its rows' lengths loses the colours.
@@ -34,7 +37,7 @@ impl Development {
     /// assert!(Development::new([2.0, 1.0, 1.0], [[1.0; 3]; 3]).is_err());
     /// # Ok::<(), vfold::Error>(())
     /// ```
-    pub fn new(white_balance_gains: [f64; 3], camera_to_linear_srgb: Matrix) -> Result<Self> {
+    pub fn new(white_balance_gains: [f64; 3], camera_to_linear_srgb: Rows) -> Result<Self> {
         if let Some(gain) = white_balance_gains.iter().find(|gain| !(**gain > 0.0 && gain.is_finite())) {
             return Err(Error::Numeric(format!("the white balance gain {gain} is not a number above 0")));
         }
@@ -47,11 +50,12 @@ impl Development {
     #[must_use]
     #[inline]
     pub fn camera_rgb(&self, linear_srgb: [f64; 3]) -> Option<[f64; 3]> {
-        let [r, g, b] = linear_srgb;
-        let balanced = self.linear_srgb_to_balanced.map(|row| row[0] * r + row[1] * g + row[2] * b);
-        let [gain_r, gain_g, gain_b] = self.white_balance_gains;
-        let [r, g, b] = balanced;
-        (r < 1.0 && g < 1.0 && b < 1.0).then_some([r / gain_r, g / gain_g, b / gain_b])
+        let balanced = self.linear_srgb_to_balanced * Vector3::from(linear_srgb);
+        let gains = self.white_balance_gains;
+        balanced
+            .iter()
+            .all(|balanced| *balanced < 1.0)
+            .then(|| [0, 1, 2].map(|channel| balanced[channel] / gains[channel]))
     }
 
     /// The factors of camera red, green and blue.
@@ -62,33 +66,23 @@ impl Development {
 
     /// The matrix from balanced camera RGB to linear sRGB.
     #[must_use]
-    pub fn camera_to_linear_srgb(&self) -> Matrix {
+    pub fn camera_to_linear_srgb(&self) -> Rows {
         self.camera_to_linear_srgb
     }
 }
 
-fn inverse(matrix: &Matrix) -> Option<Matrix> {
-    let [a, b, c] = *matrix;
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = dot(a, columns[0]);
-    let size = [a, b, c].map(|row| dot(row, row).sqrt()).iter().product::<f64>();
-    (determinant.abs() > SINGULAR * size && determinant.is_finite())
-        .then(|| [0, 1, 2].map(|row| columns.map(|column| column[row] / determinant)))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+fn inverse(rows: &Rows) -> Option<Matrix3<f64>> {
+    let matrix = Matrix3::from(*rows).transpose();
+    let determinant = matrix.determinant();
+    let size = matrix.row_iter().map(|row| row.norm()).product::<f64>();
+    (determinant.abs() > SINGULAR * size && determinant.is_finite()).then(|| matrix.try_inverse())?
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const MATRIX: Matrix = [[1.7, -0.6, -0.1], [-0.15, 1.65, -0.5], [0.05, -0.55, 1.5]];
+    const MATRIX: Rows = [[1.7, -0.6, -0.1], [-0.15, 1.65, -0.5], [0.05, -0.55, 1.5]];
 
     /// NumPy 2: `np.linalg.solve(M, [.2, .3, .4])/[2, 1, 1.5]`.
     #[test]

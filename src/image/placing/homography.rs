@@ -4,19 +4,19 @@
 //! that picture ([`super::distortion`]).
 //! Closed form: P. Heckbert, *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::distortion::Lens;
 use super::point::{Point, cross};
 use crate::{Error, Result};
-
-type Matrix = [[f64; 3]; 3];
 
 /// The map between a panel, (u, v) in the unit square, and the picture: projective, then bent by the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homography {
     corners: [Point; 4],
     lens: Lens,
-    to_image: Matrix,
-    to_panel: Matrix,
+    to_image: Matrix3<f64>,
+    to_panel: Matrix3<f64>,
     /// Size of the determinant of `to_panel`.
     to_panel_scale: f64,
 }
@@ -60,15 +60,16 @@ impl Homography {
         let ideal = corners.map(|corner| lens.undistort(corner));
         check_quadrilateral(&ideal)?;
         let to_image = square_to_quadrilateral(&ideal);
-        let to_panel = inverse(&to_image);
-        Ok(Self { corners, lens, to_image, to_panel, to_panel_scale: determinant(&to_panel).abs() })
+        let lie_on_a_line = || bad_corners("the corners lie on a line".to_owned());
+        let to_panel = to_image.try_inverse().ok_or_else(lie_on_a_line)?;
+        Ok(Self { corners, lens, to_image, to_panel, to_panel_scale: to_panel.determinant().abs() })
     }
 
     /// The picture's point, px, of the panel's point (u, v).
     #[must_use]
     pub fn to_image(&self, u: f64, v: f64) -> Point {
-        let [x, y, scale] = multiply(&self.to_image, [u, v, 1.0]);
-        self.lens.distort(Point::new(x / scale, y / scale))
+        let seen = self.to_image * Vector3::new(u, v, 1.0);
+        self.lens.distort(Point::new(seen.x / seen.z, seen.y / seen.z))
     }
 
     /// The panel's point (u, v) of a point of the picture.
@@ -106,42 +107,25 @@ impl Homography {
     /// The panel's point (u, v) and the panel's area in a pixel there, the inverse of the Jacobian's size.
     pub(in crate::image) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
         let (ideal, ideal_area) = self.lens.undistort_with_area(p);
-        let [u, v, scale] = multiply(&self.to_panel, [ideal.x, ideal.y, 1.0]);
-        let inverse_scale = 1.0 / scale;
+        let place = self.to_panel * Vector3::new(ideal.x, ideal.y, 1.0);
+        let inverse_scale = 1.0 / place.z;
         let area = ideal_area * self.to_panel_scale * inverse_scale * inverse_scale * inverse_scale;
-        (u * inverse_scale, v * inverse_scale, area)
+        (place.x * inverse_scale, place.y * inverse_scale, area)
     }
 }
 
-fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix {
+#[rustfmt::skip] // a matrix has rows
+fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix3<f64> {
     let (ax, ay) = (p1.x - p2.x, p1.y - p2.y);
     let (bx, by) = (p3.x - p2.x, p3.y - p2.y);
     let (cx, cy) = (p0.x - p1.x + p2.x - p3.x, p0.y - p1.y + p2.y - p3.y);
     let det = ax * by - bx * ay;
     let (g, h) = ((cx * by - bx * cy) / det, (ax * cy - cx * ay) / det);
-    [
-        [p1.x - p0.x + g * p1.x, p3.x - p0.x + h * p3.x, p0.x],
-        [p1.y - p0.y + g * p1.y, p3.y - p0.y + h * p3.y, p0.y],
-        [g, h, 1.0],
-    ]
-}
-
-fn multiply(m: &Matrix, p: [f64; 3]) -> [f64; 3] {
-    m.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2])
-}
-
-fn cofactor(m: &Matrix, row: usize, col: usize) -> f64 {
-    let (r1, r2, c1, c2) = ((row + 1) % 3, (row + 2) % 3, (col + 1) % 3, (col + 2) % 3);
-    m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]
-}
-
-fn determinant(m: &Matrix) -> f64 {
-    (0..3).map(|col| m[0][col] * cofactor(m, 0, col)).sum()
-}
-
-fn inverse(m: &Matrix) -> Matrix {
-    let det = determinant(m);
-    std::array::from_fn(|i| std::array::from_fn(|j| cofactor(m, j, i) / det))
+    Matrix3::new(
+        p1.x - p0.x + g * p1.x, p3.x - p0.x + h * p3.x, p0.x,
+        p1.y - p0.y + g * p1.y, p3.y - p0.y + h * p3.y, p0.y,
+        g, h, 1.0,
+    )
 }
 
 /// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a line.
