@@ -16,7 +16,7 @@ use crate::image::numbers::{Development, Scale};
 pub(in crate::image) struct Interleaved {
     samples: Samples,
     layout: Layout,
-    /// Samples a pixel.
+    /// Samples per pixel.
     stride: usize,
     /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
     colours: [usize; 3],

@@ -22,7 +22,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use self::pixels::{PixelLayer, Pixels};
+use self::pixels::Pixels;
 use self::sites::Sites;
 use crate::{Error, Result};
 
@@ -76,7 +76,7 @@ impl Photograph {
     ///
     /// # Arguments
     /// - `width`, `height`: px, at least 1.
-    /// - `light`: row by row from the top, one number a pixel or three, infinite where it is clipped.
+    /// - `light`: row by row from the top, one number per pixel or three, infinite where it is clipped.
     ///
     /// # Errors
     /// [`Error::Numeric`] if there are not as many numbers.
@@ -100,7 +100,7 @@ impl Photograph {
         })
     }
 
-    /// From linear light as stored, 1 or 3 numbers a pixel of the picture.
+    /// From linear light as stored, 1 or 3 numbers per pixel of the picture.
     pub(in crate::image) fn from_stored_light(
         light: Vec<f32>,
         channels: usize,
@@ -131,7 +131,7 @@ impl Photograph {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn into_flat_field(self, path: &Path) -> Result<FlatField> {
-        FlatField::new(self.pixels, (self.info.width, self.info.height), path)
+        FlatField::new(self, path)
     }
 
     /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
@@ -181,7 +181,11 @@ impl Photograph {
 
     /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
     pub(in crate::image) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
-        self.pixels.layers().map(|pixels| Layer { photograph: self, pixels })
+        let colours = match self.pixels {
+            Pixels::Interleaved(_) => 0..1,
+            Pixels::Sites(_) => 0..3,
+        };
+        colours.map(|colour| Layer { photograph: self, colour })
     }
 }
 
@@ -189,7 +193,8 @@ impl Photograph {
 #[derive(Clone, Copy)]
 pub(in crate::image) struct Layer<'a> {
     photograph: &'a Photograph,
-    pixels: PixelLayer<'a>,
+    /// Of a mosaic, which colour's sites are shown.
+    colour: usize,
 }
 
 impl Layer<'_> {
@@ -200,17 +205,45 @@ impl Layer<'_> {
 
     /// Colours that its pixels have of their own.
     pub fn channels(self) -> usize {
-        self.pixels.channels()
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.channels(),
+            Pixels::Sites(_) => 1,
+        }
+    }
+
+    /// Which of the three numbers of a pixel are its own; a grey pixel has all three, equal.
+    fn numbers(self) -> Range<usize> {
+        match self.photograph.pixels {
+            Pixels::Interleaved(_) => 0..3,
+            Pixels::Sites(_) => self.colour..self.colour + 1,
+        }
     }
 
     /// Shows its pixels in `columns` of row `y` one after another, with their columns.
     #[inline]
     pub fn visit(self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
         match &self.photograph.flat_field {
-            None => self.pixels.visit(columns, y, visitor),
-            Some(flat) => self.pixels.visit(columns, y, |x, pixel| {
-                visitor(x, self.pixels.of_own_colour(flat.divide(x, y, pixel)));
+            None => self.visit_stored(columns, y, visitor),
+            Some(flat) => self.visit_stored(columns, y, |x, pixel| {
+                visitor(x, self.of_own_colour(flat.divide(x, y, pixel)));
             }),
+        }
+    }
+
+    /// The same as the light was stored.
+    #[inline]
+    fn visit_stored(self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.visit(columns, y, visitor),
+            Pixels::Sites(sites) => sites.visit(self.colour, columns, y, visitor),
+        }
+    }
+
+    /// A site has its own colour's light in place of all three.
+    fn of_own_colour(self, pixel: Pixel) -> Pixel {
+        match (&self.photograph.pixels, pixel) {
+            (Pixels::Sites(_), Pixel::Light(light)) => Pixel::Light([light[self.colour]; 3]),
+            (_, other) => other,
         }
     }
 }
