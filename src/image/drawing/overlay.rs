@@ -26,7 +26,7 @@ const FIRST_CORNER_PX: f64 = 11.0;
 /// Height of a number, px.
 const DIGIT_PX: f64 = 36.0;
 
-/// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px a side.
+/// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px per side.
 ///
 /// Grids are blue, orange, green and yellow in turn; panels carry their numbers, and a square marks the first corner of each.
 /// Pixels that were left out are red.

@@ -47,7 +47,7 @@ impl Canvas {
     }
 }
 
-/// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px a side, its brightest parts white.
+/// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts white.
 ///
 /// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the photograph's pixels.
 ///

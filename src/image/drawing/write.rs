@@ -13,7 +13,7 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
 ///
 /// # Arguments
-/// - `rgb`: row by row from the top, three numbers a pixel; integer formats store `round(65535 * value)`, clipped to
+/// - `rgb`: row by row from the top, three numbers per pixel; integer formats store `round(65535 * value)`, clipped to
 ///   [0, 1].
 ///
 /// # Errors

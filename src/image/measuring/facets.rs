@@ -51,7 +51,7 @@ pub fn measure(photograph: &Photograph, panels: &[Grid], margin_px: f64) -> Resu
         return Err(is_outside(outside, size));
     }
     let facets: Vec<Facet> = panels.iter().flat_map(Grid::facets).collect();
-    // one task a facet: each is summed in one order whatever the threads
+    // one task per facet: each is summed in one order, however many threads there are
     Ok(facets.par_iter().map(|facet| facet.measure(photograph, margin_px)).collect())
 }
 

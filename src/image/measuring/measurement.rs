@@ -60,7 +60,7 @@ impl FacetMeasurement {
         self
     }
 
-    /// Both measurements as one; a number that one of them lacks is none.
+    /// Both measurements as one; where either lacks a number, so does the result.
     pub(super) fn with_channels(self, others: Self) -> Self {
         let joined = |own: Option<Vec<f64>>, others: Option<Vec<f64>>| Some([own?, others?].concat());
         Self {

@@ -1,6 +1,6 @@
 //! Pixels that do not show the sheet: dust, specks, a hair.
 //!
-//! What lies far from the plane through a facet's other pixels is left out, and the plane fitted anew until nothing changes.
+//! What lies far from the plane through a facet's other pixels is left out, and the plane refitted until nothing changes.
 //! On clean Gaussian noise that leaves out one pixel in two million and costs less than 0.1 % of the standard error, on 5 x 5
 //! pixels too. A weighted fit such as Huber's (1.026 at its usual tuning) would still give every speck a say.
 
@@ -23,7 +23,7 @@ pub(super) struct Placed {
 const REACH: f64 = 5.0;
 /// Fewer runs do not tell what is usual.
 const FEW: usize = 20;
-/// The spread is told by about this many runs: its error, a few percent, moves the reach by as little.
+/// The spread is taken from about this many runs: its error, a few percent, moves the reach by as little.
 const SPREAD_RUNS: usize = 500;
 /// Three quarters of normally distributed numbers lie within this many standard deviations.
 const THREE_QUARTERS: f64 = 1.150_349_380_376_008;

@@ -60,13 +60,13 @@ impl Run {
         self.pixels as f64
     }
 
-    /// The mean of their light in one channel; not a number if there are none.
+    /// The mean of their light in one channel; NaN without pixels.
     #[inline]
     pub fn mean(&self, channel: usize) -> f64 {
         self.light[channel].0 / self.pixels()
     }
 
-    /// Where their middle is, px; not a number if there are none.
+    /// Where their middle is, px; NaN without pixels.
     pub fn x(&self) -> f64 {
         self.columns as f64 / self.pixels() + 0.5
     }

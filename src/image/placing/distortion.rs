@@ -75,7 +75,7 @@ impl Lens {
         self.at(x * scale, y * scale)
     }
 
-    /// The point of the ideal picture that is seen here; not a number if there is none.
+    /// The point of the ideal picture that is seen here; NaN if there is none.
     #[must_use]
     pub fn undistort(&self, seen: Point) -> Point {
         self.undistort_with_area(seen).0

@@ -15,7 +15,7 @@ impl Photograph {
     /// feature `raw` also a camera's RAW file.
     ///
     /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
-    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB decoded and 65536 px a side.
+    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too

@@ -43,7 +43,7 @@ struct Decoded {
     is_dng: bool,
 }
 
-/// Decodes a file. The decoders stop at some damaged files with a panic: that is told like their other errors.
+/// Decodes a file. The decoders stop at some damaged files with a panic, which is reported like their other errors.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
     let failed = |message: &str| Error::picture(path, one_line(message), DAMAGED);
     if let Some(fault) = tiff_directories::fault(&bytes) {

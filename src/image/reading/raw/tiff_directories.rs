@@ -1,7 +1,7 @@
 //! The directories of TIFF files, with which most RAW files begin: whether a decoder can read them.
 //!
-//! A decoder makes room for what an entry claims before it looks for it, and who asks for more memory than there is gets no error to
-//! catch: the program ends. Nor does one end that follows directories in a circle.
+//! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than there is gives no error to
+//! catch: the program ends. A decoder that follows directories in a circle never ends.
 
 /// Entries that lead to further directories: `SubIFDs`, EXIF and GPS.
 const POINTERS: [u16; 3] = [330, 34665, 34853];
