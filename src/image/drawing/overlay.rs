@@ -141,10 +141,11 @@ impl Canvas {
     /// Paints a quadrilateral; pixels on its sides by the part that it covers.
     fn fill(&mut self, corners: &[Point; 4], colour: [f64; 3], opacity: f64) {
         let quadrilateral = Quadrilateral::new(corners);
-        for y in quadrilateral.rows(self.height) {
-            for x in quadrilateral.touched_columns(y, self.width) {
+        let (height, width) = self.rgb.dim();
+        for y in quadrilateral.rows(height) {
+            for x in quadrilateral.touched_columns(y, width) {
                 let share = opacity * quadrilateral.overlap(x, y);
-                let pixel = &mut self.rgb[y * self.width + x];
+                let pixel = &mut self.rgb[[y, x]];
                 pixel.iter_mut().zip(colour).for_each(|(old, new)| *old += share * (new - *old));
             }
         }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use ndarray::Array2;
+
 use super::write::write_srgb_png_with_text;
 use crate::Result;
 use crate::colorimetry::encode_srgb;
@@ -17,12 +19,10 @@ const SIZE_KEYWORD: &str = "vfold photograph size";
 /// A picture to look at and draw on.
 #[derive(Debug, Clone)]
 pub(super) struct Canvas {
-    pub width: usize,
-    pub height: usize,
     /// Its pixels for one of the photograph.
     pub scale: f64,
-    /// Encoded for display, in [0, 1].
-    pub rgb: Vec<[f64; 3]>,
+    /// By row and column, encoded for display, in [0, 1].
+    pub rgb: Array2<[f64; 3]>,
     /// Width and height of the photograph, px.
     photographed: [usize; 2],
 }
@@ -32,18 +32,19 @@ impl Canvas {
     pub fn new(photograph: &Photograph, scale: f64) -> Self {
         let photographed = [photograph.width(), photograph.height()];
         let [width, height] = photographed.map(|side| ((side as f64 * scale).round() as usize).max(1));
-        let light: Vec<[f64; 3]> = (0..width * height)
-            .map(|k| mean_light(photograph, [k % width, k / width], [width, height]))
-            .collect();
+        let light = |(y, x)| mean_light(photograph, [x, y], [width, height]);
+        let light = Array2::from_shape_fn((height, width), light);
         let white = white(&light);
-        let rgb = light.into_iter().map(|rgb| rgb.map(|y| encode_srgb(y / white))).collect();
-        Self { width, height, scale, rgb, photographed }
+        let rgb = light.mapv_into(|rgb| rgb.map(|y| encode_srgb(y / white)));
+        Self { scale, rgb, photographed }
     }
 
     /// Writes it as PNG that tells the photograph's size.
     pub fn write(&self, path: &Path) -> Result<()> {
         let size = self.photographed.map(|side| side.to_string()).join("x");
-        write_srgb_png_with_text(path, [self.width, self.height], &self.rgb.concat(), [SIZE_KEYWORD, &size])
+        let (height, width) = self.rgb.dim();
+        let rgb: Vec<f64> = self.rgb.iter().flatten().copied().collect();
+        write_srgb_png_with_text(path, [width, height], &rgb, [SIZE_KEYWORD, &size])
     }
 }
 
@@ -91,7 +92,7 @@ fn mean_light(photograph: &Photograph, at: [usize; 2], size: [usize; 2]) -> [f64
 }
 
 /// The light to be shown as white.
-fn white(light: &[[f64; 3]]) -> f64 {
+fn white(light: &Array2<[f64; 3]>) -> f64 {
     let mut strongest: Vec<f64> = light.iter().map(|rgb| rgb[0].max(rgb[1]).max(rgb[2])).collect();
     let darker = ((strongest.len() as f64 * DARKER_THAN_WHITE) as usize).min(strongest.len() - 1);
     let (_, white, _) = strongest.select_nth_unstable_by(darker, f64::total_cmp);

@@ -7,6 +7,7 @@
 //! The light itself varies too, and smoothly. Nine blocks with the weights (1, -2, 1) along both directions cancel it:
 //! every sum of a function of x and one of y, and the product of two linear ones.
 
+use ndarray::Array2;
 use rayon::prelude::*;
 
 use crate::image::photograph::{Photograph, Pixel};
@@ -110,7 +111,7 @@ impl Contrast {
     /// The square of the contrast of the blocks' sums over the sum of the squared contrasts of their pixels; none if a pixel
     /// is not usable or there is no noise.
     fn ratio(self, photograph: &Photograph) -> Option<[f64; 3]> {
-        let mut contrasts = vec![[0.0; 3]; self.block * self.block];
+        let mut contrasts = Array2::from_elem((self.block, self.block), [0.0; 3]);
         for (y_weight, row) in WEIGHTS.iter().zip(0..) {
             for (x_weight, column) in WEIGHTS.iter().zip(0..) {
                 let (x, y) = (self.x + column * SPACING * self.block, self.y + row * SPACING * self.block);
@@ -132,11 +133,11 @@ impl Contrast {
         photograph: &Photograph,
         (x, y): (usize, usize),
         weight: f64,
-        contrasts: &mut [[f64; 3]],
+        contrasts: &mut Array2<[f64; 3]>,
     ) -> Option<()> {
         let layer = photograph.layers().next()?;
         let mut usable = true;
-        for (row, contrasts) in contrasts.chunks_mut(self.block).enumerate() {
+        for (row, mut contrasts) in contrasts.outer_iter_mut().enumerate() {
             layer.visit(x..x + self.block, y + row, |column, pixel| match pixel {
                 Pixel::Light(light) => {
                     let contrast = &mut contrasts[column - x];

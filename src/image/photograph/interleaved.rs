@@ -6,8 +6,9 @@
 use std::ops::Range;
 
 use image::DynamicImage;
+use ndarray::{Array3, ShapeError};
 
-use super::orientation::Layout;
+use super::orientation::Orientation;
 use super::pixel::Pixel;
 use crate::image::numbers::{Development, Scale};
 
@@ -15,9 +16,6 @@ use crate::image::numbers::{Development, Scale};
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Interleaved {
     samples: Samples,
-    layout: Layout,
-    /// Samples per pixel.
-    stride: usize,
     /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
     colours: [usize; 3],
     alpha: Option<usize>,
@@ -27,46 +25,45 @@ pub(in crate::image) struct Interleaved {
     development: Option<Development>,
 }
 
-/// Samples, row by row.
+/// Samples of the upright picture, by row, column and place in the pixel.
 #[derive(Debug, Clone)]
 enum Samples {
-    U8(Vec<u8>),
-    U16(Vec<u16>),
-    F32(Vec<f32>),
+    U8(Array3<u8>),
+    U16(Array3<u16>),
+    F32(Array3<f32>),
     /// Linear light already, infinite where it is clipped.
-    Light(Vec<f32>),
+    Light(Array3<f32>),
 }
 
 impl Interleaved {
-    /// The pixels of a decoded picture, and what was done to them that is to be undone.
+    /// The pixels of a decoded picture, stored in this orientation, and what was done to them that is to be undone.
+    ///
+    /// # Errors
+    /// If the decoder gave more or fewer samples than the picture has.
     pub fn from_picture(
         picture: DynamicImage,
-        layout: Layout,
+        orientation: Orientation,
         scale: Scale,
         development: Option<Development>,
-    ) -> Self {
+    ) -> Result<Self, ShapeError> {
         let color = picture.color();
-        let stride = usize::from(color.channel_count());
-        let channels = stride - usize::from(color.has_alpha());
-        Self {
+        let channels = usize::from(color.channel_count()) - usize::from(color.has_alpha());
+        Ok(Self {
             table: scale.table(),
-            samples: Samples::from(picture),
-            layout,
-            stride,
-            colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
+            samples: Samples::new(picture, orientation)?,
+            colours: colours(channels),
             alpha: color.has_alpha().then_some(channels),
             scale,
             development,
-        }
+        })
     }
 
-    /// Pixels of `channels` numbers each that are linear light already, infinite where it is clipped.
-    pub fn from_light(light: Vec<f32>, layout: Layout, channels: usize) -> Self {
+    /// Pixels that are linear light already, by row, column and channel of the upright picture, infinite where it is clipped.
+    pub fn from_light(light: Array3<f32>) -> Self {
+        let (_, _, channels) = light.dim();
         Self {
             samples: Samples::Light(light),
-            layout,
-            stride: channels,
-            colours: [0, 1, 2].map(|channel| channel.min(channels - 1)),
+            colours: colours(channels),
             alpha: None,
             scale: Scale::LINEAR,
             table: Vec::new(),
@@ -76,7 +73,8 @@ impl Interleaved {
 
     /// Colours of a pixel, 1 or 3.
     pub fn channels(&self) -> usize {
-        self.stride - usize::from(self.alpha.is_some())
+        let [red, _, blue] = self.colours;
+        blue - red + 1
     }
 
     /// Shows the pixels in `columns` of row `y` one after another, with their columns.
@@ -105,35 +103,46 @@ impl Interleaved {
     #[inline]
     fn visit_stored<T: Copy + Into<f64>>(
         &self,
-        stored: &[T],
+        stored: &Array3<T>,
         linear: impl Fn(T) -> f64,
         columns: Range<usize>,
         y: usize,
         mut visitor: impl FnMut(usize, Pixel),
     ) {
         for x in columns {
-            let first = self.layout.stored(x, y) * self.stride;
-            let channel = |k: usize| linear(stored[first + self.colours[k]]);
-            let light = [channel(0), channel(1), channel(2)];
-            let transparent = self.alpha.is_some_and(|offset| stored[first + offset].into() <= 0.0);
+            let light = self.colours.map(|channel| linear(stored[[y, x, channel]]));
+            let transparent = self.alpha.is_some_and(|alpha| stored[[y, x, alpha]].into() <= 0.0);
             visitor(x, Pixel::new(light, transparent));
         }
     }
 }
 
-impl From<DynamicImage> for Samples {
-    fn from(picture: DynamicImage) -> Self {
+/// Where red, green and blue are in a pixel of so many channels.
+fn colours(channels: usize) -> [usize; 3] {
+    [0, 1, 2].map(|channel| channel.min(channels - 1))
+}
+
+impl Samples {
+    fn new(picture: DynamicImage, orientation: Orientation) -> Result<Self, ShapeError> {
+        let per_pixel = usize::from(picture.color().channel_count());
+        let shape = (picture.height() as usize, picture.width() as usize, per_pixel);
+        let u8s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U8(orientation.upright(all)));
+        let u16s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U16(orientation.upright(all)));
+        let f32s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::F32(orientation.upright(all)));
         match picture {
-            DynamicImage::ImageLuma8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageLumaA8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageRgb8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageRgba8(buffer) => Self::U8(buffer.into_raw()),
-            DynamicImage::ImageLuma16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageLumaA16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgb16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgba16(buffer) => Self::U16(buffer.into_raw()),
-            DynamicImage::ImageRgba32F(buffer) => Self::F32(buffer.into_raw()),
-            other => Self::F32(other.into_rgb32f().into_raw()),
+            DynamicImage::ImageLuma8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageLumaA8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageRgb8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageRgba8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageLuma16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageLumaA16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgb16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgba16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgba32F(buffer) => f32s(buffer.into_raw()),
+            other => f32s(other.into_rgb32f().into_raw()),
         }
     }
 }

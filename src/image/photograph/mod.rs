@@ -22,6 +22,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use ndarray::{Array2, Array3};
+
 use self::pixels::Pixels;
 use self::sites::Sites;
 use crate::{Error, Result};
@@ -57,18 +59,19 @@ impl Photograph {
     /// ```
     pub fn from_mosaic(mosaic: Mosaic, width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
         let info = PhotographInfo::new(CameraNotes::default(), (width, height), "mosaic, float".to_owned());
-        Self::from_sites(light, &mosaic, info).ok_or_else(|| {
+        let light = Array2::from_shape_vec((height, width), light).ok();
+        light.and_then(|light| Self::from_sites(light, &mosaic, info)).ok_or_else(|| {
             Error::Numeric(format!("not as many numbers as a mosaic of {width} x {height} px has"))
         })
     }
 
-    /// From the light of a sensor's sites as stored; none if it is not as many as the picture has pixels.
+    /// From the light of a sensor's sites by row and column as stored; none if there are less than 3 x 3.
     pub(in crate::image) fn from_sites(
-        light: Vec<f32>,
+        light: Array2<f32>,
         mosaic: &Mosaic,
         info: PhotographInfo,
     ) -> Option<Self> {
-        let sites = Sites::new(light, mosaic, info.camera.orientation, (info.width, info.height))?;
+        let sites = Sites::new(light, mosaic, info.camera.orientation)?;
         Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
     }
 
@@ -90,25 +93,21 @@ impl Photograph {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn from_light(width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
-        let pixels = width.checked_mul(height).filter(|pixels| *pixels > 0);
-        let channels = [1, 3]
-            .into_iter()
-            .find(|channels| pixels.and_then(|n| n.checked_mul(*channels)) == Some(light.len()));
+        let channels = if width.checked_mul(height) == Some(light.len()) { 1 } else { 3 };
         let info = PhotographInfo::new(CameraNotes::default(), (width, height), "linear, float".to_owned());
-        channels.map(|channels| Self::from_stored_light(light, channels, info)).ok_or_else(|| {
-            Error::Numeric(format!("not one number or three for each of {width} x {height} px"))
-        })
+        match Array3::from_shape_vec((height, width, channels), light) {
+            Ok(light) if !light.is_empty() => Ok(Self::from_stored_light(light, info)),
+            _ => {
+                let problem = format!("not one number or three for each of {width} x {height} px");
+                Err(Error::Numeric(problem))
+            }
+        }
     }
 
-    /// From linear light as stored, 1 or 3 numbers per pixel of the picture.
-    pub(in crate::image) fn from_stored_light(
-        light: Vec<f32>,
-        channels: usize,
-        info: PhotographInfo,
-    ) -> Self {
-        let layout =
-            info.camera.orientation.layout(info.camera.orientation.upright_size((info.width, info.height)));
-        Self::from_interleaved(Interleaved::from_light(light, layout, channels), info)
+    /// From linear light by row, column and channel as stored, of 1 or 3 channels.
+    pub(in crate::image) fn from_stored_light(light: Array3<f32>, info: PhotographInfo) -> Self {
+        let upright = info.camera.orientation.upright(light);
+        Self::from_interleaved(Interleaved::from_light(upright), info)
     }
 
     /// From pixels with their colours side by side.

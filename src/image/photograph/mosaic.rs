@@ -1,13 +1,14 @@
 //! Which colour each site of a sensor sees.
 
+use ndarray::Array2;
+
 use super::orientation::Orientation;
 
 /// The colour filters before a sensor's sites: a square of them, repeated over the picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mosaic {
-    side: usize,
-    /// 0, 1 or 2 for red, green or blue, row by row.
-    colours: Vec<usize>,
+    /// 0, 1 or 2 for red, green or blue, by row and column; as many of the one as of the other.
+    square: Array2<usize>,
 }
 
 const LETTERS: &str = "RGB";
@@ -27,48 +28,42 @@ impl Mosaic {
         let colours: Vec<_> = letters.chars().map(|letter| LETTERS.find(letter)).collect::<Option<_>>()?;
         let side = colours.len().isqrt();
         let has_all = (0..LETTERS.len()).all(|colour| colours.contains(&colour));
-        (side * side == colours.len() && has_all).then_some(Self { side, colours })
+        let square = Array2::from_shape_vec((side, side), colours).ok()?;
+        has_all.then_some(Self { square })
     }
 
     /// The colour of the site in column `x` and row `y`: 0, 1 or 2 for red, green or blue.
     #[must_use]
     #[inline]
     pub fn colour(&self, x: usize, y: usize) -> usize {
-        self.colours[y % self.side * self.side + x % self.side]
+        self.square[[y % self.side(), x % self.side()]]
     }
 
     /// Width and height of its square, sites.
     #[must_use]
     pub fn side(&self) -> usize {
-        self.side
+        self.square.nrows()
     }
 
     /// Its letters, row by row.
     #[must_use]
     pub fn letters(&self) -> String {
-        self.colours.iter().map(|&colour| &LETTERS[colour..=colour]).collect()
+        self.square.iter().map(|&colour| &LETTERS[colour..=colour]).collect()
     }
 
     /// The mosaic that begins `x` columns and `y` rows later.
     #[must_use]
     pub fn starting_at(&self, x: usize, y: usize) -> Self {
-        self.mapped(|column, row| self.colour(column + x, row + y))
+        let colour = |(row, column)| self.colour(column + x, row + y);
+        Self { square: Array2::from_shape_fn(self.square.dim(), colour) }
     }
 
     /// The mosaic of the upright picture, for one stored in this size and orientation.
-    pub(super) fn upright(&self, orientation: Orientation, stored_size: (usize, usize)) -> Self {
-        // whole squares added to the size leave room to look backwards in small pictures, and the colours where they are
-        let (width, height) = (stored_size.0 + self.side * self.side, stored_size.1 + self.side * self.side);
-        let layout = orientation.layout((width, height));
-        self.mapped(|x, y| {
-            let stored = layout.stored(x, y);
-            self.colour(stored % width, stored / width)
-        })
-    }
-
-    fn mapped(&self, colour: impl Fn(usize, usize) -> usize) -> Self {
-        let colours = (0..self.colours.len()).map(|k| colour(k % self.side, k / self.side)).collect();
-        Self { side: self.side, colours }
+    pub(super) fn upright(&self, orientation: Orientation, (width, height): (usize, usize)) -> Self {
+        // looking back from the last column, the colours are those of the square that would follow it, mirrored
+        let x = if orientation.mirrors_columns() { width } else { 0 };
+        let y = if orientation.mirrors_rows() { height } else { 0 };
+        Self { square: orientation.upright(self.starting_at(x, y).square) }
     }
 }
 

@@ -1,4 +1,6 @@
-//! How a camera was held: the eight orientations of EXIF, as a map of pixel indices.
+//! How a camera was held: the eight orientations of EXIF, as axes of an array turned round.
+
+use ndarray::{Array, Axis, Dimension};
 
 /// The orientation of a stored picture, 1 to 8 (EXIF 2.32, tag 274).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,41 +36,36 @@ impl Orientation {
     }
 
     /// Width and height of the upright picture.
-    pub(in crate::image) fn upright_size(
-        self,
-        (stored_width, stored_height): (usize, usize),
-    ) -> (usize, usize) {
+    pub(super) fn upright_size(self, (stored_width, stored_height): (usize, usize)) -> (usize, usize) {
         if self.transposed() { (stored_height, stored_width) } else { (stored_width, stored_height) }
     }
 
-    /// Where the pixels of the upright picture are stored, row by row.
-    pub(in crate::image) fn layout(self, (stored_width, stored_height): (usize, usize)) -> Layout {
-        let mirrored_columns = matches!(self.0, 2 | 3 | 7 | 8);
-        let mirrored_rows = matches!(self.0, 3 | 4 | 6 | 7);
-        let column = if mirrored_columns { -1 } else { 1 };
-        let row = if mirrored_rows { -(stored_width as isize) } else { stored_width as isize };
-        let first_column = if mirrored_columns { stored_width - 1 } else { 0 };
-        let first_row = if mirrored_rows { stored_height - 1 } else { 0 };
-        let (x, y) = if self.transposed() { (row, column) } else { (column, row) };
-        Layout { first: (first_row * stored_width + first_column) as isize, x, y }
+    /// A stored picture as it is to be seen, without a pixel moved in memory: its first axis is the rows, its second the columns.
+    pub(super) fn upright<T, D: Dimension>(self, mut stored: Array<T, D>) -> Array<T, D> {
+        let (rows, columns) = (Axis(0), Axis(1));
+        if self.mirrors_rows() {
+            stored.invert_axis(rows);
+        }
+        if self.mirrors_columns() {
+            stored.invert_axis(columns);
+        }
+        if self.transposed() {
+            stored.swap_axes(rows.index(), columns.index());
+        }
+        stored
+    }
+
+    /// Whether the upright picture begins with the last stored column.
+    pub(super) fn mirrors_columns(self) -> bool {
+        matches!(self.0, 2 | 3 | 7 | 8)
+    }
+
+    /// Whether the upright picture begins with the last stored row.
+    pub(super) fn mirrors_rows(self) -> bool {
+        matches!(self.0, 3 | 4 | 6 | 7)
     }
 
     fn transposed(self) -> bool {
         self.0 >= 5
-    }
-}
-
-/// The pixel (x, y) of the upright picture is the stored pixel number `first` + x `x` + y `y`.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::image) struct Layout {
-    first: isize,
-    x: isize,
-    y: isize,
-}
-
-impl Layout {
-    /// Number of the stored pixel, for (x, y) in the picture.
-    pub fn stored(self, x: usize, y: usize) -> usize {
-        (self.first + x as isize * self.x + y as isize * self.y) as usize
     }
 }

@@ -6,41 +6,30 @@
 
 use std::ops::Range;
 
+use ndarray::Array2;
+
 use super::mosaic::Mosaic;
-use super::orientation::{Layout, Orientation};
+use super::orientation::Orientation;
 use super::pixel::Pixel;
 
 /// The sites of a sensor under a mosaic of colour filters.
 #[derive(Debug, Clone)]
 pub(super) struct Sites {
-    /// Linear light as stored, infinite where it is clipped.
-    light: Vec<f32>,
-    layout: Layout,
+    /// Linear light of the upright picture by row and column, infinite where it is clipped.
+    light: Array2<f32>,
     /// That of the upright picture.
     mosaic: Mosaic,
-    width: usize,
-    height: usize,
 }
 
 /// Width and height of the square in which every colour occurs, wherever it stands.
 const NEIGHBOURS: usize = 3;
 
 impl Sites {
-    /// The sites of a picture of this upright size, light and mosaic as stored; none if it is smaller than 3 x 3 or the
-    /// numbers do not fill it.
-    pub fn new(
-        light: Vec<f32>,
-        mosaic: &Mosaic,
-        orientation: Orientation,
-        (width, height): (usize, usize),
-    ) -> Option<Self> {
-        if width < NEIGHBOURS || height < NEIGHBOURS || width.checked_mul(height) != Some(light.len()) {
-            return None;
-        }
-        // turning is its own inverse in what it does to sizes
-        let stored_size = orientation.upright_size((width, height));
-        let (layout, mosaic) = (orientation.layout(stored_size), mosaic.upright(orientation, stored_size));
-        Some(Self { light, layout, mosaic, width, height })
+    /// The sites of a picture, light by row and column and mosaic as stored; none if it is smaller than 3 x 3.
+    pub fn new(light: Array2<f32>, mosaic: &Mosaic, orientation: Orientation) -> Option<Self> {
+        let (height, width) = light.dim();
+        let mosaic = mosaic.upright(orientation, (width, height));
+        (width.min(height) >= NEIGHBOURS).then(|| Self { light: orientation.upright(light), mosaic })
     }
 
     /// Shows the sites of one colour in `columns` of row `y`, with their columns.
@@ -63,9 +52,10 @@ impl Sites {
             let first = at.saturating_sub(NEIGHBOURS / 2).min(size - NEIGHBOURS);
             first..first + NEIGHBOURS
         };
+        let (height, width) = self.light.dim();
         let (mut sums, mut counts) = ([0.0; 3], [0.0; 3]);
-        for y in around(y, self.height) {
-            for x in around(x, self.width) {
+        for y in around(y, height) {
+            for x in around(x, width) {
                 let colour = self.mosaic.colour(x, y);
                 sums[colour] += self.site(x, y);
                 counts[colour] += 1.0;
@@ -75,6 +65,6 @@ impl Sites {
     }
 
     fn site(&self, x: usize, y: usize) -> f64 {
-        self.light[self.layout.stored(x, y)].into()
+        self.light[[y, x]].into()
     }
 }

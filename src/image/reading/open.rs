@@ -54,7 +54,7 @@ impl Photograph {
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
         let stored_size = (pixels.width() as usize, pixels.height() as usize);
-        let layout = camera.orientation.layout(stored_size);
+        let orientation = camera.orientation;
         let info = PhotographInfo {
             transfer_used: scale.transfer,
             black_level: vec![scale.black],
@@ -62,7 +62,8 @@ impl Photograph {
             undone: options.development,
             ..PhotographInfo::new(camera, stored_size, describe(format, bits, color.has_color()))
         };
-        let pixels = Interleaved::from_picture(pixels, layout, scale, options.development);
+        let pixels = Interleaved::from_picture(pixels, orientation, scale, options.development)
+            .map_err(|error| Error::Numeric(error.to_string()))?;
         Ok(Self::from_interleaved(pixels, info))
     }
 }

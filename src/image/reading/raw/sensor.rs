@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use ndarray::{Array3, Axis};
 use rawler::imgop::{Point, Rect};
 use rawler::rawimage::RawPhotometricInterpretation;
 use rawler::{RawImage, RawImageData};
@@ -65,21 +66,21 @@ impl Sensor {
         };
         let info = self.info(camera);
         match &self.mosaic {
-            None => Ok(Photograph::from_stored_light(light, self.image.cpp, info)),
-            Some(mosaic) => Photograph::from_sites(light, mosaic, info)
+            None => Ok(Photograph::from_stored_light(light, info)),
+            Some(mosaic) => Photograph::from_sites(light.remove_axis(Axis(2)), mosaic, info)
                 .ok_or_else(|| Error::picture(path, "the picture has less than 3 x 3 px", CONVERT)),
         }
     }
 
-    /// Linear light of the area, row by row, infinite where it is clipped.
-    fn light<T: Copy + Into<f64> + Sync>(&self, data: &[T]) -> Vec<f32> {
+    /// Linear light of the area by row, column and channel, infinite where it is clipped.
+    fn light<T: Copy + Into<f64> + Sync>(&self, data: &[T]) -> Array3<f32> {
         let (cpp, Rect { p: corner, d: size }) = (self.image.cpp, self.area);
-        let mut light = vec![0.0; size.w * size.h * cpp];
-        light.par_chunks_mut(size.w * cpp).enumerate().for_each(|(row, light)| {
+        let mut light = Array3::zeros((size.h, size.w, cpp));
+        light.outer_iter_mut().into_par_iter().enumerate().for_each(|(row, mut light)| {
             let y = corner.y + row;
             let stored = &data[(y * self.image.width + corner.x) * cpp..][..light.len()];
-            for (k, (light, stored)) in light.iter_mut().zip(stored).enumerate() {
-                *light = self.scale(corner.x + k / cpp, y, k % cpp).linear((*stored).into()) as f32;
+            for (((x, channel), light), stored) in light.indexed_iter_mut().zip(stored) {
+                *light = self.scale(corner.x + x, y, channel).linear((*stored).into()) as f32;
             }
         });
         light
