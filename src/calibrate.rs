@@ -1,6 +1,6 @@
 //! From patches of known colour in a photograph to its absolute values.
 //!
-//! Paper, section 5D: a polynomial of second degree a channel takes what a colour chart shows to what the scene's camera makes of
+//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the scene's camera makes of
 //! it. It holds the exposure, the colour of the light as far as it is not the scene's, stray light and a bent curve. A white card
 //! is a chart of one patch. Nothing here knows pixels: patches come as means.
 //!

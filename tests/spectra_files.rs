@@ -22,6 +22,25 @@ fn check(needed: &str, script: &str) {
     assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
 }
 
+/// The same table as programs write it in countries with a decimal point, with a decimal comma, and as it is copied from them.
+#[test]
+fn separators_and_decimal_marks_change_nothing() {
+    check(
+        "true",
+        r#"
+        printf 'nm,red,"a, b"\n380,0.05,0.2\n550.5,0.1,0.2\n780,0.7,0.2\n' > commas.csv
+        printf 'nm;red;a, b\r\n380;0,05;0,2\r\n550,5;0,1;0,2\r\n780;0,7;0,2\r\n' > semicolons.csv
+        printf 'nm\tred\ta, b\n380\t"0,05"\t0,2\n550,5\t0,1\t0,2\n780\t0,7\t0,2\n' > tabs.csv
+        vkernel --facets 1x1 -o scene.json
+        for table in commas semicolons tabs; do
+            vforward scene.json --reflectance $table.csv --save truth.reflectance=$table.npy -o $table.ndjson
+            grep -q "\"id\":\"$table:a, b\"" $table.ndjson
+        done
+        cmp commas.npy semicolons.npy
+        cmp commas.npy tabs.npy"#,
+    );
+}
+
 #[test]
 fn colour_science_reads_what_is_written() {
     check(
