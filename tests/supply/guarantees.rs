@@ -72,3 +72,12 @@ fn every_file_of_tests_is_part_of_a_test() {
         );
     }
 }
+
+/// Cargo is told not to look for any, which saves building every tool twice.
+#[test]
+fn tools_have_no_unit_tests() {
+    for file in sources(&path("src/bin")) {
+        let source = fs::read_to_string(&file).unwrap();
+        assert!(!source.contains("#[test]"), "{}: tests of tools go to tests/tools", file.display());
+    }
+}
