@@ -36,7 +36,7 @@ fn read_along(page: &str) -> Ended {
 fn pages() -> Vec<(PathBuf, String)> {
     let docs = fs::read_dir(Path::new(ROOT).join("docs")).unwrap().map(|entry| entry.unwrap().path());
     let pages = docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
-    let others = ["README.md", "docs/paper/README.md", "examples/cluster/README.md"]
+    let others = ["README.md", "CONTRIBUTING.md", "docs/paper/README.md", "examples/cluster/README.md"]
         .map(|name| Path::new(ROOT).join(name));
     pages.chain(others).map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
 }
