@@ -7,7 +7,7 @@
 //! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are off by a share of
 //! themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white. Here errors are relative, as
 //! large as the residuals say, and constant and curvature have priors: 2.5 %, and 0.5 % at 30 % of white
-//! (`tests/calibration.rs` measures both).
+//! (`tests/numbers/calibration.rs` measures both).
 
 mod curve;
 
