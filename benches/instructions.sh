@@ -5,13 +5,18 @@
 #   benches/instructions.sh           print them and how they changed: half a minute once built
 #   benches/instructions.sh --keep    count twice, and keep them if both counts agree within 0.5 %
 #
+# Tools in the folder TOOLS are counted as they are.
+#
 # They are those of the profile `counted`, a release without optimisation across crates: that would take longer than all the rest.
 # A change, however large, is the reader's to judge; what cannot be built or counted is an error.
 set -eu
 cd "$(dirname "$0")/.."
 kept=$PWD/benches/instructions.csv
-cargo build --quiet --profile counted --bins
-bin=$(cd "${CARGO_TARGET_DIR:-target}/counted" && pwd)
+if [ -z "${TOOLS:-}" ]; then
+    cargo build --quiet --profile counted --bins
+    TOOLS=${CARGO_TARGET_DIR:-target}/counted
+fi
+bin=$(cd "$TOOLS" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp tests/data/photos/a_ideal_magenta_50.exr "$work/photo.exr"

@@ -1,13 +1,13 @@
 //! From patches of known colour in a photograph to its absolute values.
 //!
-//! Paper, section 5D: a polynomial of second degree a channel takes what a colour chart shows to what the scene's camera makes of
+//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the scene's camera makes of
 //! it. It holds the exposure, the colour of the light as far as it is not the scene's, stray light and a bent curve. A white card
 //! is a chart of one patch. Nothing here knows pixels: patches come as means.
 //!
 //! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are off by a share of
 //! themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white. Here errors are relative, as
 //! large as the residuals say, and constant and curvature have priors: 2.5 %, and 0.5 % at 30 % of white
-//! (`tests/calibration.rs` measures both).
+//! (`tests/numbers/calibration.rs` measures both).
 
 mod curve;
 

@@ -17,8 +17,8 @@
 //! | eq. (10) | kernel matrix of the facets | [`kernel::fold_kernel::FoldKernel::matrix_row`] |
 //! | eq. (16) | radiance after all bounces | [`response::Response::solve`], [`response::SurfaceResponse::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
-//! | eq. (15), eq. (24) | facet RGB, a reflectance a facet | [`forward::nonuniform`] |
-//! | eq. (24) | the same, a reflectance a panel | [`forward::FacetModel::facet_rgb`] |
+//! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`forward::nonuniform`] |
+//! | eq. (24) | the same, one reflectance per panel | [`forward::FacetModel::facet_rgb`] |
 //! | eq. (24) | the same, known parts of a surface beside an unknown one | [`response::ReducedExchange::beside_known`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
@@ -26,18 +26,24 @@
 //! | - | the rivals of section 5C, on flat sheets | [`estimate::park`], [`estimate::khan`] |
 //! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
 //!
-//! Use runs one way:
+//! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
-//! bin -> report -> scene, stream, plot, score, image, files
-//! bin -> cli -> scene -> stream -> estimate -> forward -> response -> kernel -> geometry
-//!               stream -> plot, score, progress, files, calibrate, parallel
-//!                         estimate, forward, response -> solve
-//!                                     forward -> camera -> spectrum
-//!                                     forward -> image -> colorimetry, files
-//!               plot -> geometry, image, files
-//!               score, colorimetry -> spectrum -> files                 all -> error
+//! report               -> stream, score, plot, image, colorimetry, spectrum, files, markup
+//! cli                  -> stream, spectrum, progress, message
+//! stream               -> estimate, forward, kernel, response, solve, geometry, camera, spectrum, image, calibrate
+//! stream               -> score, plot, colorimetry, progress, parallel, files
+//! estimate             -> forward, solve
+//! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
+//! kernel               -> response, solve, geometry
+//! response             -> solve
+//! plot                 -> image, geometry, files, markup
+//! image                -> colorimetry, files
+//! camera, colorimetry  -> spectrum
+//! spectrum             -> files, markup
+//! progress             -> message
 //! ```
+//!
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of
 //! spectra included; other files of spectra to [`spectrum::formats`]; pixels to [`image`] alone, bounds and priors without optics to [`solve`].
 

@@ -1,11 +1,14 @@
 //! Distances between a true and an estimated reflectance spectrum.
 //!
 //! Paper section 5B: eq. (37) is [`rmse`], eq. (38) is [`pearson_distance`]. CIEDE2000, which needs an observer, is in
-//! [`crate::colorimetry`]. [`Summary`] has mean, median and worst of many samples, [`Worst`] keeps the worst of them.
+//! [`crate::colorimetry`]. [`METRICS`] has a row for each metric; [`Summary`] has mean, median and worst of many samples,
+//! [`Worst`] keeps the worst of them.
 
+mod metric;
 mod summary;
 mod worst;
 
+pub use metric::{METRICS, Measure, Metric, Worse};
 pub use summary::{Group, Score, Statistics, Summary};
 pub use worst::Worst;
 

@@ -1,5 +1,6 @@
 //! Products with the kernel, by its entries and by FFT along the crease.
 
+use nalgebra::DMatrix;
 use vfold::kernel::FoldKernel;
 use vfold::kernel::spectra::Spectra;
 
@@ -23,8 +24,9 @@ pub fn direct(kernel: &FoldKernel, x: &[f64]) -> Vec<f64> {
 /// The same by FFT.
 pub fn transformed(kernel: &FoldKernel, spectra: &Spectra, x: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; x.len()];
-    let x = spectra.transform(x);
-    for (i, out) in out.chunks_exact_mut(kernel.facets().cols).enumerate() {
+    let cols = kernel.facets().cols;
+    let x = spectra.transform(&DMatrix::from_column_slice(cols, x.len() / cols, x));
+    for (i, out) in out.chunks_exact_mut(cols).enumerate() {
         spectra.add_up(kernel, 0, i, &x, out);
     }
     out

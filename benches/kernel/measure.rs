@@ -4,8 +4,8 @@ use vfold::geometry::{FacetGrid, Fold};
 use vfold::kernel::check::spectral_radius;
 use vfold::kernel::mesh::{Mesh, respond};
 use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
-use vfold::kernel::panel::PanelOperator;
 use vfold::kernel::{FoldKernel, Method};
+use vfold::response::PanelOperator;
 use vfold::response::Response;
 
 use crate::common::{self, timed};

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use vfold::geometry::FacetGrid;
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
-use vfold::kernel::panel::PanelOperator;
+use vfold::response::PanelOperator;
 use vfold::response::{Modes, Response};
 
 use crate::common::{fold, timed};
@@ -83,8 +83,7 @@ fn solvers() {
 fn by_poles(response: &Response, reflectances: &[f64]) -> DMatrix<f64> {
     let Modes::Shared(set) = response.modes() else { panic!("panels that are alike") };
     let poles = &set.poles;
-    let residues = DMatrix::from_row_slice(response.facets(), poles.len(), &set.residues);
-    residues
+    &set.residues
         * DMatrix::from_fn(poles.len(), reflectances.len(), |k, n| (1.0 - reflectances[n] * poles[k]).recip())
 }
 

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use vfold::kernel::FoldKernel;
 use vfold::kernel::exact::form_factors;
 use vfold::kernel::facets::FacetOperator;
-use vfold::kernel::panel::PanelOperator;
+use vfold::response::PanelOperator;
 use vfold::response::Response;
 use vfold::solve::Eigen;
 

@@ -6,7 +6,7 @@ use vfold::forward::{FacetModel, Lighting, nonuniform};
 use vfold::geometry::Light;
 use vfold::kernel::FoldKernel;
 use vfold::kernel::exact::form_factors;
-use vfold::kernel::panel::PanelOperator;
+use vfold::response::PanelOperator;
 use vfold::response::Response;
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 

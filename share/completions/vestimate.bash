@@ -50,7 +50,7 @@ _vestimate() {
                     return 0
                     ;;
                 --fit)
-                    COMPREPLY=($(compgen -W "exposure tilt sky angle" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "exposure angle tilt sky" -- "${cur}"))
                     return 0
                     ;;
                 --reference-panel)

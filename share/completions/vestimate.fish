@@ -3,10 +3,10 @@ complete -c vestimate -l smoothness -d 'Weight of the squared second differences
 complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
 complete -c vestimate -l exposure -d 'Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]' -r
-complete -c vestimate -l fit -d 'What is fitted along with the spectrum: the exposure (as --exposure free), the tilt of the sun, the sky with its colour (unless the scene has a sky illuminant), the angle of the fold; the scene\'s values are what is expected' -r -f -a "exposure\t'Value of white facing the sun'
-tilt\t'Sun off the bisecting plane'
-sky\t'Amount of skylight, and its colour unless the scene says it'
-angle\t'Angle between the panels'"
+complete -c vestimate -l fit -d 'What is fitted along with the spectrum, with commas between; the scene\'s values are what is expected' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
+angle\t'Angle between the panels'
+tilt\t'Angle of the sun off the bisecting plane'
+sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'"
 complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal' -r -F
@@ -19,7 +19,7 @@ complete -c vestimate -l components -d 'Components that a spectrum is combined o
 complete -c vestimate -l basis -d 'Spectra that have the components [default: munsell]' -r
 complete -c vestimate -l reflectance -d 'Reflectances that will be photographed [default: cc24]' -r
 complete -c vestimate -l camera -d 'Camera of a scene that has none [default: canon-5d-mark-ii]' -r
-complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one a light as for vforward [default: D65]' -r
+complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]' -r
 complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r
 complete -c vestimate -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
 complete -c vestimate -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
@@ -41,7 +41,7 @@ fish\t'Completions for fish'"
 complete -c vestimate -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
-complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record a scene, for --noise-sd [default: 1e-3]'
+complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]'
 complete -c vestimate -s q -l quiet -d 'Say nothing but errors'
 complete -c vestimate -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vestimate -l no-history -d 'Do not record this tool\'s arguments in the stream'

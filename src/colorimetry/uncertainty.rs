@@ -10,7 +10,7 @@ use super::Colorimeter;
 pub enum ErrorBars<'a> {
     /// Covariance, waveband by waveband.
     Covariance(&'a [Vec<f64>]),
-    /// Standard deviation a waveband; how errors of wavebands hang together is not known.
+    /// Standard deviation per waveband; how the errors of different wavebands are correlated is not known.
     Deviations(&'a [f64]),
 }
 

@@ -54,9 +54,12 @@ pub fn compress(
     }
     // First to the span of the terms, then to the span of what they do over all reflectances.
     let columns: Vec<_> = distinct.iter().flat_map(|source| source.column_iter()).collect();
+    // There are far fewer terms than facets, so that all that follows is small.
     let q = DMatrix::from_columns(&columns).qr().q();
     let reach = distinct.iter().map(|source| q.transpose() * *source * samples);
     let square = reach.map(|reach| &reach * reach.transpose()).sum::<DMatrix<f64>>();
+    // A principal component analysis: a direction along which no reflectance moves the facets tells nothing about it. Data are in
+    // units of their noise, so that a reach below `cutoff` drowns in it.
     let directions = Eigen::of_symmetric(square);
     // Below that share of the largest, squares of singular values are rounding.
     let largest = directions.values.iter().copied().fold(0.0, f64::max);
@@ -68,6 +71,7 @@ pub fn compress(
         .filter(|(square, _)| **square > least)
         .map(|(_, direction)| direction)
         .collect();
+    // A matrix is made of at least one column.
     if kept.is_empty() {
         return (DVector::zeros(0), sources.iter().map(|source| source.rows(0, 0).into_owned()).collect());
     }

@@ -1,6 +1,6 @@
 //! The facet model of a fold: every mode of a panel's response gives one or two terms, three beside a card.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 
 use super::lighting::{Lighting, Lit};
 use super::model::{FacetModel, Source};
@@ -48,22 +48,25 @@ impl FacetModel {
 
 /// A light on a fold whose poles begin at `first`.
 fn source(terms: &Terms, response: &Response, first: usize, lit: &Lit) -> Source {
-    let count = response.facets();
-    let mut facets = DMatrix::zeros(2 * count, terms.count());
-    for facet in 0..2 * count {
-        let panel = facet / count;
-        for (k, mode) in (first..).zip(response.excitations(panel, facet % count, lit.light)) {
+    let mut facets = DMatrix::zeros(2 * response.facets(), terms.count());
+    for panel in [0, 1] {
+        let mut on_panel = facets.rows_mut(panel * response.facets(), response.facets());
+        let mut set = |term, amount, residues: &DVectorView<f64>| {
+            on_panel.column_mut(term).axpy(amount, residues, 0.0);
+        };
+        let (modes, residues) = (response.excitations(panel, lit.light), response.residues(panel));
+        for ((k, mode), residues) in (first..).zip(modes).zip(residues.column_iter()) {
             match terms {
                 Terms::Card { poles, card } => {
                     let own = if panel == card.panel { 2 } else { 0 };
-                    facets[(facet, own * poles.len() + k)] = mode.own;
-                    facets[(facet, poles.len() + k)] = mode.other;
+                    set(own * poles.len() + k, mode.own, &residues);
+                    set(poles.len() + k, mode.other, &residues);
                 }
                 Terms::One { poles, odd: true } => {
-                    facets[(facet, k)] = 0.5 * (mode.own + mode.other);
-                    facets[(facet, poles.len() + k)] = 0.5 * (mode.own - mode.other);
+                    set(k, 0.5 * (mode.own + mode.other), &residues);
+                    set(poles.len() + k, 0.5 * (mode.own - mode.other), &residues);
                 }
-                _ => facets[(facet, k)] = 0.5 * (mode.own + mode.other),
+                _ => set(k, 0.5 * (mode.own + mode.other), &residues),
             }
         }
     }

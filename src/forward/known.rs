@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::response::{BesideKnown, ReducedExchange};
 
 impl FacetModel {
-    /// A surface of parts, of which `parts` says the reflectance a waveband of those that are known, under the lights of
+    /// A surface of parts, of which `parts` says the reflectance per waveband of those that are known, under the lights of
     /// `exchange`, for each of which there is a camera's response.
     ///
     /// # Errors
@@ -52,8 +52,7 @@ fn source(
         let first = terms.first(*band);
         facets.set_column(first, known);
         let before: usize = lights[..light].iter().map(|other| other.modes.poles.len()).sum();
-        let own = DMatrix::from_row_slice(count, modes.poles.len(), &modes.residues);
-        facets.columns_mut(first + 1 + before, own.ncols()).copy_from(&own);
+        facets.columns_mut(first + 1 + before, modes.poles.len()).copy_from(&modes.residues);
     }
     Source { facets, camera: camera.clone() }
 }

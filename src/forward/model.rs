@@ -2,7 +2,7 @@
 //!
 //! Every facet's radiance is a sum over the poles of the response; the poles and what the reflectance makes of them are
 //! common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the spectrum is integrated
-//! once a pole and channel, not once a facet and channel, and only over wavebands that a sensor sees.
+//! once per pole and channel, not once per facet and channel, and only over wavebands that a sensor sees.
 
 use nalgebra::DMatrix;
 
@@ -59,7 +59,7 @@ impl FacetModel {
     /// If there are not as many amounts as sources.
     #[must_use]
     pub fn in_amounts(&self, amounts: &[f64]) -> Self {
-        assert_eq!(amounts.len(), self.sources.len(), "an amount a source");
+        assert_eq!(amounts.len(), self.sources.len(), "one amount per source");
         let mut scaled = self.clone();
         scaled.sources.iter_mut().zip(amounts).for_each(|(source, amount)| source.facets *= *amount);
         scaled
@@ -97,7 +97,7 @@ impl FacetModel {
     }
 
     /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce: channel by waveband.
-    /// None for a concave sheet, whose RGB is no linear function of reflectance, or beside what is known.
+    /// None for a concave sheet, whose RGB is not a linear function of reflectance, or beside what is known.
     #[must_use]
     pub fn without_bounces(&self, facets: &[usize]) -> Option<DMatrix<f64>> {
         if !self.terms.is_flat() {

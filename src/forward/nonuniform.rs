@@ -1,4 +1,4 @@
-//! Sheets whose reflectance differs from facet to facet: eq. (24) as it stands, one flat patch a facet.
+//! Sheets whose reflectance differs from facet to facet: eq. (24) as it stands, one flat patch per facet.
 //!
 //! A facet's own light E obeys `E = E₀ + K·R·E`. With S = √A·K·√A⁻¹, which is symmetric, and y = √R·√A·E this is
 //! `(I − √R·S·√R)·y = √R·√A·E₀`: symmetric, positive definite, and at ease with black facets. The panels see each other and not
@@ -12,10 +12,10 @@ use super::lighting::seen_bands;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::kernel::FoldKernel;
-use crate::kernel::exchange::Exchange;
 use crate::kernel::facets::FacetOperator;
-use crate::kernel::panel::PanelOperator;
+use crate::response::Exchange;
 use crate::response::ModeLight;
+use crate::response::PanelOperator;
 use crate::solve::conjugate_gradients;
 
 /// Residual of the solution of a waveband, relative to the light.
@@ -30,7 +30,7 @@ const BATCH: usize = 16;
 /// [`Error::Numeric`] if the bounces of a waveband do not end: a fold far narrower than 0.1°.
 ///
 /// # Source
-/// Deeb et al., eq. (24), that is eq. (15) a waveband.
+/// Deeb et al., eq. (24), that is eq. (15) in every waveband.
 ///
 /// # Example
 /// ```
@@ -127,7 +127,7 @@ impl<'a> Waveband<'a> {
     }
 }
 
-/// The same of any surface under `lights`, each a direct irradiance a patch and the camera's response to it.
+/// The same of any surface under `lights`, each one direct irradiance per patch and the camera's response to it.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the bounces of a waveband do not end.
@@ -168,7 +168,7 @@ pub fn surface_rgb(
     Ok(rgb)
 }
 
-/// Reflectance times irradiance of every facet of a surface, a `reflectance` a facet.
+/// Reflectance times irradiance of every facet of a surface, one `reflectance` per facet.
 fn surface_exitance(
     exchange: &(impl Exchange + ?Sized),
     direct: &DVector<f64>,

@@ -33,10 +33,9 @@ impl FacetModel {
         let mut sources = Vec::new();
         for (response, camera) in lights {
             let modes = response.modes();
-            let own = DMatrix::from_row_slice(response.facets(), modes.poles.len(), &modes.residues);
             let mut facets = DMatrix::zeros(response.facets(), poles.len());
-            facets.columns_mut(first, own.ncols()).copy_from(&own);
-            first += own.ncols();
+            facets.columns_mut(first, modes.poles.len()).copy_from(&modes.residues);
+            first += modes.poles.len();
             sources.push(Source { facets, camera: camera.clone() });
         }
         Self::of(Terms::One { poles, odd: false }, sources)

@@ -9,7 +9,7 @@ use super::families::{BESIDE_KNOWN, EVEN, Family, ODD, beside_card};
 pub struct Card {
     /// Its panel, 0 or 1; the other is the sheet.
     pub panel: usize,
-    /// Reflectance a waveband.
+    /// Reflectance per waveband.
     pub reflectance: Vec<f64>,
 }
 
@@ -24,7 +24,7 @@ pub enum Terms {
     BesideKnown(Vec<Vec<f64>>),
 }
 
-/// Terms that are one function of reflectance, a pole each, from row `first` of all on.
+/// Terms that are one function of reflectance, each at a pole of its own, from row `first` on.
 pub struct Block<'a> {
     pub first: usize,
     pub family: Family,
@@ -93,13 +93,11 @@ impl Terms {
 
     /// The terms with their first and second derivatives by reflectance.
     pub fn derivatives(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
-        let count = self.count();
-        let mut all = [(); 3].map(|()| DMatrix::zeros(count, reflectance.len()));
+        let mut all = [(); 3].map(|()| DMatrix::zeros(self.count(), reflectance.len()));
         for (band, r) in reflectance.iter().enumerate() {
             for Block { first, family, poles } in self.blocks(band) {
-                let rows = band * count + first;
                 let [values, slopes, curvatures] =
-                    all.each_mut().map(|matrix| &mut matrix.as_mut_slice()[rows..rows + poles.len()]);
+                    all.each_mut().map(|matrix| &mut matrix.column_mut(band).data.into_slice_mut()[first..]);
                 let targets = values.iter_mut().zip(slopes).zip(curvatures);
                 for (((value, slope), curvature), g) in targets.zip(poles) {
                     [*value, *slope, *curvature] = family.at(*r, *g);

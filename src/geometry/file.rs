@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 /// 22000 facets take a quarter of it; parsed, a byte may take hundreds.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// Opens a file of a surface; of what is no regular file it gives the first bytes.
+/// Opens a file of a surface; of anything but a regular file it gives the first bytes.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be opened, [`Error::Shape`] if it is too large.

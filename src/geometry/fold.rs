@@ -23,6 +23,12 @@ impl FacetGrid {
         self.rows * self.cols
     }
 
+    /// Row and column of a facet, panels being counted row by row from the crease.
+    #[must_use]
+    pub fn place(&self, facet: usize) -> [usize; 2] {
+        [facet / self.cols, facet % self.cols]
+    }
+
     /// Whether the grid has no facet, which [`Fold::new`] refuses.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::polygon::{Corners, Polygon, Vec3, edges};
 
-/// Sine of an angle, and share of a length, that is none.
+/// Sine of an angle, and share of a length, below which it counts as zero.
 const NONE: f64 = 1e-9;
 /// Most corners of a merged polygon.
 const CORNERS_MAX: usize = 6;

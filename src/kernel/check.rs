@@ -4,8 +4,7 @@ use std::fmt;
 
 use super::facets::FacetOperator;
 use super::fold_kernel::FoldKernel;
-use super::panel::PanelOperator;
-use crate::geometry::FacetGrid;
+use crate::response::PanelOperator;
 use crate::response::{ModeLight, Response};
 use crate::solve::{Eigen, dot};
 
@@ -41,7 +40,7 @@ pub enum Bound {
 }
 
 impl Law {
-    /// Whether the law holds; a number that is none breaks every law.
+    /// Whether the law holds; NaN breaks every law.
     #[must_use]
     pub fn holds(&self) -> bool {
         match self.bound {
@@ -102,7 +101,7 @@ pub fn check(kernel: &FoldKernel, exact: &FoldKernel) -> Vec<Law> {
     let operator = FacetOperator::new(kernel, kernel.facets());
     let row_sums = [0, 1].map(|panel| row_sums(&operator, panel));
     let largest_sum = row_sums.iter().flatten().copied().fold(0.0, f64::max);
-    let balance = |r| energy_imbalance(kernel, &operator, &row_sums, r);
+    let balance = |r| energy_imbalance(&operator, &row_sums, r);
     vec![
         law("smallest entry", entries(kernel).fold(f64::INFINITY, f64::min), Bound::AtLeast(0.0)),
         law("largest entry", entries(kernel).fold(0.0, f64::max), Bound::AtMost(1.0)),
@@ -188,13 +187,12 @@ fn row_sums(operator: &FacetOperator, panel: usize) -> Vec<f64> {
 
 /// Even light on two sheets of reflectance `r`: |received − absorbed − leaving|, relative to the received; infinite where
 /// the bounces diverge.
-fn energy_imbalance(kernel: &FoldKernel, operator: &FacetOperator, row_sums: &[Vec<f64>; 2], r: f64) -> f64 {
+fn energy_imbalance(operator: &FacetOperator, row_sums: &[Vec<f64>; 2], r: f64) -> f64 {
     let Ok((response, _)) = Response::solve(&Dimmed { operator, r }, SOLVED) else { return f64::INFINITY };
-    let FacetGrid { cols, .. } = kernel.facets();
     let (mut received, mut lost) = (0.0, 0.0);
     for (panel, row_sums) in row_sums.iter().enumerate() {
-        for (facet, handed_on) in row_sums.iter().enumerate() {
-            let area = kernel.row_height(panel, facet / cols);
+        for (facet, (handed_on, root_area)) in row_sums.iter().zip(operator.uniform(panel)).enumerate() {
+            let area = root_area * root_area;
             let light = response.irradiance(panel, facet, ModeLight::Sun([1.0, 1.0]), [1.0, 1.0]);
             received += area;
             lost += area * light * ((1.0 - r) + r * (1.0 - handed_on));

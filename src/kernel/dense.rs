@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 
-use super::exchange::Exchange;
+use crate::response::Exchange;
 
 /// Form factors between all patches as one symmetric matrix.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ impl DenseExchange {
     /// ```
     /// use nalgebra::dmatrix;
     /// use vfold::kernel::dense::DenseExchange;
-    /// use vfold::kernel::exchange::Exchange;
+    /// use vfold::response::Exchange;
     /// // A patch of area 4 hands a tenth of its light to one of area 1, which hands four tenths back.
     /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.1; 0.4, 0.0], &[4.0, 1.0], vec![0, 1]);
     /// let mut received = [0.0; 2];

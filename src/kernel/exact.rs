@@ -59,7 +59,7 @@ pub struct Wedge {
 }
 
 impl Wedge {
-    /// That of `fold`.
+    /// Of `fold`.
     #[must_use]
     pub fn new(fold: &Fold) -> Self {
         let angle_rad = fold.angle_rad();

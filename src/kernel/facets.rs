@@ -1,15 +1,16 @@
 //! The paper's model: every facet is one flat patch of even radiance.
 
+use nalgebra::{DMatrix, DMatrixView};
 use rayon::prelude::*;
 
 use super::fold_kernel::FoldKernel;
-use super::panel::PanelOperator;
 use super::spectra::Spectra;
 use crate::geometry::FacetGrid;
+use crate::response::PanelOperator;
 
 /// Columns from which products by FFT along the crease are faster than by the entries themselves.
 const FFT_FROM: usize = 16;
-/// Unknowns that are worth a second thread.
+/// Unknowns that are worth a second thread: with fewer, one is done before it has woken up.
 const THREADS_FROM: usize = 1000;
 
 /// Exchange between facets, eq. (10), as products with the distinct entries: the dense matrix is not formed.
@@ -31,10 +32,10 @@ impl<'a> FacetOperator<'a> {
         Self { kernel, facets, spectra, scale }
     }
 
-    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves.
-    fn add_up(&self, panel: usize, i: usize, x: &[f64], out: &mut [f64]) {
-        for (j, x) in x.chunks_exact(out.len()).enumerate() {
-            let factors = self.kernel.shifts_from(panel, i, j);
+    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves; `x` has a column per row of facets.
+    fn add_up(&self, panel: usize, i: usize, x: &DMatrix<f64>, out: &mut [f64]) {
+        for (j, x) in x.column_iter().enumerate() {
+            let (x, factors) = (x.as_slice(), self.kernel.shifts_from(panel, i, j));
             for (c, out) in out.iter_mut().enumerate() {
                 let below: f64 = factors[1..=c].iter().zip(x[..c].iter().rev()).map(|(f, x)| f * x).sum();
                 let above: f64 = factors.iter().zip(&x[c..]).map(|(f, x)| f * x).sum();
@@ -55,10 +56,10 @@ impl PanelOperator for FacetOperator<'_> {
     }
 
     fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
-        let cols = self.kernel.facets().cols;
-        let mut exitance = x.to_vec();
-        for (row, scale) in exitance.chunks_exact_mut(cols).zip(&self.scale[1 - panel]) {
-            row.iter_mut().for_each(|x| *x /= scale);
+        let FacetGrid { rows, cols } = self.kernel.facets();
+        let mut exitance = DMatrix::from_column_slice(cols, rows, x);
+        for (mut row, scale) in exitance.column_iter_mut().zip(&self.scale[1 - panel]) {
+            row /= *scale;
         }
         let transformed = self.spectra.as_ref().map(|spectra| (spectra, spectra.transform(&exitance)));
         let rows = out.par_chunks_exact_mut(cols).enumerate();
@@ -76,14 +77,20 @@ impl PanelOperator for FacetOperator<'_> {
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
         let FacetGrid { rows, cols } = self.kernel.facets();
         let (high, wide) = (rows / self.facets.rows, cols / self.facets.cols);
-        let facet = |facet: usize| {
-            let (row, col) = (facet / self.facets.cols * high, facet % self.facets.cols * wide);
-            let on_row =
-                |row: usize| self.scale[panel][row] * x[row * cols + col..][..wide].iter().sum::<f64>();
-            let area: f64 = (row..row + high).map(|row| wide as f64 * self.scale[panel][row].powi(2)).sum();
-            (row..row + high).map(on_row).sum::<f64>() / area
-        };
-        (0..self.facets.len()).map(facet).collect()
+        let x = DMatrixView::from_slice(x, cols, rows);
+        let mut means = DMatrix::zeros(self.facets.cols, self.facets.rows);
+        for (row, mut means) in means.column_iter_mut().enumerate() {
+            let patches = row * high..(row + 1) * high;
+            for (x, scale) in
+                x.columns_range(patches.clone()).column_iter().zip(&self.scale[panel][patches.clone()])
+            {
+                for (mean, x) in means.iter_mut().zip(x.as_slice().chunks_exact(wide)) {
+                    *mean += scale * x.iter().sum::<f64>();
+                }
+            }
+            means /= wide as f64 * self.scale[panel][patches].iter().map(|scale| scale * scale).sum::<f64>();
+        }
+        means.data.into()
     }
 }
 

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
+use nalgebra::DMatrix;
+use ndarray::Array3;
 use rayon::prelude::*;
 
 use crate::geometry::{FacetGrid, Fold};
 
-/// Entries that are worth a thread: a few thousand are done before a second one has started.
+/// Entries that are worth a thread of their own: a few thousand are done before a second one has started.
 const ENTRIES_A_THREAD: usize = 2000;
 
 /// The distinct form factors of a fold, K of eq. (10).
@@ -18,8 +20,8 @@ pub struct FoldKernel {
     facets: FacetGrid,
     row_edges: [Vec<f64>; 2],
     symmetric: bool,
-    /// `A·F` of facet pairs, `[pair of rows][column shift]`.
-    exchange: Vec<f64>,
+    /// `A·F` of facet pairs: shift along the crease by pair of rows.
+    exchange: DMatrix<f64>,
 }
 
 impl FoldKernel {
@@ -39,13 +41,14 @@ impl FoldKernel {
         let FacetGrid { rows, cols } = facets;
         let first = |i: usize| if symmetric { i } else { 0 };
         let pairs: Vec<_> = (0..rows).flat_map(|i| (first(i)..rows).map(move |j| (i, j))).collect();
-        let mut entries = vec![0.0; pairs.len() * cols];
-        let all = pairs.into_par_iter().zip(entries.par_chunks_exact_mut(cols)).with_min_len(pairs_a_thread);
+        let mut entries = DMatrix::zeros(cols, pairs.len());
+        let of_pairs = entries.as_mut_slice().par_chunks_exact_mut(cols);
+        let all = pairs.into_par_iter().zip(of_pairs).with_min_len(pairs_a_thread);
         let said = all.map(|((i, j), shifts)| exchange(i, j, shifts)).collect();
         (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, said)
     }
 
-    /// The same from a function of the two rows' extents away from the crease, a microsecond an entry.
+    /// The same from a function of the two rows' extents away from the crease that takes a microsecond per entry.
     #[must_use]
     pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, &mut [f64]) + Sync) -> Self {
         let [rows0, rows1] = row_ranges(fold);
@@ -75,12 +78,12 @@ impl FoldKernel {
     /// to `cols − 1`, in units of the facet width squared.
     #[must_use]
     pub fn shifts(&self, i: usize, j: usize) -> &[f64] {
-        &self.exchange[self.pair(i, j) * self.facets.cols..][..self.facets.cols]
+        self.exchange.column(self.pair(i, j)).data.into_slice()
     }
 
     /// The entries of every pair of rows that is kept, in their order.
     pub(super) fn all_shifts(&self) -> impl IndexedParallelIterator<Item = &[f64]> {
-        self.exchange.par_chunks_exact(self.facets.cols)
+        self.exchange.as_slice().par_chunks_exact(self.facets.cols)
     }
 
     /// Where a pair of rows is among those kept.
@@ -128,12 +131,12 @@ impl FoldKernel {
     #[must_use]
     pub fn matrix_row(&self, facet: usize) -> Vec<f64> {
         let FacetGrid { rows, cols } = self.facets;
-        let (panel, row, col) = (facet / (rows * cols), facet / cols % rows, facet % cols);
-        let entry = |other: usize| self.form_factor(panel, row, other / cols, col.abs_diff(other % cols));
-        let mut out = vec![0.0; 2 * rows * cols];
-        let start = (1 - panel) * rows * cols;
-        out[start..][..rows * cols].iter_mut().enumerate().for_each(|(other, out)| *out = entry(other));
-        out
+        let (panel, [row, col]) = (facet / self.facets.len(), self.facets.place(facet % self.facets.len()));
+        let entry = |(other, j, other_col): (usize, usize, usize)| match other == panel {
+            true => 0.0,
+            false => self.form_factor(panel, row, j, col.abs_diff(other_col)),
+        };
+        Array3::from_shape_fn((2, rows, cols), entry).into_iter().collect()
     }
 }
 

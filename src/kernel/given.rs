@@ -9,18 +9,18 @@ use crate::error::{Error, Result};
 const RECIPROCITY: f64 = 1e-6;
 
 impl DenseExchange {
-    /// From K of eq. (10) between facets, one patch a facet: entry ij is the share of the light of facet i that reaches facet j.
+    /// From K of eq. (10) between facets, one patch each: entry ij is the share of the light of facet i that reaches facet j.
     /// Areas, in any unit, follow from the kernel where they are not given.
     ///
     /// # Errors
-    /// [`Error::Field`] for an entry that is no share, a facet that hands on all its light or more, an area that is none, or
+    /// [`Error::Field`] for an entry that cannot be a share, a facet that hands on all its light or more, an area that is not positive, or
     /// where `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ` does not hold within a share of 1e-6.
     ///
     /// # Example
     /// ```
     /// use nalgebra::dmatrix;
     /// use vfold::kernel::dense::DenseExchange;
-    /// use vfold::kernel::exchange::Exchange;
+    /// use vfold::response::Exchange;
     /// // What hands on a tenth and gets four tenths back is four times as large.
     /// let exchange = DenseExchange::from_kernel(&dmatrix![0.0, 0.1; 0.4, 0.0], None)?;
     /// assert!((exchange.root_areas()[0] / exchange.root_areas()[1] - 2.0).abs() < 1e-15);

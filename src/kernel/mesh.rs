@@ -15,7 +15,7 @@ use crate::response::Response;
 pub enum Mesh {
     /// As fine as the tolerance asks for, where the scene needs it: facet means of the continuous solution.
     Auto,
-    /// One flat patch a facet, as in the paper.
+    /// One flat patch per facet, as in the paper.
     Facets,
     /// Flat patches finer than the facets, then averaged.
     Patches(FacetGrid),

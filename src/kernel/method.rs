@@ -1,4 +1,4 @@
-//! The ways to the form factors between facets, one a file.
+//! The ways to the form factors between facets, one per file.
 
 use std::fmt;
 

@@ -41,7 +41,7 @@ pub struct PointKernel {
 }
 
 impl PointKernel {
-    /// That of a fold; zero if it is flat.
+    /// The kernel of a fold; zero if it is flat.
     #[must_use]
     pub fn new(fold: &Fold) -> Self {
         let (sin, half_sin) = (fold.angle_rad().sin(), (0.5 * fold.angle_rad()).sin());

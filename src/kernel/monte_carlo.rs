@@ -2,29 +2,30 @@
 //!
 //! Pairs of points spread evenly over two facets have an infinite variance where the facets meet: with ρ the distance to the
 //! point they share, the squared kernel of eq. (2) grows as ρ⁻⁴ and the area elements leave ∫ ρ⁻² dρ. The mean still converges,
-//! but slower than the standard error computed from the same samples says. Rays that leave a facet with the cosine law only
+//! but slower than the standard error computed from the same samples says. Rays that leave a facet under the cosine law only
 //! have to be counted where they land: the variance is that of a proportion.
 
 use std::fmt;
 
+use ndarray::parallel::prelude::*;
+use ndarray::{Array4, ArrayViewMut2, Axis};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use rayon::prelude::*;
 
 use super::fold_kernel::{FoldKernel, row_ranges};
 use super::midpoint::PointKernel;
 use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
 
-/// Samples that are worth a thread: fewer are done before a second one has started.
+/// Samples that are worth a thread of their own: fewer are done before a second thread has started.
 const SAMPLES_A_THREAD: usize = 20_000;
 
 /// What a sample is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// A pair of points, even over both facets; so many a distinct entry. The paper's way.
+    /// A pair of points, spread evenly over both facets, for each distinct entry: the paper's way.
     Area,
-    /// A ray that leaves a facet with the cosine law; so many a row of facets.
+    /// A ray that leaves a facet under the cosine law, for each row of facets.
     Cosine,
 }
 
@@ -64,7 +65,7 @@ impl MonteCarlo {
         self.sampling
     }
 
-    /// Samples a distinct entry, or rays a row of facets.
+    /// Samples per distinct entry, or rays per row of facets.
     #[must_use]
     pub fn samples(&self) -> u32 {
         self.samples
@@ -146,18 +147,16 @@ impl MonteCarlo {
     /// Rays from every row; those between two rows count in both directions, weighted so that the variance is least.
     fn by_rays(&self, fold: &Fold) -> (FoldKernel, Vec<f64>) {
         let (hits, rows) = (self.hits(fold), row_ranges(fold));
-        let cols = fold.facets().cols;
-        let count = f64::from(self.samples);
-        FoldKernel::from_exchange(fold, SAMPLES_A_THREAD.div_ceil(cols), |i, j, shifts| {
-            let (there, back) = (&hits[0][i][j * cols..], &hits[hits.len() - 1][j][i * cols..]);
+        let (count, last_panel) = (f64::from(self.samples), hits.len_of(Axis(0)) - 1);
+        FoldKernel::from_exchange(fold, SAMPLES_A_THREAD.div_ceil(fold.facets().cols), |i, j, shifts| {
             let [height0, height1] = [&rows[0][i], &rows[1][j]].map(|row| row.end - row.start);
             // A row of a symmetric fold and its mirror image share their rays.
-            let same = if hits.len() == 1 && i == j { 2.0 } else { 1.0 };
+            let same = if last_panel == 0 && i == j { 2.0 } else { 1.0 };
             let mut largest: f64 = 0.0;
             for (k, value) in shifts.iter_mut().enumerate() {
                 let sides = if k == 0 { 1.0 } else { 2.0 };
                 let scale = height0 * height1 / ((height0 + height1) * sides * count);
-                let [there, back] = [there[k], back[k]].map(f64::from);
+                let [there, back] = [hits[[0, i, j, k]], hits[[last_panel, j, i, k]]].map(f64::from);
                 *value = scale * (there + back);
                 let variance = same * (there * (1.0 - there / count) + back * (1.0 - back / count));
                 largest = largest.max(scale * variance.sqrt() / height0.min(height1));
@@ -166,15 +165,14 @@ impl MonteCarlo {
         })
     }
 
-    /// Where the rays of each row of panel 0, and of panel 1 unless it is alike, land: `[panel][row][row hit][shift]`.
-    fn hits(&self, fold: &Fold) -> Vec<Vec<Vec<u32>>> {
+    /// Where the rays of each row of panel 0, and of panel 1 unless it is alike, land: by panel, row, row hit and shift.
+    fn hits(&self, fold: &Fold) -> Array4<u32> {
         let panels = if fold.is_symmetric() { 1 } else { 2 };
         let (ranges, FacetGrid { rows, cols }) = (row_ranges(fold), fold.facets());
         let (sin, cos) = fold.angle_rad().sin_cos();
-        let of_row = |panel: usize, row: usize| {
+        let shoot = |panel: usize, row: usize, mut hits: ArrayViewMut2<u32>| {
             let (from, onto) = (&ranges[panel][row], &ranges[1 - panel]);
             let mut generator = self.generator(panel * rows + row);
-            let mut hits = vec![0; rows * cols];
             for _ in 0..self.samples {
                 let s = from.start + (from.end - from.start) * unit(&mut generator);
                 let x = unit(&mut generator);
@@ -186,27 +184,28 @@ impl MonteCarlo {
                 let shift = x + reach * sin * along.abs();
                 if (reach > 0.0) & (t < onto[rows - 1].end) & (shift < cols as f64) {
                     let row = onto.partition_point(|row| row.end <= t);
-                    hits[row * cols + shift as usize] += 1;
+                    hits[[row, shift as usize]] += 1;
                 }
             }
-            hits
         };
-        let of_panel = |panel| {
-            let rows =
-                (0..rows).into_par_iter().with_min_len(SAMPLES_A_THREAD.div_ceil(self.samples as usize));
-            rows.map(|row| of_row(panel, row)).collect()
-        };
-        (0..panels).map(of_panel).collect()
+        let mut hits = Array4::zeros((panels, rows, rows, cols));
+        for (panel, mut from_panel) in hits.outer_iter_mut().enumerate() {
+            let from_rows = from_panel.outer_iter_mut().into_par_iter().enumerate();
+            from_rows
+                .with_min_len(SAMPLES_A_THREAD.div_ceil(self.samples as usize))
+                .for_each(|(row, hits)| shoot(panel, row, hits));
+        }
+        hits
     }
 }
 
-/// A number even over (0, 1), in steps of 2⁻³²: far finer than any count of samples resolves.
+/// A number spread evenly over (0, 1), in steps of 2⁻³²: far finer than any count of samples resolves.
 #[inline]
 fn unit(generator: &mut ChaCha8Rng) -> f64 {
     (f64::from(generator.next_u32()) + 0.5) * 2.0_f64.powi(-32)
 }
 
-/// A direction with the cosine law: along the crease, away from it in the panel, up from the panel.
+/// A direction under the cosine law: along the crease, away from it in the panel, up from the panel.
 #[inline]
 fn cosine_direction(generator: &mut ChaCha8Rng) -> [f64; 3] {
     loop {

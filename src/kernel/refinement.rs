@@ -43,7 +43,7 @@ struct Solution {
 /// solution would take too long.
 ///
 /// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as its resolution aims
-/// at less; [`SAFETY`] allows for folds that differ from the one by which resolutions were chosen.
+/// at less; `SAFETY` allows for folds that differ from the one by which resolutions were chosen.
 ///
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.
@@ -94,7 +94,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }
 
-/// About the least share of light that a bounce loses: a residual grows by at most its inverse.
+/// Roughly the smallest share of light that a bounce loses: a residual grows by at most its inverse.
 fn loss(fold: &Fold) -> f64 {
     (0.5 * fold.angle_rad()).sin()
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -16,8 +17,8 @@ pub struct Spectra {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     cols: usize,
-    /// Pair of rows (as [`FoldKernel::pair`] numbers them) by frequency, 0 to `cols`.
-    values: Vec<f64>,
+    /// Frequency, 0 to `cols`, by pair of rows (as [`FoldKernel::pair`] numbers them).
+    values: DMatrix<f64>,
 }
 
 impl Spectra {
@@ -27,15 +28,15 @@ impl Spectra {
         let cols = kernel.facets().cols;
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(2 * cols), planner.plan_fft_inverse(2 * cols));
-        let mut spectra = Self { forward, inverse, cols, values: Vec::new() };
+        let mut spectra = Self { forward, inverse, cols, values: DMatrix::zeros(0, 0) };
         let spectrum = |shifts: &[f64]| {
             let around = shifts.iter().chain([&0.0]).chain(shifts[1..].iter().rev());
             spectra.spectrum(&mut around.copied().collect::<Vec<f64>>())
         };
-        spectra.values = kernel
-            .all_shifts()
-            .flat_map_iter(|shifts| spectrum(shifts).into_iter().map(|value| value.re))
-            .collect();
+        let pairs = kernel.all_shifts();
+        let (count, real) = (pairs.len(), |value: Complex64| value.re);
+        let values = pairs.flat_map_iter(|shifts| spectrum(shifts).into_iter().map(real)).collect();
+        spectra.values = DMatrix::from_vec(cols + 1, count, values);
         spectra
     }
 
@@ -46,11 +47,11 @@ impl Spectra {
         spectrum
     }
 
-    /// Transforms every row of `x`.
+    /// Transforms every row of facets, a column of `x`.
     #[must_use]
-    pub fn transform(&self, x: &[f64]) -> Vec<Vec<Complex64>> {
+    pub fn transform(&self, x: &DMatrix<f64>) -> Vec<Vec<Complex64>> {
         let padded = |row: &[f64]| [row, &vec![0.0; self.cols]].concat();
-        x.par_chunks_exact(self.cols).map(|row| self.spectrum(&mut padded(row))).collect()
+        x.as_slice().par_chunks_exact(self.cols).map(|row| self.spectrum(&mut padded(row))).collect()
     }
 
     /// Adds to `out` the light that transformed exitance of the other panel sends to row `i` of `panel`.
@@ -65,8 +66,8 @@ impl Spectra {
         let mut sum = self.inverse.make_input_vec();
         for (j, exitance) in exitance.iter().enumerate() {
             let pair = if panel == 0 { kernel.pair(i, j) } else { kernel.pair(j, i) };
-            let factors = &self.values[pair * (self.cols + 1)..][..self.cols + 1];
-            for ((sum, factor), x) in sum.iter_mut().zip(factors).zip(exitance) {
+            let factors = self.values.column(pair);
+            for ((sum, factor), x) in sum.iter_mut().zip(factors.as_slice()).zip(exitance) {
                 *sum += x * factor;
             }
         }

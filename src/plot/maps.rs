@@ -1,4 +1,4 @@
-//! A number a facet, panel beside panel as the unfolded sheet has them.
+//! One number per facet, panel beside panel as the unfolded sheet has them.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -24,7 +24,7 @@ const BAR: (u32, u32) = (300, 14);
 const FOOT: i32 = 64;
 /// Between panels, px.
 const CREASE: u32 = 2;
-/// Least width of a panel that is told its number.
+/// Least width of a panel that is labelled with its number.
 const NUMBERED: u32 = 14;
 /// How much longer than deep a panel is drawn, at most, and the other way round.
 const ASPECT: f64 = 3.0;
@@ -34,7 +34,7 @@ const ASPECT: f64 = 3.0;
 pub struct FacetMap {
     /// What they are.
     pub title: String,
-    /// One a facet of the scene, none where nothing is known.
+    /// One per facet of the scene, none where nothing is known.
     pub values: Vec<Option<f64>>,
 }
 

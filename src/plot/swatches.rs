@@ -1,4 +1,4 @@
-//! What sheets look like: a row a sheet, with its name and its colours, flat and folded.
+//! What sheets look like: one row per sheet, with its name and its colours, flat and folded.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

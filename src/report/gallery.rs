@@ -10,7 +10,7 @@ use crate::scene::sheet;
 use crate::score::{Score, Summary, Worst};
 use crate::stream::{Sample, Scene};
 
-/// Most failures that are told.
+/// Most failures that are listed.
 const FAILURES_MAX: usize = 24;
 /// Most samples that are called the worst.
 const WORST_MAX: usize = 10;
@@ -47,7 +47,7 @@ impl Gallery {
     /// Takes a sample.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if its scores are none.
+    /// [`crate::Error::Field`] if its scores are not scores.
     pub fn add(&mut self, sample: &Sample) -> Result<()> {
         if let Some(error) = sample.error()? {
             self.failed += 1;
@@ -90,7 +90,7 @@ impl Gallery {
     /// The scores of all, and the worst ten by the first score.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if scores are none.
+    /// [`crate::Error::Field`] if scores are not scores.
     pub fn batch(&self, summary: &Summary) -> Result<Batch> {
         let scores = summary.statistics().into_iter().zip(summary.values());
         let mut worst = Vec::new();

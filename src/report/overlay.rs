@@ -19,7 +19,7 @@ pub(super) fn figure(shown: &Shown, view: &View) -> Result<Option<Html>> {
     let id = shown.sample.id();
     match &view.overlay {
         Some(pattern) => picture(&named(pattern, &id), &id).map(Some),
-        None => Ok(told(shown)?.and_then(|pattern| picture(&named(&pattern, &id), &id).ok())),
+        None => Ok(recorded(shown)?.and_then(|pattern| picture(&named(&pattern, &id), &id).ok())),
     }
 }
 
@@ -37,7 +37,7 @@ fn picture(path: &Path, id: &str) -> Result<Html> {
 }
 
 /// Where vextract was told to draw it.
-fn told(shown: &Shown) -> Result<Option<PathBuf>> {
+fn recorded(shown: &Shown) -> Result<Option<PathBuf>> {
     let history = shown.scene.fields.history()?;
     let extract = history.iter().rev().find(|line| line.tool == "vextract");
     Ok(extract.and_then(|line| {

@@ -3,10 +3,11 @@
 //! Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on one panel give everything:
 //! panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
 
-use super::ModeSet;
+use nalgebra::DMatrix;
+
 use super::lanczos::Excited;
+use super::{ModeSet, PanelOperator};
 use crate::error::{Error, Result};
-use crate::kernel::panel::PanelOperator;
 
 /// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near poles, and only
 /// the sum of the two is right to all digits.
@@ -32,8 +33,8 @@ pub enum Modes {
     Separate([ModeSet; 2]),
 }
 
-/// What a light gives to one mode at one facet: unit reflectances aside, `irradiance = (own + r_other·pole·other) /
-/// (1 − r_own·r_other·pole²)`.
+/// What a light gives to one mode on a panel: a facet there receives
+/// `residue·(own + r_other·pole·other) / (1 − r_own·r_other·pole²)` of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excitation {
     /// Pole of the mode.
@@ -65,12 +66,12 @@ impl Response {
                 means: |x: &[f64]| operator.facet_means(0, x),
             };
             let (set, residual) = one.lanczos(tolerance)?;
-            let facets = set.residues.len() / set.poles.len();
+            let facets = set.residues.nrows();
             return Ok((Self { modes: Modes::Shared(set), facets }, residual));
         }
         let (set0, residual0) = both_panels(operator, 0, tolerance)?;
         let (set1, residual1) = both_panels(operator, 1, tolerance)?;
-        let facets = set0.residues.len() / set0.poles.len() / 2;
+        let facets = set0.residues.nrows() / 2;
         Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
     }
 
@@ -83,19 +84,15 @@ impl Response {
             Modes::Shared(set) => (std::slice::from_ref(set), 1),
             Modes::Separate(sets) => (sets, 2),
         };
-        let facets = sets[0].residues.len() / sets[0].poles.len().max(1) / panels;
+        let facets = sets[0].residues.nrows() / panels;
         for (source, set) in sets.iter().enumerate() {
-            let poles = set.poles.len();
-            if poles == 0 || facets == 0 || set.residues.len() != facets * panels * poles {
-                return Err(Error::field(
-                    "response.residues",
-                    "needs one row a facet with one number a pole",
-                ));
+            set.check()?;
+            if set.residues.nrows() != facets * panels {
+                return Err(Error::field("response.residues", "needs as many facets on either panel"));
             }
-            set.check_poles()?;
             // Without a bounce, even light is even.
-            let lit = &set.residues[source * facets * poles..][..facets * poles];
-            if !lit.chunks_exact(poles).all(|facet| (facet.iter().sum::<f64>() - 1.0).abs() < 1e-3) {
+            let lit = set.residues.rows(source * facets, facets);
+            if !lit.column_sum().iter().all(|sum| (sum - 1.0).abs() < 1e-3) {
                 return Err(Error::field(
                     "response.residues",
                     "those of a facet do not add up to 1: make the scene again",
@@ -126,26 +123,39 @@ impl Response {
         self.facets
     }
 
-    /// What `light` gives to each mode at a facet of `panel`.
+    /// What `light` gives to each mode on `panel`, in the order of [`Response::poles`].
     #[must_use]
-    pub fn excitations(&self, panel: usize, facet: usize, light: ModeLight) -> Vec<Excitation> {
+    pub fn excitations(&self, panel: usize, light: ModeLight) -> Vec<Excitation> {
         match &self.modes {
             Modes::Shared(set) => {
-                let excite = |(pole, residue)| {
-                    let (own, other) = light.on_both(panel, pole);
-                    Excitation { pole, own: residue * own, other: residue * other }
+                let excite = |pole: &f64| {
+                    let (own, other) = light.on_both(panel, *pole);
+                    Excitation { pole: *pole, own, other }
                 };
-                set.of_facet(facet).map(excite).collect()
+                set.poles.iter().map(excite).collect()
             }
             Modes::Separate(sets) => {
                 let of_source = |source: usize| {
-                    sets[source].of_facet(panel * self.facets + facet).map(move |(pole, residue)| {
-                        let (lit, facing) = light.on_one(source, pole);
+                    sets[source].poles.iter().map(move |pole| {
+                        let (lit, facing) = light.on_one(source, *pole);
                         let (own, other) = if source == panel { (lit, facing) } else { (facing, lit) };
-                        Excitation { pole, own: residue * own, other: residue * other }
+                        Excitation { pole: *pole, own, other }
                     })
                 };
                 of_source(0).chain(of_source(1)).collect()
+            }
+        }
+    }
+
+    /// Residues of the modes on `panel`: facet by pole, in the order of [`Response::poles`].
+    #[must_use]
+    pub fn residues(&self, panel: usize) -> DMatrix<f64> {
+        match &self.modes {
+            Modes::Shared(set) => set.residues.clone(),
+            Modes::Separate(sets) => {
+                let [of_0, of_1] =
+                    sets.each_ref().map(|set| set.residues.rows(panel * self.facets, self.facets));
+                DMatrix::from_columns(&of_0.column_iter().chain(of_1.column_iter()).collect::<Vec<_>>())
             }
         }
     }
@@ -154,10 +164,15 @@ impl Response {
     #[must_use]
     pub fn irradiance(&self, panel: usize, facet: usize, light: ModeLight, reflectances: [f64; 2]) -> f64 {
         let (both, r_other) = (reflectances[0] * reflectances[1], reflectances[1 - panel]);
-        let at = |mode: &Excitation| {
-            (mode.own + r_other * mode.pole * mode.other) / (1.0 - both * mode.pole * mode.pole)
+        let received = |(mode, (_, residue)): (Excitation, (f64, f64))| {
+            residue * (mode.own + r_other * mode.pole * mode.other) / (1.0 - both * mode.pole * mode.pole)
         };
-        self.excitations(panel, facet, light).iter().map(at).sum()
+        let (sets, row) = match &self.modes {
+            Modes::Shared(set) => (std::slice::from_ref(set), facet),
+            Modes::Separate(sets) => (sets.as_slice(), panel * self.facets + facet),
+        };
+        let residues = sets.iter().flat_map(|set| set.of_facet(row));
+        self.excitations(panel, light).into_iter().zip(residues).map(received).sum()
     }
 }
 
@@ -220,12 +235,11 @@ fn fold_pairs(set: &ModeSet) -> ModeSet {
         pole if pole > 0.0 => 2.0,
         _ => 0.0,
     };
-    let weights: Vec<f64> = set.poles.iter().map(|pole| weight(*pole)).collect();
-    let kept = |k: &usize| weights[*k] > 0.0;
-    let count = set.poles.len();
-    let row = |facet: &[f64]| (0..count).filter(kept).map(|k| weights[k] * facet[k]).collect::<Vec<_>>();
-    ModeSet {
-        poles: (0..count).filter(kept).map(|k| set.poles[k]).collect(),
-        residues: set.residues.chunks_exact(count).flat_map(row).collect(),
+    let kept: Vec<usize> = (0..set.poles.len()).filter(|k| weight(set.poles[*k]) > 0.0).collect();
+    let poles: Vec<f64> = kept.iter().map(|k| set.poles[*k]).collect();
+    let mut residues = set.residues.select_columns(&kept);
+    for (mut of_mode, pole) in residues.column_iter_mut().zip(&poles) {
+        of_mode *= weight(*pole);
     }
+    ModeSet { poles, residues }
 }

@@ -87,7 +87,7 @@ fn modes(
     tolerance: f64,
 ) -> Result<ModeSet> {
     if dot(light.as_slice(), light.as_slice()) <= 0.0 {
-        return Ok(ModeSet::default());
+        return Ok(ModeSet::none(means.nrows()));
     }
     let excited = Excited {
         start: light.as_slice().to_vec(),

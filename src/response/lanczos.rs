@@ -1,6 +1,6 @@
 //! Lanczos' method: the modes of a symmetric exchange that a light excites.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::ModeSet;
 use crate::error::{Error, Result};
@@ -48,13 +48,13 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
     /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
     fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
         let Eigen { values: poles, vectors } = Eigen::of_tridiagonal(diagonal, beside);
-        let steps = diagonal.len();
-        let means: Vec<f64> = basis.iter().flat_map(|x| (self.means)(x)).collect();
-        let facets = means.len() / steps;
-        let seen = DMatrix::from_vec(facets, steps, means) * &vectors;
-        let excited = vectors.row(0) * norm;
-        let residues = (0..facets * steps).map(|n| seen[(n / steps, n % steps)] * excited[n % steps]);
-        ModeSet { residues: residues.collect(), poles }
+        let means: Vec<_> = basis.iter().map(|x| DVector::from_vec((self.means)(x))).collect();
+        let mut residues = DMatrix::from_columns(&means) * &vectors;
+        for (mut of_mode, in_start) in residues.column_iter_mut().zip(vectors.row(0).iter()) {
+            // The light starts along the first vector of the basis.
+            of_mode *= norm * in_start;
+        }
+        ModeSet { poles, residues }
     }
 }
 

@@ -5,31 +5,47 @@
 //! light does not excite. [`SurfaceResponse`] holds those of one light on any surface; a fold's [`Response`] holds those of
 //! any light on it. Surfaces with parts of several reflectances have other ones in every waveband: [`ReducedExchange`].
 
+mod exchange;
 mod fold;
 mod known;
 mod lanczos;
+mod panel;
 mod reduced;
 mod surface;
 
+pub use exchange::Exchange;
 pub use fold::{Excitation, ModeLight, Modes, Response};
 pub use known::BesideKnown;
+pub use panel::PanelOperator;
 pub use reduced::ReducedExchange;
 pub use surface::SurfaceResponse;
 
+use nalgebra::DMatrix;
+
 use crate::error::{Error, Result};
 
-/// Poles, and residues facet by pole.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Poles and residues: `Σ_k residue_ik / (1 − r·pole_k)` is what facet i receives.
+#[derive(Clone, Debug, PartialEq)]
 pub struct ModeSet {
     /// Poles g, in (−1, 1): shares of its light that a mode hands on.
     pub poles: Vec<f64>,
     /// Facet by pole.
-    pub residues: Vec<f64>,
+    pub residues: DMatrix<f64>,
 }
 
 impl ModeSet {
-    /// Refuses poles with which the bounces would not end.
-    fn check_poles(&self) -> Result<()> {
+    /// The modes of a light that does not reach the surface.
+    #[must_use]
+    pub fn none(facets: usize) -> Self {
+        Self { poles: Vec::new(), residues: DMatrix::zeros(facets, 0) }
+    }
+
+    /// Refuses shapes that disagree, and poles with which the bounces would not end.
+    fn check(&self) -> Result<()> {
+        if self.residues.is_empty() || self.residues.ncols() != self.poles.len() {
+            let problem = "needs one row per facet, with one number per pole";
+            return Err(Error::field("response.residues", problem));
+        }
         if self.poles.iter().all(|pole| pole.abs() < 1.0) {
             Ok(())
         } else {
@@ -37,9 +53,8 @@ impl ModeSet {
         }
     }
 
-    /// Poles of a facet, with its residues.
+    /// Poles, each with its residue at a facet.
     fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let count = self.poles.len();
-        self.poles.iter().copied().zip(self.residues[facet * count..][..count].iter().copied())
+        self.poles.iter().enumerate().map(move |(k, pole)| (*pole, self.residues[(facet, k)]))
     }
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Exchange;
 use super::lanczos::orthogonalise;
 use crate::error::{Error, Result};
-use crate::kernel::exchange::Exchange;
 use crate::solve::dot;
 
 /// Most functions: their products with each other still fit into memory and take seconds.
@@ -34,7 +34,7 @@ pub struct ReducedExchange {
 }
 
 impl ReducedExchange {
-    /// Reduces `exchange` under `lights`, each a direct irradiance a patch, on a surface of which `part_of_facet` says the part
+    /// Reduces `exchange` under `lights`, each one direct irradiance per patch, on a surface of which `part_of_facet` says the part
     /// of every facet, from 0, until the residual in the system of eq. (24) is at most `tolerance`, relative to each light, where
     /// all reflectances are 1.
     ///

@@ -1,9 +1,9 @@
 //! One light on any surface, bounced for every reflectance at once.
 
+use super::Exchange;
 use super::ModeSet;
 use super::lanczos::Excited;
 use crate::error::{Error, Result};
-use crate::kernel::exchange::Exchange;
 
 /// What the bounces make of one light, as poles and residues for every facet: with one reflectance r, facet i receives
 /// `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.
@@ -13,7 +13,7 @@ pub struct SurfaceResponse {
 }
 
 impl SurfaceResponse {
-    /// Reduces `exchange` under a direct `irradiance`, a number a patch, to poles and residues whose residual in the system of
+    /// Reduces `exchange` under a direct `irradiance`, one number per patch, to poles and residues whose residual in the system of
     /// eq. (15) is at most `tolerance`, relative to the light, for every reflectance in [0, 1].
     ///
     /// # Returns
@@ -59,11 +59,7 @@ impl SurfaceResponse {
     /// # Errors
     /// [`Error::Field`] if the shapes disagree or a pole is not inside (−1, 1).
     pub fn new(modes: ModeSet) -> Result<Self> {
-        let poles = modes.poles.len();
-        if poles == 0 || modes.residues.is_empty() || !modes.residues.len().is_multiple_of(poles) {
-            return Err(Error::field("response.residues", "needs one row a facet with one number a pole"));
-        }
-        modes.check_poles()?;
+        modes.check()?;
         Ok(Self { modes })
     }
 
@@ -76,7 +72,7 @@ impl SurfaceResponse {
     /// Number of facets.
     #[must_use]
     pub fn facets(&self) -> usize {
-        self.modes.residues.len() / self.modes.poles.len()
+        self.modes.residues.nrows()
     }
 
     /// Irradiance of a facet with all bounces, the surface's reflectance being `reflectance`, in [0, 1].

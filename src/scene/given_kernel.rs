@@ -17,13 +17,13 @@ pub struct GivenKernel {
     name: String,
     /// The exchange between the facets, one patch each.
     pub exchange: DenseExchange,
-    /// Direct light of every source, one value per facet.
+    /// Direct light of every source, one number per facet.
     pub sources: Vec<Vec<f64>>,
 }
 
 impl GivenKernel {
     /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
-    /// `irradiance` holds direct light, one value per facet, or a row of them per source (1 everywhere if there is none); `areas` those of the
+    /// `irradiance` holds direct light, one number per facet, or one row per source (1 everywhere if there is none); `areas` those of the
     /// facets (by reciprocity if there is none).
     ///
     /// # Errors
@@ -31,9 +31,8 @@ impl GivenKernel {
     pub fn read(kernel: &Path, irradiance: Option<&Path>, areas: Option<&Path>) -> Result<Self> {
         let matrix = read_square(kernel)?;
         let facets = matrix.nrows();
-        let areas = areas.map(|path| read_rows(path, facets)).transpose()?;
-        let exchange = DenseExchange::from_kernel(&matrix, areas.as_ref().map(nalgebra::Matrix::as_slice))
-            .map_err(|e| array(kernel, e))?;
+        let areas = areas.map(|path| read_areas(path, facets)).transpose()?;
+        let exchange = DenseExchange::from_kernel(&matrix, areas.as_deref()).map_err(|e| array(kernel, e))?;
         let sources = match irradiance {
             Some(path) => read_sources(path, facets)?,
             None => vec![vec![1.0; facets]],
@@ -60,13 +59,21 @@ impl GivenKernel {
     }
 }
 
+fn read_areas(path: &Path, facets: usize) -> Result<Vec<f64>> {
+    let rows = read_rows(path, facets)?;
+    match rows.nrows() {
+        1 => Ok(rows.into_iter().collect()),
+        several => Err(array(path, format!("{several} rows; give one area per facet"))),
+    }
+}
+
 /// Direct light, source by source.
 fn read_sources(path: &Path, facets: usize) -> Result<Vec<Vec<f64>>> {
     let rows = read_rows(path, facets)?;
     if let Some(value) = rows.iter().find(|value| !(0.0..1e30).contains(*value)) {
         return Err(array(path, format!("{value} is no irradiance; give numbers from 0")));
     }
-    let sources: Vec<Vec<f64>> = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let sources: Vec<Vec<f64>> = rows.outer_iter().map(|row| row.to_vec()).collect();
     match sources.iter().position(|source| !source.iter().any(|value| *value > 0.0)) {
         Some(dark) => Err(array(path, format!("row {dark} has no light; leave it out"))),
         None => Ok(sources),

@@ -1,6 +1,7 @@
 //! What the facets of a photograph are made of: the fold of the scene, the camera where the corners say it stood, and all that real sheets
 //! and light may add.
 
+mod ambient;
 mod bins;
 mod eye;
 mod framing;
@@ -14,7 +15,7 @@ use ndarray::Array2;
 use super::FoldSetting;
 use crate::error::{Error, Result};
 use crate::estimate::photograph::model::nodes;
-use crate::estimate::photograph::parts::{Ambient, Change, Parts, Sunlit};
+use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::estimate::photograph::Told;
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
@@ -81,10 +82,10 @@ impl<'a> FoldLight<'a> {
             tilt_deg: light.tilt_deg(),
             daylight_mired: eye::daylight_mired(&eye),
             has_sky_illuminant: setting.has_sky_illuminant()?,
-            is_outdoors: false,
+            is_outdoors: eye::daylight_mired(&eye).is_some(),
         };
         let lit = self.sunlit(&bins, sun)?;
-        let [sky, ground] = [0, 1].map(|_| Ambient { radiance: 0.0 * &lit.even, open: 0.0 });
+        let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
         let sheets = sheets::of(fold, sun, pose.eye, &self.nodes, &bins, &lit.even)?;
         Ok(Some(Parts {
             told,

@@ -1,5 +1,7 @@
 //! Mean, median and worst of the scores of many samples.
 
+use super::Worse;
+
 /// A score of one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
@@ -16,10 +18,13 @@ impl Score {
         Self { name: name.into(), value }
     }
 
-    /// How bad it is: the value, of a goodness of fit (`gfc`) its negative.
+    /// How bad it is: the value, or its negative where smaller values are worse.
     #[must_use]
     pub fn badness(&self) -> f64 {
-        if self.name == "gfc" { -self.value } else { self.value }
+        match Worse::of_score(&self.name) {
+            Worse::Larger => self.value,
+            Worse::Smaller => -self.value,
+        }
     }
 }
 
@@ -32,11 +37,11 @@ pub struct Statistics {
     pub mean: f64,
     /// Median.
     pub median: f64,
-    /// The largest; of a goodness of fit (`gfc`) the least.
+    /// The largest, or the smallest where smaller values are worse.
     pub worst: f64,
 }
 
-/// The scores of a batch: 8 bytes a score, so that the median is exact.
+/// The scores of a batch: 8 bytes per score, so that the median is exact.
 ///
 /// # Example
 /// ```
@@ -104,10 +109,14 @@ fn statistics(name: &str, values: &[f64]) -> Statistics {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len() - 1;
+    let worst = match Worse::of_score(name) {
+        Worse::Larger => last,
+        Worse::Smaller => 0,
+    };
     Statistics {
         name: name.to_owned(),
         mean: sorted.iter().sum::<f64>() / sorted.len() as f64,
         median: 0.5 * (sorted[last / 2] + sorted[sorted.len() / 2]),
-        worst: sorted[if name == "gfc" { 0 } else { last }],
+        worst: sorted[worst],
     }
 }

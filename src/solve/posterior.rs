@@ -15,7 +15,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
 
-/// Share of the misfit at the start that the noise is first taken for.
+/// The noise is first taken for this share of the misfit at the start.
 const MISFIT: f64 = 0.3;
 /// Factor by which the noise falls from stage to stage.
 const STAGE: f64 = 10.0;
@@ -41,7 +41,7 @@ pub trait Model {
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
     /// Residuals with derivatives.
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
-    /// `Σ λᵢ∇²mᵢ` at a point, a multiplier λ a residual.
+    /// `Σ λᵢ∇²mᵢ` at a point, one multiplier λ per residual.
     fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> DMatrix<f64>;
 }
 
@@ -99,7 +99,7 @@ impl<S> Solution<S> {
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
-    /// How far the data are from what the prior foretells, in standard deviations: of a linear model the cost at the maximum is
+    /// How far the data are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
     /// chi-squared, with as many degrees of freedom as there are data. At a false maximum it is far out.
     #[must_use]
     pub fn surprise(&self) -> f64 {
@@ -130,11 +130,14 @@ pub fn maximise<M: Model>(
     let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, trace: Vec::new() };
     let mut steps = 0;
     let termination = loop {
+        // Noise `now` times its size weighs squared residuals by 1/now².
         let Some(newton) = search.gauss_newton(now.powi(-2)) else {
             break Termination::NoProgress { gradient_norm: f64::INFINITY };
         };
         let gradient_norm = newton.decrement;
         if now > last {
+            // A stage only has to lead to where the next one can start: it is left long before its own minimum, but not without
+            // a step.
             if steps > 0 && (gradient_norm < END_OF_STAGE || steps == STEPS_A_STAGE) {
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;
@@ -151,6 +154,7 @@ pub fn maximise<M: Model>(
             if now <= last {
                 break Termination::NoProgress { gradient_norm };
             }
+            // Less noise changes the cost, so that steps may lower it again: end the stage and forget the damping.
             (steps, search.damping) = (STEPS_A_STAGE, 0.0);
         }
     };
@@ -217,6 +221,8 @@ impl<M: Model> Search<'_, M> {
 
     /// One step, damped until it lowers the cost; whether any did.
     fn step(&mut self, newton: &GaussNewton) -> bool {
+        // What the linear model leaves of the residuals, not the residuals themselves: far from the minimum these are large and
+        // would make a curvature of what the step is about to remove.
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
         let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.at.second, &multipliers);
         for _ in 0..TRIALS {
@@ -250,6 +256,8 @@ impl<M: Model> Search<'_, M> {
         if after < before - 0.5 * newton.descent.dot(&direction) {
             return Some(next);
         }
+        // The curvature of precise data has thrown the step off their valley: one more solution with the old factor, for what
+        // the linear model did not foresee, leads back to it.
         let unforeseen = residuals - &self.at.residuals + &self.at.jacobian * direction;
         let corrected = &next + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
         let after_correction = cost(&corrected, &self.model.residuals(&corrected));

@@ -72,7 +72,7 @@ impl Spectrum {
         let (name, grid) = (name.into(), WavelengthGrid::new(wavelengths_nm)?);
         if grid.len() != values.len() {
             let problem = format!("{} values for {} wavelengths", values.len(), grid.len());
-            return Err(Error::Spectrum { name, problem, remedy: "give one value a wavelength".into() });
+            return Err(Error::Spectrum { name, problem, remedy: "give one value per wavelength".into() });
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             let problem = format!("{value} is not a number");

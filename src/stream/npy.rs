@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
+use ndarray::ArrayViewD;
 use npyz::WriterBuilder;
 
 use crate::error::{Error, Result};
@@ -13,8 +14,8 @@ use crate::files::Saved;
 pub struct ArrayStack {
     saved: Saved,
     data: File,
-    shape: Option<Vec<u64>>,
-    count: u64,
+    shape: Option<Vec<usize>>,
+    count: usize,
 }
 
 impl ArrayStack {
@@ -27,17 +28,18 @@ impl ArrayStack {
         Ok(Self { saved: Saved::new(path)?, data, shape: None, count: 0 })
     }
 
-    /// Adds one array, values in C order.
+    /// Adds one array.
     ///
     /// # Errors
     /// [`Error::Array`] if its shape is not that of the arrays before it.
-    pub fn push(&mut self, shape: &[u64], values: &[f64]) -> Result<()> {
+    pub fn push(&mut self, array: ArrayViewD<f64>) -> Result<()> {
+        let shape = array.shape();
         let first = self.shape.get_or_insert_with(|| shape.to_vec());
         if first != shape {
             let problem = format!("record {} has shape {shape:?}, those before it {first:?}", self.count);
             return Err(Error::Array { path: self.saved.path().display().to_string(), problem });
         }
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let bytes: Vec<u8> = array.iter().flat_map(|value| value.to_le_bytes()).collect();
         self.data.write_all(&bytes).map_err(spilled)?;
         self.count += 1;
         Ok(())
@@ -55,7 +57,7 @@ impl ArrayStack {
                 problem: "no record has the field to save; check --save FIELD".to_owned(),
             });
         };
-        let shape: Vec<u64> = std::iter::once(self.count).chain(shape).collect();
+        let shape: Vec<usize> = std::iter::once(self.count).chain(shape).collect();
         let failed = |e| Error::file(&path, e);
         self.data.seek(SeekFrom::Start(0)).map_err(failed)?;
         let mut bytes = Vec::new();
@@ -88,7 +90,7 @@ pub fn write_matrix(path: &Path, rows: usize, cols: usize, row: impl Fn(usize) -
     let mut saved = Saved::new(path)?;
     let failed = |e| Error::file(path.display(), e);
     let mut out = BufWriter::new(saved.file_mut());
-    let mut writer = begin(&[rows as u64, cols as u64], &mut out).map_err(failed)?;
+    let mut writer = begin(&[rows, cols], &mut out).map_err(failed)?;
     for index in 0..rows {
         writer.extend(row(index)).map_err(failed)?;
     }
@@ -98,6 +100,7 @@ pub fn write_matrix(path: &Path, rows: usize, cols: usize, row: impl Fn(usize) -
     saved.keep()
 }
 
-fn begin<W: Write>(shape: &[u64], out: W) -> std::io::Result<npyz::NpyWriter<f64, W>> {
-    npyz::WriteOptions::new().default_dtype().shape(shape).writer(out).begin_nd()
+fn begin<W: Write>(shape: &[usize], out: W) -> std::io::Result<npyz::NpyWriter<f64, W>> {
+    let shape: Vec<u64> = shape.iter().map(|extent| *extent as u64).collect();
+    npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()
 }

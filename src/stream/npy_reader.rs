@@ -5,11 +5,12 @@ use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 
 use nalgebra::DMatrix;
+use ndarray::{Array2, ShapeBuilder};
 use npyz::{NpyFile, Order};
 
 use crate::error::{Error, Result};
 
-/// Largest kernel that is read: one of so many facets has 3 GB.
+/// Largest kernel that is read: one of this many facets takes 3 GB.
 const SQUARE_MAX: u64 = 20_000;
 /// Longest header that is read, as by NumPy.
 const HEADER_MAX: u64 = 10_000;
@@ -19,11 +20,11 @@ const BRACKETS_MAX: usize = 8;
 /// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Array`] if it is no such matrix.
+/// [`Error::File`] if it cannot be read, [`Error::Array`] if it is not such a matrix.
 pub fn read_matrix(path: &Path, shape: [(usize, &str); 2]) -> Result<DMatrix<f64>> {
     let [(rows, row), (cols, col)] = shape;
     let needed = format!("{rows} {row} by {cols} {col} are needed");
-    read(path, &needed, |shape| (shape == [rows as u64, cols as u64]).then_some([rows, cols]))
+    read(path, &needed, |shape| (shape == [rows as u64, cols as u64]).then_some([rows, cols])).map(matrix)
 }
 
 /// Reads a square matrix of double precision numbers.
@@ -36,13 +37,14 @@ pub fn read_square(path: &Path) -> Result<DMatrix<f64>> {
         [rows, cols] if rows == cols && (1..=SQUARE_MAX).contains(rows) => Some([*rows as usize; 2]),
         _ => None,
     })
+    .map(matrix)
 }
 
 /// Reads a row of `cols` double precision numbers, or several rows.
 ///
 /// # Errors
 /// As [`read_matrix`].
-pub fn read_rows(path: &Path, cols: usize) -> Result<DMatrix<f64>> {
+pub fn read_rows(path: &Path, cols: usize) -> Result<Array2<f64>> {
     let needed = format!("{cols} numbers are needed, or 1 to 1000 rows of them");
     read(path, &needed, |shape| match shape {
         [only] if *only == cols as u64 => Some([1, cols]),
@@ -51,8 +53,14 @@ pub fn read_rows(path: &Path, cols: usize) -> Result<DMatrix<f64>> {
     })
 }
 
+/// The same numbers for linear algebra.
+fn matrix(rows: Array2<f64>) -> DMatrix<f64> {
+    let (height, width) = rows.dim();
+    DMatrix::from_iterator(height, width, rows.reversed_axes())
+}
+
 /// Reads an array whose shape gives a number of rows and columns.
-fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]>) -> Result<DMatrix<f64>> {
+fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]>) -> Result<Array2<f64>> {
     let failed = |e| Error::file(path.display(), e);
     let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
     let mut file = BufReader::new(File::open(path).map_err(failed)?);
@@ -75,10 +83,8 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
         return Err(wrong(problem));
     }
     let values: Vec<f64> = numbers.collect::<io::Result<_>>().map_err(failed)?;
-    Ok(match order {
-        Order::C => DMatrix::from_row_slice(rows, cols, &values),
-        Order::Fortran => DMatrix::from_vec(rows, cols, values),
-    })
+    let shape = (rows, cols).set_f(order == Order::Fortran);
+    Array2::from_shape_vec(shape, values).map_err(|e| wrong(format!("{e}; save it again")))
 }
 
 /// What stands before the numbers of an array; none if it would be longer than any.

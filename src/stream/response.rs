@@ -1,5 +1,6 @@
 //! The scene's response: poles and residues of the bounces.
 
+use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +40,7 @@ pub(super) struct ModesRecord {
 
 impl From<&ModeSet> for ModesRecord {
     fn from(set: &ModeSet) -> Self {
-        let residues = set.residues.chunks(set.poles.len()).map(<[f64]>::to_vec).collect();
+        let residues = set.residues.row_iter().map(|row| row.iter().copied().collect()).collect();
         Self { poles: set.poles.clone(), residues }
     }
 }
@@ -48,12 +49,11 @@ impl ModesRecord {
     fn into_modes(self, facets: usize) -> Result<ModeSet> {
         let poles = self.poles.len();
         if self.residues.len() != facets || self.residues.iter().any(|row| row.len() != poles) {
-            return Err(Error::field(
-                "response.residues",
-                "needs one row per facet, with one number per pole",
-            ));
+            let problem = "needs one row per facet, with one number per pole";
+            return Err(Error::field("response.residues", problem));
         }
-        Ok(ModeSet { poles: self.poles, residues: self.residues.concat() })
+        let residues = DMatrix::from_row_iterator(facets, poles, self.residues.into_iter().flatten());
+        Ok(ModeSet { poles: self.poles, residues })
     }
 }
 
@@ -124,7 +124,7 @@ impl Scene {
         })
     }
 
-    /// Poles and residues of every source around a surface that is not a fold.
+    /// Poles and residues of every source around a surface other than a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing, or do not fit facets and sources.

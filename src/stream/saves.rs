@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ndarray::ArrayD;
 use serde_json::Value;
 
 use super::{ArrayStack, Fields};
@@ -33,8 +34,8 @@ impl Saves {
     /// As [`ArrayStack::new`] and [`ArrayStack::push`].
     pub fn record(&mut self, fields: &Fields) -> Result<()> {
         for (field, path, stack) in &mut self.0 {
-            if let Some((shape, values)) = find(fields, field).as_ref().and_then(numbers) {
-                open(stack, path)?.push(&shape, &values)?;
+            if let Some(array) = find(fields, field).as_ref().and_then(numbers) {
+                open(stack, path)?.push(array.view())?;
             }
         }
         Ok(())
@@ -64,37 +65,36 @@ fn find(fields: &Fields, name: &str) -> Option<Value> {
     fields.at(name).or_else(|| GROUPS.iter().find_map(|group| fields.at(&format!("{group}.{name}"))))
 }
 
-/// Shape and values of a number or of nested lists of one shape, null as NaN; none for anything else.
-fn numbers(value: &Value) -> Option<(Vec<u64>, Vec<f64>)> {
+/// A number or nested lists of one shape, null as NaN; none for anything else.
+fn numbers(value: &Value) -> Option<ArrayD<f64>> {
     let mut shape = Vec::new();
     measure(value, 0, &mut shape);
     let mut values = Vec::new();
     collect(value, &shape, &mut values)?;
-    Some((shape, values))
+    ArrayD::from_shape_vec(shape, values).ok()
 }
 
 /// Extents by depth; a null stands for a list of whatever extent its neighbours have.
-fn measure(value: &Value, depth: usize, shape: &mut Vec<u64>) {
+fn measure(value: &Value, depth: usize, shape: &mut Vec<usize>) {
     if let Value::Array(items) = value {
         if shape.len() == depth {
-            shape.push(items.len() as u64);
+            shape.push(items.len());
         }
         items.iter().for_each(|item| measure(item, depth + 1, shape));
     }
 }
 
-fn collect(value: &Value, shape: &[u64], values: &mut Vec<f64>) -> Option<()> {
+fn collect(value: &Value, shape: &[usize], values: &mut Vec<f64>) -> Option<()> {
     match (value, shape) {
         (Value::Null, _) => {
-            let count = usize::try_from(shape.iter().product::<u64>()).ok()?;
-            values.resize(values.len() + count, f64::NAN);
+            values.resize(values.len() + shape.iter().product::<usize>(), f64::NAN);
             Some(())
         }
         (Value::Number(number), []) => {
             values.push(number.as_f64()?);
             Some(())
         }
-        (Value::Array(items), [extent, rest @ ..]) if items.len() as u64 == *extent => {
+        (Value::Array(items), [extent, rest @ ..]) if items.len() == *extent => {
             items.iter().try_for_each(|item| collect(item, rest, values))
         }
         _ => None,
@@ -103,24 +103,26 @@ fn collect(value: &Value, shape: &[u64], values: &mut Vec<f64>) -> Option<()> {
 
 #[cfg(test)]
 mod tests {
+    use ndarray::{arr0, arr1};
     use serde_json::json;
 
     use super::*;
 
     #[test]
     fn nested_lists_have_a_shape_and_null_is_nan() {
-        let (shape, values) = numbers(&json!([[1, 2], null, [5, 6.5]])).unwrap();
-        assert_eq!(shape, [3, 2]);
-        assert_eq!(values[..2], [1.0, 2.0]);
-        assert!(values[2].is_nan() && values[3].is_nan());
-        assert_eq!(values[4..], [5.0, 6.5]);
+        let array = numbers(&json!([[1, 2], null, [5, 6.5]])).unwrap();
+        assert_eq!(array.shape(), [3, 2]);
+        let rows: Vec<_> = array.outer_iter().collect();
+        assert_eq!(rows[0], arr1(&[1.0, 2.0]).into_dyn());
+        assert!(rows[1].iter().all(|value| value.is_nan()));
+        assert_eq!(rows[2], arr1(&[5.0, 6.5]).into_dyn());
     }
 
     #[test]
     fn ragged_lists_and_text_are_no_arrays() {
         assert!(numbers(&json!([[1, 2], [3]])).is_none());
         assert!(numbers(&json!(["a"])).is_none());
-        assert_eq!(numbers(&json!(4.0)).unwrap(), (vec![], vec![4.0]));
+        assert_eq!(numbers(&json!(4.0)).unwrap(), arr0(4.0).into_dyn());
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! A fresh folder in which shell lines run with the five tools first on PATH: those of the tests, or those in the folder `TOOLS`.
 
+use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -22,6 +23,10 @@ impl Workdir {
         Self(tempfile::tempdir().unwrap())
     }
 
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
     /// Runs a script with `sh -eu`.
     pub fn sh(&self, script: &str) -> Ended {
         let built = Path::new(env!("CARGO_BIN_EXE_vkernel")).parent().unwrap().to_owned();
@@ -30,7 +35,7 @@ impl Workdir {
         let path = std::iter::once(tools).chain(std::env::split_paths(&others));
         let run = Command::new("sh")
             .args(["-eu", "-c", script])
-            .current_dir(self.0.path())
+            .current_dir(self.path())
             .env("PATH", std::env::join_paths(path).unwrap())
             .output();
         Ended::from(run.unwrap())
@@ -41,11 +46,36 @@ impl Workdir {
     pub fn can(&self, line: &str, otherwise: &str) -> bool {
         let can = self.sh(line).status == 0;
         if !can {
-            // not by `println`, which shows nothing of a test that passes
-            let _ = writeln!(io::stderr(), "left out, '{line}' fails: {otherwise}");
+            left_out(&format!("{otherwise}: '{line}' fails"));
         }
         can
     }
+}
+
+/// Whether a file or folder beside the project is there; if not, says that what needs it is left out.
+#[allow(dead_code)] // for the tests that need more than the project
+pub fn is_there(path: &str) -> bool {
+    let is_there = Path::new(path).exists();
+    if !is_there {
+        left_out(&format!("what needs {path}, which is not there"));
+    }
+    is_there
+}
+
+/// Says what is left out, in the file `LEFT_OUT`, which `tests/run` prints in the end, or on standard error.
+#[allow(dead_code)] // for the tests that need more than the project
+pub fn left_out(what: &str) {
+    let line = format!("left out: {what}\n");
+    let said = match std::env::var_os("LEFT_OUT") {
+        Some(file) => OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(file)
+            .and_then(|mut file| file.write_all(line.as_bytes())),
+        // not by `print`, which shows nothing of a test that passes
+        None => io::stderr().write_all(line.as_bytes()),
+    };
+    said.unwrap();
 }
 
 impl From<Output> for Ended {

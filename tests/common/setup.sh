@@ -1,5 +1,4 @@
-# Leaves a scene, samples, estimates, a photograph and a command that knows its corners, in a folder that all may enter.
-chmod 755 .
+# Leaves a scene, samples, estimates, a photograph and a command that knows its corners.
 cp "$CARGO_MANIFEST_DIR/tests/data/photos/a_ideal_magenta_50.exr" photo.exr
 vkernel --angle-deg 50 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24 --noise-sd 1e-3 -o samples.ndjson
@@ -8,4 +7,3 @@ cat > extract <<'END'
 exec vextract "$@" --scene "${scene:-scene.json}" --camera canon-5d-mark-ii \
     --panel0 "332,462 345,77 122,12 104,442" --panel1 "332,462 345,77 485,17 472,446"
 END
-extract() { sh extract "$@"; }

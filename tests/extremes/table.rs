@@ -3,9 +3,10 @@
 use std::fs;
 
 use rayon::prelude::*;
+use serde_json::Value;
 
 use crate::common::Workdir;
-use crate::measured::Measured;
+use crate::measured::{Measured, SPECTRA};
 use crate::rows::{ROWS, Row};
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results/extremes.md");
@@ -81,4 +82,21 @@ fn a_tenth_of_a_degree_undivided_is_refused() {
             "{flags}: {run:?}"
         );
     }
+}
+
+/// It tells the reflectance there, and nothing of the rest.
+#[test]
+fn a_light_of_one_line_tells_the_reflectance_of_one_waveband() {
+    let folder = Workdir::new();
+    folder.sh(SPECTRA);
+    let run = folder.sh(
+        "vkernel --mesh facets | vforward --reflectance cc24:red --illuminant line.csv --noise-sd 1e-3 --seed 1 | vestimate -q | tail -n 1",
+    );
+    let sample: Value = serde_json::from_str(&run.stdout).unwrap();
+    let at = |spectrum: &Value, nm: usize| spectrum[(nm - 400) / 5].as_f64().unwrap();
+    let estimate = &sample["estimate"];
+    let off = at(&estimate["reflectance"], 550) - at(&sample["truth"]["reflectance"], 550);
+    let sd = |nm: usize| at(&estimate["reflectance_sd"], nm);
+    assert!(sd(550) < 1e-3 && off.abs() < 3.0 * sd(550), "off by {off}, said {}", sd(550));
+    assert!([400, 450, 650, 700].into_iter().all(|nm| sd(nm) > 0.02), "{estimate}");
 }

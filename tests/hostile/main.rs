@@ -1,4 +1,4 @@
-//! Bad input gets one clear line and the right exit status: no panic, no file, no half line.
+//! Bad input gets one clear line and the right exit status: no panic, no file, no half line; nor do machines that fail leave any.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -8,12 +8,15 @@ mod calibration;
 mod cameras;
 #[path = "../common/mod.rs"]
 mod common;
+mod faults;
 mod flags;
 mod formats;
 mod kernels;
 mod lights;
 mod methods;
 mod photographs;
+#[path = "../common/ready.rs"]
+mod ready;
 mod resume;
 mod shapes;
 mod spectra;

@@ -16,7 +16,9 @@ fn tables_of_spectra() {
         printf 'nm,r [%%]\n400,0.1\n700,0.9\n' > ambiguous.csv
         printf 'wavelength (um),r\n0.4,0.1\n700,0.3\n' > mixed.csv
         printf 'nm,r\n400,-0.1\n700,0.3\n' > negative.csv
-        printf 'nm;r\n400;0,1\n700;0,3\n' > semicolons.csv
+        printf 'nm;r\n400;0,1\n700;0.3\n' > marks.csv
+        printf 'nm|r\n400|0.1\n700|0.3\n' > bars.csv
+        printf 'nm,r\n400,\0420.1\n700,0.3\n' > quote.csv
         printf 'nm,r\n0.4,0.1\n0.7,0.3\n' > micrometres.csv
         printf 'nm,r\n' > rowless.csv
         : > empty.csv
@@ -39,7 +41,9 @@ fn tables_of_spectra() {
             ),
             case("vforward scene.json --reflectance mixed.csv", 1, &["mixed.csv:3", "micrometres"]),
             case("vforward scene.json --reflectance negative.csv", 1, &["negative", "-0.1"]),
-            case("vforward scene.json --reflectance semicolons.csv", 1, &["semicolons.csv:1", "','"]),
+            case("vforward scene.json --reflectance marks.csv", 1, &["marks.csv:3", "decimal mark", "','"]),
+            case("vforward scene.json --reflectance bars.csv", 1, &["bars.csv:1", "','", "tabs"]),
+            case("vforward scene.json --reflectance quote.csv", 1, &["quote.csv:2", "quote"]),
             case("vforward scene.json --reflectance micrometres.csv", 1, &["micrometres.csv:2", "um"]),
             case("vforward scene.json --reflectance rowless.csv", 1, &["rowless.csv", "two wavelengths"]),
             case("vforward scene.json --reflectance empty.csv", 1, &["empty.csv:1", "header"]),

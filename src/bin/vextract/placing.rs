@@ -55,7 +55,7 @@ impl PlacingArgs {
     }
 }
 
-/// Corners further off are better given anew.
+/// Corners further off are better given again.
 const MOST_PX: f64 = 100.0;
 
 /// Says how far corners were moved if `verbose`, and that there was nothing to move them to unless `quiet`.

@@ -24,7 +24,7 @@ pub struct Target {
     cols: usize,
     /// Cosine of the angle at which the sun meets it.
     cos: f64,
-    /// Name and reflectance, a number a waveband, row by row.
+    /// Name and reflectance, one number per waveband, row by row.
     patches: Vec<(String, Vec<f64>)>,
 }
 

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use groups::Groups;
-use metric::Metric;
+use metric::metric;
 use scorer::Scorer;
 use table::Table;
 use vfold::Result;
@@ -19,7 +19,7 @@ use vfold::colorimetry::Observer;
 use vfold::plot::spectra::CURVES_MAX;
 use vfold::plot::{batch, sheets};
 use vfold::report::{self, Gallery, SECTIONS_MAX, View};
-use vfold::score::Summary;
+use vfold::score::{Metric, Summary};
 use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Kept, Output, Reader, Record, pipe, summary};
 
@@ -52,8 +52,8 @@ struct Args {
     observer: Observer,
     /// What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index
     /// of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true)]
-    metrics: Vec<Metric>,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true, value_parser = metric())]
+    metrics: Vec<&'static Metric>,
     /// Add the estimate's XYZ, CIELAB and sRGB under the first illuminant to the records, with standard deviations
     #[arg(long, conflicts_with = "table")]
     colour: bool,
@@ -102,11 +102,11 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     let scorer = Scorer::new(args)?;
-    let table = args.table.then(|| Table::new(scorer.names.clone()));
+    let table = args.table.then(|| Table::new(&scorer.scores));
     let (mut groups, mut measured) = (Groups::new(args.by.as_deref()), Vec::new());
     let mut gallery = gallery(args);
     table.as_ref().map_or(Ok(()), |table| table.header(out))?;
-    // To score a sample takes no longer than to read it: all are scored anew, and the summary is that of all.
+    // Scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of them.
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
         match &record {
             Record::Scene(scene) => {

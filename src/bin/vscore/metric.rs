@@ -1,44 +1,12 @@
-//! What is scored, and how it looks in a table.
+//! The metrics as values of `--metrics`.
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use vfold::score::{METRICS, Metric};
 
-/// A kind of score.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Metric {
-    /// Root mean square error.
-    Rmse,
-    /// Colour difference under each illuminant.
-    Ciede2000,
-    /// What the paper calls Pearson distance.
-    Pd,
-    /// Goodness of fit coefficient.
-    Gfc,
-    /// Spectral angle.
-    Angle,
-    /// From the first illuminant to each other one.
-    Metamerism,
-}
-
-impl Metric {
-    /// What the score is called in records; colour differences under other illuminants than the first get its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rmse => "rmse",
-            Self::Ciede2000 => "ciede2000",
-            Self::Pd => "pd",
-            Self::Gfc => "gfc",
-            Self::Angle => "angle_deg",
-            Self::Metamerism => "metamerism",
-        }
-    }
-}
-
-/// How many columns, at least, and decimals a score has.
-pub fn width_and_decimals(name: &str) -> (usize, usize) {
-    match name {
-        "rmse" => (8, 4),
-        "pd" => (10, 5),
-        "gfc" => (8, 5),
-        _ => (10, 3),
-    }
+/// Reads the name of a metric.
+pub fn metric() -> impl TypedValueParser<Value = &'static Metric> {
+    let names = METRICS.iter().map(|metric| PossibleValue::new(metric.flag).help(metric.help));
+    PossibleValuesParser::new(names).try_map(|name| {
+        METRICS.iter().find(|metric| metric.flag == name).ok_or_else(|| format!("no metric {name}"))
+    })
 }

@@ -1,28 +1,29 @@
 //! Scores of the samples of a stream.
 
+use std::collections::HashSet;
+
 use vfold::colorimetry::{Colorimeter, ErrorBars, Observer};
-use vfold::score::{Score, goodness_of_fit, pearson_distance, rmse, spectral_angle_deg};
+use vfold::score::{METRICS, Metric, Score};
 use vfold::spectrum::{Spectrum, WavelengthGrid};
 use vfold::stream::{EstimateRecord, ReflectanceRecord, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
 use super::Args;
-use super::metric::Metric;
 
 /// Scores as the flags ask for.
 pub struct Scorer<'a> {
     args: &'a Args,
     illuminants: Vec<Spectrum>,
-    metrics: Vec<Metric>,
-    /// The names of the scores that every sample gets, in their order.
-    pub names: Vec<String>,
+    metrics: Vec<&'static Metric>,
+    /// The scores that every sample gets, in their order: of which metric, and what they are called.
+    pub scores: Vec<(&'static Metric, String)>,
     truth: Option<Vec<Spectrum>>,
 }
 
 /// What the samples of one scene share.
 pub struct Context {
     grid: WavelengthGrid,
-    /// One an illuminant.
+    /// One per illuminant.
     colorimeters: Vec<Colorimeter>,
 }
 
@@ -32,12 +33,18 @@ impl<'a> Scorer<'a> {
         let illuminants: Vec<_> =
             args.illuminant.iter().map(|spec| args.common.illuminant(spec)).collect::<Result<_>>()?;
         let metrics = metrics(args)?;
-        let names = score_names(&metrics, &illuminants);
-        if let Some((_, twice)) = names.iter().enumerate().find(|(n, name)| names[..*n].contains(name)) {
+        let lights: Vec<_> = illuminants.iter().map(Spectrum::name).collect();
+        let named = |metric: &&'static Metric| {
+            let metric = *metric;
+            metric.score_names(&lights).into_iter().map(move |name| (metric, name))
+        };
+        let scores: Vec<_> = metrics.iter().flat_map(named).collect();
+        let mut seen = HashSet::new();
+        if let Some((_, twice)) = scores.iter().find(|(_, name)| !seen.insert(name)) {
             let problem = format!("'{twice}' is asked for twice");
             return Err(Error::usage("--illuminant, --metrics", problem, "give each once"));
         }
-        Ok(Self { args, metrics, names, illuminants, truth })
+        Ok(Self { args, metrics, scores, illuminants, truth })
     }
 
     /// The illuminant of colours that are shown.
@@ -46,21 +53,9 @@ impl<'a> Scorer<'a> {
     }
 
     fn scores(&self, context: &Context, truth: &[f64], estimate: &[f64]) -> Vec<Score> {
-        let Context { colorimeters, .. } = context;
-        let values = self.metrics.iter().flat_map(|metric| match metric {
-            Metric::Rmse => vec![rmse(truth, estimate)],
-            Metric::Pd => vec![pearson_distance(truth, estimate)],
-            Metric::Gfc => vec![goodness_of_fit(truth, estimate)],
-            Metric::Angle => vec![spectral_angle_deg(truth, estimate)],
-            Metric::Ciede2000 => {
-                colorimeters.iter().map(|meter| meter.delta_e_2000(truth, estimate)).collect()
-            }
-            Metric::Metamerism => {
-                let index = |meter: &Colorimeter| meter.metamerism_index(&colorimeters[0], truth, estimate);
-                colorimeters[1..].iter().map(index).collect()
-            }
-        });
-        self.names.iter().zip(values).map(|(name, value)| Score::new(name, value)).collect()
+        let values =
+            self.metrics.iter().flat_map(|metric| metric.scores(&context.colorimeters, truth, estimate));
+        self.scores.iter().zip(values).map(|((_, name), value)| Score::new(name, value)).collect()
     }
 
     /// The true spectrum; none only where drawings are asked for, which have more to show.
@@ -138,30 +133,18 @@ impl Transform for Scorer<'_> {
     }
 }
 
-/// The names of the scores of `metrics`: those under other illuminants than the first have its name.
-fn score_names(metrics: &[Metric], illuminants: &[Spectrum]) -> Vec<String> {
-    let others = |metric: &Metric| {
-        let metric = metric.name();
-        illuminants[1..].iter().map(move |light| format!("{metric}_{}", light.name()))
-    };
-    let mut names = Vec::new();
-    for metric in metrics {
-        names.extend((*metric != Metric::Metamerism).then(|| metric.name().to_owned()));
-        names.extend(others(metric).filter(|_| matches!(metric, Metric::Ciede2000 | Metric::Metamerism)));
-    }
-    names
-}
-
 /// What is to be scored.
-fn metrics(args: &Args) -> Result<Vec<Metric>> {
+fn metrics(args: &Args) -> Result<Vec<&'static Metric>> {
     let several = args.illuminant.len() > 1;
     if args.metrics.is_empty() {
-        let always = [Metric::Rmse, Metric::Ciede2000, Metric::Pd];
-        return Ok(always.into_iter().chain(several.then_some(Metric::Metamerism)).collect());
+        let by_default = METRICS.iter().filter(|metric| metric.by_default);
+        return Ok(by_default.filter(|metric| several || !metric.needs_change()).collect());
     }
-    if args.metrics.contains(&Metric::Metamerism) && !several {
-        let problem = "metamerism needs a change of illuminant";
-        return Err(Error::usage("--metrics", problem, "give two, as in --illuminant D65 --illuminant A"));
+    match args.metrics.iter().find(|metric| metric.needs_change()) {
+        Some(metric) if !several => {
+            let problem = format!("{} needs a change of illuminant", metric.flag);
+            Err(Error::usage("--metrics", problem, "give two, as in --illuminant D65 --illuminant A"))
+        }
+        _ => Ok(args.metrics.clone()),
     }
-    Ok(args.metrics.clone())
 }

@@ -2,17 +2,15 @@
 
 use vfold::Result;
 use vfold::cli::one_line;
-use vfold::score::{Group, Statistics, Summary};
+use vfold::score::{Group, Metric, Statistics, Summary};
 use vfold::stream::{Output, Sample};
-
-use super::metric::width_and_decimals;
 
 /// Columns of a terminal; a table is wider only if it has too many scores.
 const WIDTH: usize = 80;
 /// Most and least columns for a sample's name.
 const NAME: [usize; 2] = [28, 12];
 
-/// A column a score.
+/// One column per score.
 pub struct Table {
     name_width: usize,
     columns: Vec<Column>,
@@ -25,12 +23,13 @@ struct Column {
 }
 
 impl Table {
-    pub fn new(score_names: Vec<String>) -> Self {
-        let column = |name: String| {
-            let (width, decimals) = width_and_decimals(&name);
-            Column { width: width.max(name.chars().count() + 1), decimals, name }
+    /// A column for each of these scores of some metrics.
+    pub fn new(scores: &[(&'static Metric, String)]) -> Self {
+        let column = |(metric, name): &(&Metric, String)| {
+            let width = metric.width.max(name.chars().count() + 1);
+            Column { width, decimals: metric.decimals, name: name.clone() }
         };
-        let columns: Vec<Column> = score_names.into_iter().map(column).collect();
+        let columns: Vec<Column> = scores.iter().map(column).collect();
         let taken: usize = columns.iter().map(|column| column.width + 1).sum();
         Self { name_width: WIDTH.saturating_sub(taken).clamp(NAME[1], NAME[0]), columns }
     }

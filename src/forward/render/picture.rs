@@ -57,7 +57,7 @@ impl Picture {
         Self { frame, rgb }
     }
 
-    /// The pixels' values, three a pixel.
+    /// The pixels' values, three per pixel.
     pub fn pixels_mut(&mut self) -> &mut [f64] {
         &mut self.rgb
     }

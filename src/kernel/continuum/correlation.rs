@@ -1,6 +1,6 @@
 //! Pairs of strips along the crease: the kernel depends on the shift between two points alone.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::strips::polynomials;
 use crate::kernel::quadrature::Rule;
@@ -8,11 +8,11 @@ use crate::kernel::quadrature::Rule;
 /// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0.
 const PEAK_GRADING: f64 = 3.0;
 
-/// `∫∫ P_b(x) P_d(y) g(x − y) dx dy` as a rule over the shift: squared shifts and, for each, weights of all pairs (b, d).
+/// `∫∫ P_b(x) P_d(y) g(x − y) dx dy` as a rule over the shift: squared shifts and, for each, weights of all pairs: d by b.
 pub(super) struct Correlation {
     order: usize,
     shift2: Vec<f64>,
-    weights: Vec<f64>,
+    weights: Vec<DMatrix<f64>>,
 }
 
 impl Correlation {
@@ -22,8 +22,11 @@ impl Correlation {
 
     /// Adds strips `e` and `f`; `mirror` reverses the polynomials of `f`. The kernel's peak at z = 0 has width `peak`.
     pub(super) fn add(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, peak: f64) {
+        // The overlap of one strip with the other, shifted by z, is a polynomial between the shifts at which their ends meet.
         let mut kinks = [e[0] - f[1], e[0] - f[0], e[1] - f[1], e[1] - f[0]];
         kinks.sort_by(f64::total_cmp);
+        // On the overlap there is a product of two polynomials, which `order` Gauss points integrate exactly; over z the kernel
+        // comes in, which needs some to spare.
         let (rule, exact) = (Rule::gauss_legendre(self.order + 6), Rule::gauss_legendre(self.order));
         for piece in kinks.windows(2) {
             for [low, high] in towards_peak(piece[0], piece[1], peak) {
@@ -35,29 +38,26 @@ impl Correlation {
     }
 
     fn add_shift(&mut self, e: [f64; 2], f: [f64; 2], mirror: bool, z: f64, weight: f64, exact: &Rule) {
-        let order = self.order;
-        let start = self.weights.len();
-        self.shift2.push(z * z);
-        self.weights.resize(start + order * order, 0.0);
-        let (mut of_e, mut of_f) = (vec![0.0; order], vec![0.0; order]);
+        let mut weights = DMatrix::zeros(self.order, self.order);
+        let (mut of_e, mut of_f) = (DVector::zeros(self.order), DVector::zeros(self.order));
         for (x, w) in exact.on(e[0].max(f[0] + z), e[1].min(f[1] + z)) {
-            polynomials(e, x, &mut of_e);
-            polynomials(f, x - z, &mut of_f);
+            polynomials(e, x, of_e.as_mut_slice());
+            polynomials(f, x - z, of_f.as_mut_slice());
             if mirror {
+                // Legendre polynomials of odd degree are odd.
                 of_f.iter_mut().skip(1).step_by(2).for_each(|value| *value = -*value);
             }
-            for (b, p) in of_e.iter().enumerate() {
-                for (d, r) in of_f.iter().enumerate() {
-                    self.weights[start + b * order + d] += weight * w * p * r;
-                }
-            }
+            weights.ger(weight * w, &of_f, &of_e, 1.0);
         }
+        self.shift2.push(z * z);
+        self.weights.push(weights);
     }
 
     /// The integrals with `g = q³/(q² + z²)²`: pair (b, d), d fast, by distance q.
     pub(super) fn integrals(self, distances: &[f64]) -> DMatrix<f64> {
         let shifts = self.shift2.len();
-        let weights = DMatrix::from_vec(self.order * self.order, shifts, self.weights);
+        let weights = self.weights.iter().flat_map(|weights| weights.iter().copied());
+        let weights = DMatrix::from_iterator(self.order.pow(2), shifts, weights);
         let g = |z: usize, q: usize| distances[q].powi(3) / (distances[q].powi(2) + self.shift2[z]).powi(2);
         weights * DMatrix::from_fn(shifts, distances.len(), g)
     }

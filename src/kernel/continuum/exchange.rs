@@ -8,7 +8,7 @@ use crate::solve::dot;
 /// Columns of a symmetric matrix that are multiplied as one piece: always the same ones, so that sums do not depend on the
 /// number of threads.
 const PIECE: usize = 256;
-/// Least products that are worth a thread.
+/// Fewest products that are worth a thread of their own.
 const WORK: usize = 100_000;
 
 /// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1.

@@ -1,13 +1,13 @@
 //! The bounces between two undivided panels: eqs. (1) to (4) without facets.
 //!
-//! One flat patch a facet is 4 % off at the crease of a bright 45° fold, however exact its form factors. Here the
+//! One flat patch per facet is 4 % off at the crease of a bright 45° fold, however exact its form factors. Here the
 //! radiosity is a function on the panel instead, a polynomial on each of a few strips in both directions (Galerkin's method).
 //! Strips narrow geometrically towards the crease, its ends and the outer edges, where the light changes fast; so a few
 //! more polynomials make the error ten times smaller, wherever that is needed.
 //!
 //! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only the shift
-//! `z = x − y` matters ([`correlation`]), and the result is a function of the distance q across it alone ([`table`]); the integrals
-//! across become weights of that function's values ([`rows`]), and all entries of two rows are one matrix product.
+//! `z = x − y` matters (`correlation`), and the result is a function of the distance q across it alone (`table`); the integrals
+//! across become weights of that function's values (`rows`), and all entries of two rows are one matrix product.
 //! Lengths are in units of panel 0's depth.
 
 mod correlation;
@@ -18,23 +18,23 @@ mod table;
 
 use std::f64::consts::FRAC_PI_4;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
 use rayon::prelude::*;
 
 use self::exchange::Exchange;
 use self::rows::Rows;
 use self::strips::{Strips, graded};
 use self::table::{Nodes, StripPair, tabulate};
-use super::panel::PanelOperator;
 use crate::geometry::{FacetGrid, Fold};
+use crate::response::PanelOperator;
 
-/// Distances below this share of the nearest strips' count as one: nothing changes there any more.
+/// Distances below this share of that of the nearest strips count as equal: nothing changes there any more.
 const NEAREST: f64 = 0.05;
 
 /// How much further away the end of a strip is from one to the next, as a ratio.
 const GROWTH: f64 = 6.0;
 
-/// Width of the first of so many strips that reach 0.5.
+/// Width of the first of this many strips, which together reach 0.5.
 fn first_strip(strips: usize) -> f64 {
     0.5 * GROWTH.powf(1.0 - strips as f64)
 }
@@ -48,7 +48,7 @@ pub struct Resolution {
     pub end_strips: usize,
     /// Polynomials on a strip across and along the crease.
     pub orders: [usize; 2],
-    /// Nodes an e-fold of the distance.
+    /// Nodes per e-fold of the distance.
     pub nodes: usize,
 }
 
@@ -66,6 +66,7 @@ impl Layout {
     fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let unit = fold.depths()[0];
         let (width, depths) = (fold.width() / unit, fold.depths().map(|depth| depth / unit));
+        // In a narrow fold the panels face each other closely: light then varies over their distance instead of their depth.
         let narrow = fold.angle_rad().min(1.0);
         let across = |panel: usize| {
             let (own, other) = (depths[panel], depths[1 - panel]);
@@ -79,6 +80,8 @@ impl Layout {
             }
             Strips::new(&edges, resolution.orders[0])
         };
+        // Light varies over the panels' distance at the crease's ends too, but towards its middle hardly at all: the last strip
+        // may be as wide as it likes.
         let end = first_strip(resolution.end_strips) * narrow * width.min(depths[0]).min(depths[1]);
         let along = graded(0.0, 0.5 * width, end, width, GROWTH);
         let along = Strips::new(&along, resolution.orders[1]);
@@ -93,6 +96,7 @@ impl Layout {
     fn nodes(&self, fold: &Fold, count: usize) -> Nodes {
         let ([d0, d1], half) = (self.depths, (fold.angle_rad() / 2.0).sin());
         let strip = self.across[0].ends[0][1].min(self.across[1].ends[0][1]);
+        // The furthest points across the crease are the outer edges, or an outer edge and the crease.
         let corner = ((d0 - d1).powi(2) + 4.0 * d0 * d1 * half * half).sqrt();
         Nodes::new(NEAREST * strip * 2.0 * half, corner.max(d0).max(d1), count)
     }
@@ -189,10 +193,11 @@ impl PanelOperator for Continuum {
 
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
         let row_pool = &self.row_pools[panel];
-        let x = DMatrix::from_column_slice(self.col_pool.ncols(), row_pool.ncols(), x);
+        let x = DMatrixView::from_slice(x, self.col_pool.ncols(), row_pool.ncols());
         let means = &self.col_pool * x * row_pool.transpose();
         let FacetGrid { rows, cols } = self.facets;
-        (0..rows * cols).map(|n| means[((n % cols).min(cols - 1 - n % cols), n / cols)]).collect()
+        // Light is even along the crease: its second half is the mirror image of the first.
+        DMatrix::from_fn(cols, rows, |col, row| means[(col.min(cols - 1 - col), row)]).data.into()
     }
 }
 
@@ -205,9 +210,11 @@ fn assemble(layout: &Layout, alike: bool, rows: &Rows, nodes: &Nodes, pairs: &[S
     // Zeros that nobody wrote take no memory: what is never set costs nothing.
     let mut matrix = DMatrix::from_vec(height, width, vec![0.0; height * width]);
     // Columns of one strip of panel 1 each.
-    let columns = matrix.as_mut_slice().par_chunks_exact_mut(order * along * height).enumerate();
-    columns.for_each(|(j, columns)| {
+    let strips = matrix.as_mut_slice().par_chunks_exact_mut(order * along * height).enumerate();
+    strips.for_each(|(j, columns)| {
+        let mut columns = DMatrixViewMut::from_slice(columns, height, order * along);
         for (i, strip) in across0.ends.iter().enumerate() {
+            // Of panels that are alike, what strip i gives to j is the transpose of what j gives to i.
             if alike && i > j {
                 continue;
             }
@@ -216,8 +223,13 @@ fn assemble(layout: &Layout, alike: bool, rows: &Rows, nodes: &Nodes, pairs: &[S
                 let block = &pair.values * &weights;
                 for (mn, values) in block.column_iter().enumerate() {
                     let (m, n) = (mn / order, mn % order);
-                    let at = |b: usize, d: usize| (n * along + d) * height + (i * order + m) * along + b;
-                    place(columns, at, values.as_slice(), pair.strips, layout.along.order);
+                    let at = ((i * order + m) * along, n * along);
+                    place(
+                        columns.view_mut(at, (along, along)),
+                        values.as_slice(),
+                        pair.strips,
+                        layout.along.order,
+                    );
                 }
             }
         }
@@ -225,23 +237,12 @@ fn assemble(layout: &Layout, alike: bool, rows: &Rows, nodes: &Nodes, pairs: &[S
     matrix
 }
 
-/// Puts what two strips along the crease exchange, polynomials (b, d), and its transpose where they belong: functions b and d
-/// meet in entry `at(b, d)`.
-fn place(
-    columns: &mut [f64],
-    at: impl Fn(usize, usize) -> usize,
-    values: &[f64],
-    [e, f]: [usize; 2],
-    order: usize,
-) {
-    for (b, row) in values.chunks_exact(order).enumerate() {
-        columns[at(f * order, e * order + b)..][..order].copy_from_slice(row);
-    }
+/// Puts what two strips along the crease exchange, polynomials (b, d), d fast, where they belong among all functions along it.
+fn place(mut along: DMatrixViewMut<f64>, values: &[f64], [e, f]: [usize; 2], order: usize) {
+    let (values, size) = (DMatrixView::from_slice(values, order, order), (order, order));
+    along.view_mut((f * order, e * order), size).copy_from(&values);
     if e != f {
-        for d in 0..order {
-            let column = values[d..].iter().step_by(order);
-            let rows = &mut columns[at(e * order, f * order + d)..][..order];
-            rows.iter_mut().zip(column).for_each(|(out, value)| *out = *value);
-        }
+        // The kernel does not tell which end of the shift is on which panel: so b and d may change places.
+        along.view_mut((e * order, f * order), size).tr_copy_from(&values);
     }
 }

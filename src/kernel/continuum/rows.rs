@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut, DVector};
 
 use super::strips::polynomials;
 use super::table::Nodes;
@@ -49,40 +49,49 @@ impl Rows {
         let order = self.order;
         let pieces = self.pieces(a, b).into_iter();
         let points: Vec<_> = pieces.flat_map(|[low, high]| self.rule.on(low, high)).collect();
-        // A column a point s: φ_m(s), m fast, and the integrals over t, n fast.
+        // One column per point s: φ_m(s), and the integrals over t, n by node.
         let mut of_a = DMatrix::zeros(order, points.len());
         let mut inner = DMatrix::zeros(order * nodes.len(), points.len());
         let columns = of_a.column_iter_mut().zip(inner.column_iter_mut());
         for ((s, weight), (mut of_a, mut inner)) in points.into_iter().zip(columns) {
             polynomials(a, s, of_a.as_mut_slice());
             of_a *= weight;
-            self.integrate(s, b, nodes, inner.as_mut_slice());
+            let inner = DMatrixViewMut::from_slice(inner.as_mut_slice(), order, nodes.len());
+            self.integrate(s, b, nodes, inner);
         }
         let weights = inner * of_a.transpose();
-        DMatrix::from_fn(nodes.len(), order * order, |node, mn| {
-            weights[(node * order + mn % order, mn / order)]
-        })
+        let mut of_pairs = DMatrix::zeros(nodes.len(), order * order);
+        for (m, weights) in weights.column_iter().enumerate() {
+            let weights = DMatrixView::from_slice(weights.as_slice(), order, nodes.len());
+            of_pairs.columns_mut(m * order, order).tr_copy_from(&weights);
+        }
+        of_pairs
     }
 
-    /// The integral over t for one s: node by n.
-    fn integrate(&self, s: f64, b: [f64; 2], nodes: &Nodes, out: &mut [f64]) {
-        let order = self.order;
+    /// Adds to `out` the integral over t for one s: n by node.
+    fn integrate(&self, s: f64, b: [f64; 2], nodes: &Nodes, mut out: DMatrixViewMut<f64>) {
         let w = |t: f64| (((t - s) + s * self.one_minus_cos) / (s * self.sin)).asinh();
         let (low, high) = (w(b[0]), w(b[1]));
         let panels = ((high - low) / INNER_PANEL).ceil().max(1.0);
         let length = (high - low) / panels;
-        let (mut of_b, mut at_nodes) = (vec![0.0; order], vec![0.0; nodes.on_panel()]);
+        let (mut of_b, mut at_nodes) = (DVector::zeros(self.order), DVector::zeros(nodes.on_panel()));
         for panel in 0..panels as usize {
             let start = low + panel as f64 * length;
             for (w, weight) in self.rule.on(start, start + length) {
                 let (sinh, cosh) = (w.sinh(), w.cosh());
                 let t = (s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]);
-                polynomials(b, t, &mut of_b);
+                polynomials(b, t, of_b.as_mut_slice());
+                // What is left of sin²θ·s·t/(π q³) dt, where dt = q dw and q = s·sinθ·cosh w.
                 let factor = weight * t / (PI * s * cosh * cosh);
-                let first = nodes.place(s * self.sin * cosh, &mut at_nodes);
-                let touched = out[first * order..].chunks_exact_mut(order);
-                for (out, at_node) in touched.zip(&at_nodes) {
-                    out.iter_mut().zip(&of_b).for_each(|(out, p)| *out += factor * at_node * p);
+                let first = nodes.place(s * self.sin * cosh, at_nodes.as_mut_slice());
+                // Columns are so short that nalgebra's update of rank one would take longer.
+                for (mut out, at_node) in
+                    out.columns_mut(first, nodes.on_panel()).column_iter_mut().zip(&at_nodes)
+                {
+                    out.as_mut_slice()
+                        .iter_mut()
+                        .zip(&of_b)
+                        .for_each(|(out, p)| *out += factor * at_node * p);
                 }
             }
         }
@@ -91,6 +100,7 @@ impl Rows {
     /// Cuts strip `a` where the inner integral over `b` varies: near the ends of `b` and the crease.
     fn pieces(&self, a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
         let mut pieces = vec![a];
+        // Towards the crease integrals go as s·ln s, which no polynomial follows: halves of halves make the rest harmless.
         for _ in 0..if a[0] > 0.0 { 0 } else { HALVINGS } {
             let [low, high] = pieces[0];
             pieces.splice(0..1, [[low, 0.5 * high], [0.5 * high, high]]);

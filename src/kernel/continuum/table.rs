@@ -1,7 +1,7 @@
 //! The integrals of all pairs of strips along the crease, tabulated over the distance across it.
 //!
 //! Every pair of rows has a distance between the same two bounds. In ln q the integrals are analytic up to
-//! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes an e-fold give them all.
+//! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes per e-fold give them all.
 //! Times q³ they tend to a constant where q is small.
 
 use nalgebra::DMatrix;
@@ -23,7 +23,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// `count` nodes an e-fold from `nearest` to `furthest`.
+    /// `count` nodes per e-fold from `nearest` to `furthest`.
     pub(super) fn new(nearest: f64, furthest: f64, count: usize) -> Self {
         let rule = Rule::gauss_legendre(count);
         let start = nearest.ln();

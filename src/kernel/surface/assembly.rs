@@ -102,7 +102,7 @@ impl Assembly {
         (0..bounds.len()).into_par_iter().map(strip).collect()
     }
 
-    /// The exchange of patches with others further right, past `casters`; none if there is none.
+    /// The exchange of patches with others further right, past `casters`; `None` if there is none.
     pub(super) fn block(
         &self,
         rows: Range<usize>,

@@ -3,7 +3,7 @@
 use crate::geometry::merged::merged;
 use crate::geometry::polygon::{Plane, Polygon, Vec3, edges};
 
-/// Distances below this, relative to the surface's size, are none: a facet touching the line of sight hides nothing.
+/// Distances below this, relative to the surface's size, count as zero: a facet touching the line of sight hides nothing.
 pub const TOUCHING: f64 = 1e-9;
 
 /// A box along the axes.
@@ -124,7 +124,7 @@ impl Casters {
         Self { all: merged(facets).into_iter().map(caster).collect(), margin: TOUCHING * size }
     }
 
-    /// Length below which a distance is none.
+    /// Length below which a distance counts as zero.
     #[must_use]
     pub fn margin(&self) -> f64 {
         self.margin

@@ -7,7 +7,7 @@ use super::cuboid::Cuboid;
 use super::site::Site;
 use crate::geometry::polygon::{Plane, Vec3};
 
-/// Clusters of at most so many patches are not divided.
+/// Clusters of at most this many patches are not divided.
 const LEAF: usize = 64;
 /// Cosine of the angle by which patches of an even cluster may turn away from their mean normal.
 const EVEN: f64 = 0.9;
@@ -81,7 +81,7 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// The tree of some patches; lengths below `margin` are none.
+    /// The tree of some patches; lengths below `margin` count as zero.
     pub(super) fn new(sites: &[Site], margin: f64) -> Self {
         let size = Bounds::of(sites.iter().flat_map(|site| site.polygon.corners())).size();
         // A quarter turn counts as much as the whole surface is long: panels come apart before they are divided.

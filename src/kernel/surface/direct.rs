@@ -10,7 +10,7 @@ use crate::geometry::shape::Shape;
 /// Mean irradiance of every patch, and its largest standard error, zero where there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectLight {
-    /// One per patch.
+    /// One number per patch.
     pub irradiance: Vec<f64>,
     /// Of the patch of which least is known.
     pub standard_error: f64,

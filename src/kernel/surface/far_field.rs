@@ -1,7 +1,7 @@
 //! The exchange between clusters that see each other from afar, without a matrix.
 //!
 //! The kernel of eq. (2) is `(n·d)(−n'·d)/(π d⁴)`, with `d` from one point to the other: normals apart it is smooth for clusters that are far
-//! apart, and is taken at the nodes of a [`Grid`] in each. What leaves a cluster is gathered in one vector a node (its patches'
+//! apart, and is taken at the nodes of a [`Grid`] in each. What leaves a cluster is gathered in one vector per node (its patches'
 //! light times their normals), carried to the nodes of others, and read there along the normals of their patches. Larger clusters
 //! gather from their halves, and halves read what arrives at the whole, so that nothing is kept but what leaves and enters the
 //! smallest.
@@ -12,6 +12,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::cluster::Tree;
@@ -42,11 +43,11 @@ struct Part {
 #[derive(Clone, Debug)]
 struct Leaf {
     patches: Range<usize>,
-    /// Integrals over every patch over the root of its area, patch by patch.
-    weights: Vec<f32>,
+    /// Integrals over every patch over the root of its area: node by patch.
+    weights: DMatrix<f32>,
 }
 
-/// A vector a node of every part; none where there is nothing.
+/// One vector per node of every part; none where there is nothing.
 type Vectors = Vec<Vec<Vec3>>;
 
 impl FarField {
@@ -180,11 +181,12 @@ impl Leaf {
             }
             sums.into_iter().map(|sum| sum as f32)
         };
-        Self { weights: sites[patches.clone()].iter().flat_map(of_patch).collect(), patches }
+        let weights = sites[patches.clone()].iter().flat_map(of_patch);
+        Self { weights: DMatrix::from_iterator(grid.nodes.len(), patches.len(), weights), patches }
     }
 
     /// Every patch with the weights of the nodes.
     fn patches(&self) -> impl Iterator<Item = (usize, &[f32])> {
-        self.patches.clone().zip(self.weights.chunks(self.weights.len() / self.patches.len()))
+        self.patches.clone().zip(self.weights.column_iter().map(|weights| weights.data.into_slice()))
     }
 }

@@ -10,7 +10,7 @@ use super::block::Block;
 use super::cluster::{Cluster, Side, Tree};
 use super::grid::{GAP, orders};
 
-/// A pair of patches costs as much as so many pairs of nodes.
+/// A pair of patches costs as much as this many pairs of nodes.
 const PAIR: usize = 8;
 
 /// What two clusters exchange.
@@ -115,9 +115,9 @@ fn parts([n, m]: [usize; 2], [a, b]: [&Cluster; 2]) -> Vec<[usize; 2]> {
 mod tests {
     use crate::geometry::accordion::Accordion;
     use crate::geometry::{FacetGrid, Fold, Shape};
-    use crate::kernel::exchange::Exchange;
     use crate::kernel::surface::SurfaceKernel;
     use crate::kernel::surface::patches::{Division, patches};
+    use crate::response::Exchange;
 
     fn fold(creases: usize, facets: usize) -> Shape {
         let valley = Fold::new(100.0, 1.0, 1.0, FacetGrid { rows: facets, cols: facets }).unwrap();

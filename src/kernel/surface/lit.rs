@@ -16,15 +16,15 @@ const HIDDEN: f64 = 0.1;
 pub struct LitSurface {
     /// The exchange.
     pub kernel: SurfaceKernel,
-    /// A light a source.
+    /// One light per source.
     pub lights: Vec<DirectLight>,
 }
 
 impl LitSurface {
-    /// A surface under these sources, divided as [`solve`](super::refinement::solve) did that ended with so many `unknowns`.
+    /// A surface under these sources, divided as [`solve`](super::refinement::solve) did when it ended with this many `unknowns`.
     ///
     /// # Errors
-    /// [`Error::Field`] if it never has so many; as [`SurfaceKernel::new`].
+    /// [`Error::Field`] if it never has that many; as [`SurfaceKernel::new`].
     pub fn again(shape: &Shape, sources: &[LightSource], unknowns: usize, tolerance: f64) -> Result<Self> {
         let patches = patches_again(shape, sources, unknowns).ok_or_else(|| {
             let problem =

@@ -3,7 +3,7 @@
 //! A pair that nothing can stand between ([`casters`]) takes a formula ([`contour`], or [`far`] where it is right to ten digits);
 //! any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]). Pairs of one plane and pairs that show each
 //! other their backs exchange nothing. One number stands for both directions, so that reciprocity holds by construction. In large meshes
-//! clusters that see each other from afar exchange light without any number a pair ([`far_field`], [`hierarchy`]).
+//! clusters that see each other from afar exchange light without a number for every pair (`far_field`, `hierarchy`).
 
 mod assembly;
 mod block;
@@ -37,14 +37,14 @@ use self::far_field::FarField;
 use self::hierarchy::Hierarchy;
 use self::patches::Patch;
 use self::site::Site;
-use super::exchange::Exchange;
 use super::skipped::Skipped;
 use crate::error::{Error, Result};
 use crate::geometry::shape::{FACETS_MAX, Shape};
+use crate::response::Exchange;
 
 /// Groups of rows that are multiplied apart: their number is fixed, so that sums do not depend on the threads.
 const GROUPS: usize = 16;
-/// Meshes of so many patches exchange light by clusters; below, all pairs take a few seconds and are right to single precision.
+/// Meshes of at least this many patches exchange light by clusters; below, all pairs take a few seconds and are right to single precision.
 const CLUSTERED: usize = 3000;
 /// Error of what clusters exchange and of the rules for pairs that are far apart, relative to the tolerance, and the least that is
 /// worth while beside entries in single precision.
@@ -168,7 +168,7 @@ impl SurfaceKernel {
         self.census
     }
 
-    /// Number of numbers that are kept: one a pair that sees each other, and fewer for clusters that do so from afar.
+    /// How many numbers are kept: one per pair that sees each other, fewer for clusters that do so from afar.
     #[must_use]
     pub fn entries(&self) -> usize {
         self.blocks.iter().map(|block| block.entries.len()).sum::<usize>() + self.far_field.len()

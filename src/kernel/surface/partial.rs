@@ -1,6 +1,6 @@
 //! Form factors of two polygons that others hide from each other in part.
 //!
-//! From a point on one the visible part of the other is exact ([`shadow`]); what is left is a function with kinks, integrated on
+//! From a point on one the visible part of the other is exact (`shadow`); what is left is a function with kinks, integrated on
 //! quarters of the polygon until they agree with the whole. The visible share multiplies the exact unhidden exchange, so that
 //! nothing is lost where nothing is hidden and nothing is left where all is.
 

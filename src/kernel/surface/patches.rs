@@ -29,7 +29,7 @@ pub struct Division {
 }
 
 impl Division {
-    /// One patch a facet.
+    /// One patch per facet.
     pub const NONE: Self = Self { cells: 1, strips: 0 };
 }
 

@@ -6,9 +6,9 @@ use super::patches::{Division, Patch, patches, patches_by};
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
 use crate::geometry::shape::Shape;
-use crate::kernel::exchange::Exchange;
 use crate::kernel::mesh::{Accuracy, KernelSource, Mesh};
 use crate::kernel::method::Method;
+use crate::response::Exchange;
 use crate::response::SurfaceResponse;
 
 /// Ever finer divisions: cells halve, and so do the strips beside valleys.
@@ -18,7 +18,7 @@ const LADDER: [Division; 4] = [
     Division { cells: 4, strips: 3 },
     Division { cells: 8, strips: 4 },
 ];
-/// How many more cells a side has on a facet in which a shadow ends.
+/// How many times as many cells a side has on a facet in which a shadow ends.
 const SHADOW: usize = 4;
 /// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
 const UNEVEN: f64 = 0.01;
@@ -35,7 +35,7 @@ const DARK: f64 = 0.1;
 
 /// What the bounces make of every source.
 pub struct Solved {
-    /// Poles and residues a source.
+    /// Poles and residues per source.
     pub responses: Vec<SurfaceResponse>,
     /// What they are worth.
     pub accuracy: Accuracy,
@@ -51,7 +51,7 @@ pub struct Solved {
 /// tenth of the mean, at reflectances up to 0.9; it stops earlier, and the accuracy says so, at 8000 patches.
 ///
 /// # Errors
-/// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns, which a shape has not.
+/// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns, which a shape does not have.
 ///
 /// # Example
 /// ```
@@ -79,7 +79,7 @@ pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64)
     }
 }
 
-/// The patches of a mesh on which [`solve`] ends with so many `unknowns`; none if there is no such mesh.
+/// The patches of a mesh on which [`solve`] ends with this many `unknowns`; none if there is no such mesh.
 #[must_use]
 pub fn patches_again(shape: &Shape, sources: &[LightSource], unknowns: usize) -> Option<Vec<Patch>> {
     let scene = Scene { shape, sources, tolerance: 0.0 };
@@ -127,7 +127,7 @@ impl Scene<'_> {
         patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
     }
 
-    /// Facets in which a shadow ends: parts of them get unlike light from a source that is no sky.
+    /// Facets in which a shadow ends: parts of them get unlike light from a source other than the sky.
     fn uneven(&self) -> Vec<bool> {
         let patches = patches(self.shape, Division { cells: 2, strips: 0 });
         let mut uneven = vec![false; self.shape.len()];

@@ -1,4 +1,4 @@
-//! CGATS.17 tables with spectra: a sample a row, a wavelength a column.
+//! CGATS.17 tables with spectra: one row per sample, one column per wavelength.
 //!
 //! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and what i1Profiler (`SPECTRAL_NM400`), ColorPort and
 //! ProfileMaker (`nm400`) export. Other columns are passed over. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)

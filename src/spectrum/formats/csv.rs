@@ -1,9 +1,11 @@
-//! Tables of spectra in CSV: a header row, the wavelength in nm first, then one column a spectrum.
+//! Tables of spectra in CSV: a header row, the wavelength in nm first, then one column per spectrum.
 //!
-//! Any grid will do, in nm or micrometres. A column `red_sd` beside `red` is its standard deviation and left out. A byte order
-//! mark, CRLF, quoted cells and blank lines at the end are accepted.
+//! Any grid will do, in nm or micrometres; cells are separated by commas, semicolons or tabs. A column `red_sd` beside `red` is its
+//! standard deviation and left out. A byte order mark, CRLF, quoted cells and blank lines at the end are accepted.
 
 use std::collections::HashSet;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::{MAX_SPECTRA, Place, Spectrum, Table, units};
 use crate::error::Result;
@@ -11,19 +13,28 @@ use crate::error::Result;
 /// Ending of the column beside `red` that has the standard deviation of `red`.
 pub(super) const SD_ENDING: &str = "_sd";
 
+/// What may separate cells. A comma stands last: in the others' tables it is a decimal comma.
+const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
+
 /// The spectra of a CSV text, named after their columns; `path` is for the errors.
 ///
 /// # Errors
 /// [`crate::Error::Table`] with the line and column that is wrong.
 pub(in crate::spectrum) fn parse(path: &str, text: &str) -> Result<Table> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text).trim_end();
-    let mut rows = text.lines().zip(1..).map(|(row, line)| (row, Place { path, line }));
-    let (header, at) = rows.next().unwrap_or(("", Place { path, line: 1 }));
-    let names = column_names(header, &at)?;
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let separator = separator(&text);
+    let mut rows = rows(path, &text, separator);
+    let (header, at) =
+        rows.next().transpose()?.unwrap_or((StringRecord::from(vec![""]), Place { path, line: 1 }));
+    let names = column_names(&header, &at)?;
     let mut columns = vec![Vec::new(); names.len()];
-    for (row, at) in rows {
-        read_row(row, &names, &mut columns, &at)?;
+    let mut marks = DecimalMarks { comma_allowed: separator != b',', found: None };
+    for row in rows {
+        let (row, at) = row?;
+        read_row(&row, &names, &mut marks, &mut columns, &at)?;
     }
+    let at = Place { path, line: 1 };
     if columns[0].len() < 2 {
         let problem = format!("{} rows of numbers below the header", columns[0].len());
         return Err(at.fails(problem, "a spectrum needs at least two wavelengths"));
@@ -34,14 +45,59 @@ pub(in crate::spectrum) fn parse(path: &str, text: &str) -> Result<Table> {
     let (count, known) = (named.len(), names[1..].iter().copied().collect());
     named.retain(|(name, _)| !is_deviation(name, &known));
     let left_out = (named.len() < count).then_some("standard deviations left out");
+    let commas = (marks.found == Some(',')).then_some("commas read as decimal points");
     let percent: Vec<bool> = named.iter().map(|(name, _)| units::says_percent(name)).collect();
     let spectrum =
         |(name, values): (&&str, _)| Spectrum::from_table((*name).to_owned(), wavelengths_nm.clone(), values);
     let table = Table::new(named.into_iter().map(spectrum).collect())?;
     Ok(Table {
         percent: percent.contains(&true).then_some(percent),
-        notes: note.into_iter().chain(left_out).collect(),
+        notes: [note, commas, left_out].into_iter().flatten().collect(),
         ..table
+    })
+}
+
+/// The first separator that divides the header and the row below it into equally many cells, two or more; if there is none, the
+/// first that divides the header.
+fn separator(text: &str) -> u8 {
+    let divides = |separator: &u8| {
+        let mut counts = records(text, *separator).map(|record| record.map_or(0, |record| record.len()));
+        let (header, row) = (counts.next().unwrap_or(0), counts.next());
+        (header > 1, row == Some(header))
+    };
+    let both = SEPARATORS.iter().find(|separator| divides(separator) == (true, true));
+    *both.or_else(|| SEPARATORS.iter().find(|separator| divides(separator).0)).unwrap_or(&b',')
+}
+
+fn records(text: &str, separator: u8) -> impl Iterator<Item = csv::Result<StringRecord>> {
+    let mut builder = ReaderBuilder::new();
+    builder.delimiter(separator).has_headers(false).flexible(true).trim(Trim::All);
+    builder.from_reader(text.as_bytes()).into_records()
+}
+
+/// The rows of a text without carriage returns, each with its line.
+fn rows<'a>(
+    path: &'a str,
+    text: &'a str,
+    separator: u8,
+) -> impl Iterator<Item = Result<(StringRecord, Place<'a>)>> {
+    let mut line = 1;
+    records(text, separator).map(move |record| {
+        let record = record
+            .map_err(|error| Place { path, line }.fails(error.to_string(), "save it as CSV in UTF-8"))?;
+        let position = record.position();
+        line = position.map_or(line, |position| position.line() as usize);
+        let at = Place { path, line };
+        // the reader passes over blank lines, of which the first is where the record seems to begin
+        if position.is_some_and(|position| text[position.byte() as usize..].starts_with('\n')) {
+            return Err(at.fails("a blank line", "delete it"));
+        }
+        if record.iter().any(|cell| cell.contains('\n')) {
+            return Err(
+                at.fails("a quoted cell does not end on its line", "close the quotes, or take them out")
+            );
+        }
+        Ok((record, at))
     })
 }
 
@@ -50,18 +106,20 @@ fn is_deviation(name: &str, known: &HashSet<&str>) -> bool {
     name.strip_suffix(SD_ENDING).is_some_and(|of| known.contains(of))
 }
 
-fn cells(row: &str) -> impl Iterator<Item = &str> {
-    row.split(',').map(|cell| cell.trim_ascii().trim_matches('"'))
+/// The cells of a row; quotes after a space are still there.
+fn cells(row: &StringRecord) -> impl Iterator<Item = &str> {
+    row.iter().map(|cell| cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell))
 }
 
-fn column_names<'a>(header: &'a str, at: &Place) -> Result<Vec<&'a str>> {
-    const EXAMPLE: &str = "write a header such as wavelength,reflectance and separate columns by ','";
-    let count = cells(header).count();
+fn column_names<'a>(header: &'a StringRecord, at: &Place) -> Result<Vec<&'a str>> {
+    const EXAMPLE: &str =
+        "write a header such as wavelength,reflectance and separate columns by ',', ';' or tabs";
+    let count = header.len();
     if !(2..=2 * MAX_SPECTRA).contains(&count) {
         let problem = format!("the header has {count} column(s), not 2 to {}", 2 * MAX_SPECTRA);
         return Err(at.fails(problem, EXAMPLE));
     }
-    if cells(header).all(|cell| cell.parse::<f64>().is_ok()) {
+    if cells(header).all(|cell| cell.replace(',', ".").parse::<f64>().is_ok()) {
         return Err(at.fails("numbers where the header should be", EXAMPLE));
     }
     let mut seen = HashSet::new();
@@ -74,16 +132,52 @@ fn column_names<'a>(header: &'a str, at: &Place) -> Result<Vec<&'a str>> {
     Ok(cells(header).collect())
 }
 
-fn read_row(row: &str, names: &[&str], columns: &mut [Vec<f64>], at: &Place) -> Result<()> {
-    let count = row.split(',').count();
-    if count != names.len() {
-        let problem = format!("{count} values, but the header has {} columns", names.len());
+fn read_row(
+    row: &StringRecord,
+    names: &[&str],
+    marks: &mut DecimalMarks,
+    columns: &mut [Vec<f64>],
+    at: &Place,
+) -> Result<()> {
+    if row.len() != names.len() {
+        let problem = format!("{} values, but the header has {} columns", row.len(), names.len());
         return Err(at.fails(problem, "give every column a value in every row"));
     }
     for ((cell, name), column) in cells(row).zip(names).zip(columns.iter_mut()) {
-        column.push(at.number(name, cell)?);
+        column.push(marks.number(at, name, cell)?);
     }
     Ok(())
+}
+
+/// What a table writes before decimals: a point or a comma, but not both, since one of them may separate thousands.
+struct DecimalMarks {
+    /// Not where commas separate cells: in quotes they separate thousands.
+    comma_allowed: bool,
+    found: Option<char>,
+}
+
+impl DecimalMarks {
+    /// The number in a cell.
+    fn number(&mut self, at: &Place, column: &str, cell: &str) -> Result<f64> {
+        let Some(mark) = cell.chars().find(|letter| ".,".contains(*letter)) else {
+            return at.number(column, cell);
+        };
+        if mark == ',' && !self.comma_allowed {
+            return at.number(column, cell);
+        }
+        if *self.found.get_or_insert(mark) != mark {
+            let problem =
+                format!("column '{column}': '{cell}' has another decimal mark than the numbers before it");
+            return Err(
+                at.fails(problem, "write all decimals with '.' or all with ',', and no thousands separators")
+            );
+        }
+        match mark {
+            // what is no number either way is shown as it stands
+            ',' => at.number(column, &cell.replacen(',', ".", 1)).or_else(|_| at.number(column, cell)),
+            _ => at.number(column, cell),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -98,6 +192,30 @@ mod tests {
         assert_eq!(names, ["R", "G"]);
         assert_eq!(spectra[1].wavelengths_nm(), [400.5, 500.0]);
         assert_eq!(spectra[1].values(), [0.2, 3.0]);
+    }
+
+    /// What spreadsheets write where the comma is the decimal mark, and what is copied from them.
+    #[test]
+    fn any_of_three_separators_will_do() {
+        for text in [
+            "nm,R,G\n400,0.5,1\n500.5,2,3",
+            "nm;R;G\n400;0,5;1\n500,5;2;3",
+            "nm\tR\tG\r400\t0.5\t1\r500.5\t2\t3\r",
+        ] {
+            let table = parse("x.csv", text).unwrap();
+            assert_eq!(table.spectra[0].wavelengths_nm(), [400.0, 500.5], "{text}");
+            assert_eq!(table.spectra[0].values(), [0.5, 2.0], "{text}");
+            assert_eq!(table.spectra[1].values(), [1.0, 3.0], "{text}");
+            assert_eq!(table.notes.contains(&"commas read as decimal points"), text.contains("0,5"));
+        }
+    }
+
+    #[test]
+    fn quoted_names_may_hold_separators_and_quotes() {
+        let text = "nm,\"red, matte\",\"5\"\" tile\",dark;dull\n400,\"0.1\",0.2,0.3\n500,0.1,0.2,0.3\n";
+        let table = parse("x.csv", text).unwrap();
+        let names: Vec<_> = table.spectra.iter().map(Spectrum::name).collect();
+        assert_eq!(names, ["red, matte", "5\" tile", "dark;dull"]);
     }
 
     #[test]
@@ -116,7 +234,7 @@ mod tests {
     fn errors_name_line_column_and_remedy() {
         let cases = [
             ("", "x.csv:1: the header has 1 column(s)"),
-            ("wavelength;R\n400;1", "x.csv:1: the header has 1 column(s), not 2 to 20000; write a header"),
+            ("wavelength|R\n400|1", "x.csv:1: the header has 1 column(s), not 2 to 20000; write a header"),
             ("400,1\n500,1", "x.csv:1: numbers where the header should be; write a header"),
             ("nm,R,R\n400,1,1", "x.csv:1: column 3 has no name of its own ('R'); name every column once"),
             ("nm,R\n", "x.csv:1: 0 rows of numbers below the header; a spectrum needs"),
@@ -126,7 +244,13 @@ mod tests {
             ("nm,R\n400,1\n500,1e999", "x.csv:3: column 'R': '1e999' is not a number"),
             ("nm,R\n400,1\n400,1", "x.csv:3: wavelength 400 nm follows 400 nm; sort"),
             ("nm,R\n400,1\n500", "x.csv:3: 1 values, but the header has 2 columns"),
-            ("nm,R\n400,1\n\n500,1", "x.csv:3: 1 values, but the header has 2 columns"),
+            ("nm,R\n400,1\n\n500,1", "x.csv:3: a blank line; delete it"),
+            ("nm,R\n400,1\n500,\"1\n600,2", "x.csv:3: a quoted cell does not end on its line; close"),
+            ("nm,R\n400,1\n500,\"1,5\"", "x.csv:3: column 'R': '1,5' is not a number; write a finite"),
+            ("nm;R\n400;1,5\n500;1.5", "x.csv:3: column 'R': '1.5' has another decimal mark than"),
+            ("nm;R\n400;1.5\n500;1,500", "x.csv:3: column 'R': '1,500' has another decimal mark than"),
+            ("nm;R\n400;1,5\n500;1,500,0", "x.csv:3: column 'R': '1,500,0' is not a number"),
+            ("nm;R\n400;1", "x.csv:1: 1 rows of numbers"),
             ("nm,R\n0.4,1\n0.5,1", "x.csv:2: wavelength 0.4 looks like micrometres, not nm; give all"),
             ("nm,R\n4000,1\n5000,1", "x.csv:2: wavelength 4000 does not look like nm"),
         ];

@@ -1,6 +1,7 @@
 //! Writing estimated spectra: CSV with standard deviations, CGATS and IES TM-27 without.
 
 use std::collections::HashSet;
+use std::iter;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -16,13 +17,13 @@ pub struct Measured {
     pub name: String,
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
-    /// Reflectance a wavelength, 0..1.
+    /// Reflectance per wavelength, 0..1.
     pub reflectance: Vec<f64>,
-    /// Standard deviation of each, where it is known.
+    /// Standard deviation of each, if known.
     pub reflectance_sd: Option<Vec<f64>>,
 }
 
-/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, a column a sample and beside it that of its standard
+/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, one column per sample and beside it that of its standard
 /// deviation (`red`, `red_sd`); CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
 ///
 /// # Errors
@@ -44,17 +45,19 @@ pub struct Measured {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn write(path: &Path, samples: &[Measured]) -> Result<()> {
-    let text = match (format(path)?, samples) {
+    let bytes = match (format(path)?, samples) {
         (_, []) => return Err(unfit(path, "there is no estimate to write", "check the samples' errors")),
         (Format::Csv, _) => csv(path, samples)?,
-        (Format::Cgats, _) => cgats(path, samples)?,
-        (Format::Tm27, [one]) => tm27::text(&one.name, &now(), &one.wavelengths_nm, &one.reflectance),
+        (Format::Cgats, _) => cgats(path, samples)?.into_bytes(),
+        (Format::Tm27, [one]) => {
+            tm27::text(&one.name, &now(), &one.wavelengths_nm, &one.reflectance).into_bytes()
+        }
         (Format::Tm27, _) => {
             let problem = format!("{} samples, but a TM-27 file holds one", samples.len());
             return Err(unfit(path, problem, "write .csv or .sp"));
         }
     };
-    Saved::write(path, text.as_bytes())
+    Saved::write(path, &bytes)
 }
 
 enum Format {
@@ -97,39 +100,41 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample or its standard deviation has, that no cell or quoted word is broken by, and that say no unit.
-fn names(samples: &[Measured]) -> Vec<String> {
+/// Names that no other sample or its standard deviation has, that say no unit, and without control characters and those `unfit` for
+/// the format.
+fn names(samples: &[Measured], unfit: &str) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut unique = |sample: &Measured| {
-        let plain = sample.name.replace(|letter: char| letter.is_control() || ",\"".contains(letter), "_");
+        let plain = sample.name.replace(|letter: char| letter.is_control() || unfit.contains(letter), "_");
         let plain = if units::says_percent(&plain) { plain.replace('%', "_") } else { plain };
         let numbered = (2..).map(|n| format!("{plain} ({n})"));
         let both = |name: &String| [name.clone(), format!("{name}{SD_ENDING}")];
         let is_free = |name: &String| both(name).iter().all(|name| !taken.contains(name));
-        let name = std::iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
+        let name = iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
         taken.extend(both(&name));
         name
     };
     samples.iter().map(&mut unique).collect()
 }
 
-fn csv(path: &Path, samples: &[Measured]) -> Result<String> {
-    let (nm, names) = (common_nm(path, samples)?, names(samples));
-    let mut text = "wavelength_nm".to_owned();
-    for (name, sample) in names.iter().zip(samples) {
-        let sd = sample.reflectance_sd.as_ref().map_or(String::new(), |_| format!(",{name}{SD_ENDING}"));
-        text += &format!(",{name}{sd}");
-    }
+fn csv(path: &Path, samples: &[Measured]) -> Result<Vec<u8>> {
+    let (nm, names) = (common_nm(path, samples)?, names(samples, "\""));
+    let sd_name = |name: &String| format!("{name}{SD_ENDING}");
+    let heads = names.iter().zip(samples).flat_map(|(name, sample)| {
+        iter::once(name.clone()).chain(sample.reflectance_sd.as_ref().map(|_| sd_name(name)))
+    });
+    let columns =
+        samples.iter().flat_map(|sample| iter::once(&sample.reflectance).chain(&sample.reflectance_sd));
+    let columns: Vec<_> = columns.collect();
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write =
+        |row: Vec<String>| writer.write_record(row).map_err(|e| Error::file(path.display(), e.into()));
+    write(iter::once("wavelength_nm".to_owned()).chain(heads).collect())?;
     for (band, nm) in nm.iter().enumerate() {
-        text += &format!("\n{nm}");
-        for sample in samples {
-            text += &format!(",{}", sample.reflectance[band]);
-            if let Some(sd) = &sample.reflectance_sd {
-                text += &format!(",{}", sd[band]);
-            }
-        }
+        let values = columns.iter().map(|column| column[band].to_string());
+        write(iter::once(nm.to_string()).chain(values).collect())?;
     }
-    Ok(text + "\n")
+    writer.into_inner().map_err(|e| Error::file(path.display(), e.into_error()))
 }
 
 fn cgats(path: &Path, samples: &[Measured]) -> Result<String> {
@@ -137,8 +142,10 @@ fn cgats(path: &Path, samples: &[Measured]) -> Result<String> {
     if super::super::interpolation::even_step_nm(nm).is_none() {
         return Err(unfit(path, "CGATS spectra are evenly spaced, these are not", "write .csv"));
     }
-    let rows: Vec<_> =
-        names(samples).into_iter().zip(samples.iter().map(|sample| sample.reflectance.as_slice())).collect();
+    let rows: Vec<_> = names(samples, ",\"")
+        .into_iter()
+        .zip(samples.iter().map(|sample| sample.reflectance.as_slice()))
+        .collect();
     Ok(cgats::text(nm, &rows))
 }
 
@@ -165,6 +172,7 @@ mod tests {
     use std::slice::from_ref;
 
     use super::*;
+    use crate::spectrum::formats::parse_csv;
 
     fn sample(name: &str, nm: [f64; 3]) -> Measured {
         let (wavelengths_nm, reflectance) = (nm.to_vec(), vec![0.1, 1.0 / 3.0, 0.9]);
@@ -193,7 +201,19 @@ mod tests {
     fn names_are_unique_and_break_no_line() {
         let nm = [400.0, 500.0, 600.0];
         let samples = ["a,\"b\"", "c", "c", "c (2)", "c_sd", "d [%]", "50% e"].map(|name| sample(name, nm));
-        assert_eq!(names(&samples), ["a__b_", "c", "c (2)", "c (2) (2)", "c_sd (2)", "d [_]", "50% e"]);
+        assert_eq!(
+            names(&samples, ",\""),
+            ["a__b_", "c", "c (2)", "c (2) (2)", "c_sd (2)", "d [_]", "50% e"]
+        );
+    }
+
+    #[test]
+    fn a_name_with_a_comma_comes_back() {
+        let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+        write(file.path(), &[sample("red, matte", [400.0, 500.0, 600.0])]).unwrap();
+        let text = std::fs::read_to_string(file.path()).unwrap();
+        assert!(text.starts_with("wavelength_nm,\"red, matte\"\n400,0.1\n500,0.333"), "{text}");
+        assert_eq!(parse_csv("x.csv", &text).unwrap().spectra[0].name(), "red, matte");
     }
 
     /// `date -u -d @SECONDS +%FT%TZ`, GNU coreutils.

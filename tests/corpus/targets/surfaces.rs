@@ -3,10 +3,10 @@
 use vfold::Result;
 use vfold::geometry::accordion::Accordion;
 use vfold::geometry::{FacetGrid, Fold, LightSource, Shape};
-use vfold::kernel::exchange::Exchange;
 use vfold::kernel::surface::SurfaceKernel;
 use vfold::kernel::surface::lit::LitSurface;
 use vfold::kernel::surface::patches::{Division, Patch, patches};
+use vfold::response::Exchange;
 use vfold::response::SurfaceResponse;
 
 use super::drawn::Drawn;

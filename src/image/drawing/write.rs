@@ -1,0 +1,156 @@
+//! Pictures out: linear light for simulated photographs, 8 bits for the eye.
+//!
+//! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
+//! old file or none.
+
+use std::io::{BufWriter, Cursor, Write};
+use std::path::Path;
+
+use crate::files::Saved;
+use crate::{Error, Result};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
+
+/// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
+///
+/// # Arguments
+/// - `rgb`: row by row from the top, three numbers per pixel; integer formats store `round(65535 * value)`, clipped to
+///   [0, 1].
+///
+/// # Errors
+/// [`Error::Picture`] for another ending, a number that is not finite in single precision, or if there are not width x height x 3 numbers;
+/// [`Error::File`] if the file cannot be written.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Photograph, Pixel, ReadOptions, write_linear};
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("pixel.tif");
+/// write_linear(&path, 1, 1, &[-0.1, 0.2, 0.6])?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.0, 0.2, 0.6])); // 65535 is a multiple of 5
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("exr") => {
+            let buffer = buffer(path, width, height, rgb, |value| value as f32)?;
+            save(path, &DynamicImage::ImageRgb32F(buffer), ImageFormat::OpenExr)
+        }
+        Some("tif" | "tiff") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Tiff),
+        Some("png") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Png),
+        _ => {
+            Err(Error::picture(path, "no picture format by this name", "end the name in .exr, .tif or .png"))
+        }
+    }
+}
+
+/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG; other values are clipped.
+///
+/// # Errors
+/// As [`write_linear`], whatever the name's ending.
+///
+/// # Example
+/// ```
+/// use vfold::image::write_srgb_png;
+/// let folder = tempfile::tempdir().unwrap();
+/// write_srgb_png(&folder.path().join("grey.png"), 1, 1, &[0.5, 0.5, 0.5])?;
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
+    save(path, &eight_bits(path, width, height, rgb)?, ImageFormat::Png)
+}
+
+/// Bytes of a PNG of RGB that is already encoded for display, 8 bits a number.
+///
+/// # Errors
+/// [`Error::Picture`] if there are not width x height x 3 numbers, or none.
+///
+/// # Example
+/// ```
+/// assert!(vfold::image::png_bytes(2, 1, vec![0, 0, 0, 255, 255, 255])?.starts_with(b"\x89PNG"));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
+    let failed = |problem: String| Error::picture(Path::new("drawing"), problem, "draw at least one pixel");
+    let count = rgb.len();
+    let picture: ImageBuffer<Rgb<u8>, _> = ImageBuffer::from_vec(width, height, rgb)
+        .filter(|_| count > 0)
+        .ok_or_else(|| failed(format!("{count} numbers do not fill {width} x {height} RGB pixels")))?;
+    let mut png = Vec::new();
+    picture
+        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
+        .map_err(|error| failed(error.to_string()))?;
+    Ok(png)
+}
+
+/// As [`write_srgb_png`], with a keyword and a text that belongs to it, both ASCII, for programs that read the file.
+pub(super) fn write_srgb_png_with_text(
+    path: &Path,
+    [width, height]: [usize; 2],
+    rgb: &[f64],
+    [keyword, text]: [&str; 2],
+) -> Result<()> {
+    let failed = |error| match error {
+        png::EncodingError::IoError(source) => Error::file(path.display(), source),
+        other => Error::picture(path, other, "write another format"),
+    };
+    let picture = eight_bits(path, width, height, rgb)?;
+    let mut saved = Saved::new(path)?;
+    let mut encoder = png::Encoder::new(BufWriter::new(saved.file_mut()), picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.add_text_chunk(keyword.to_owned(), text.to_owned()).map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(picture.as_bytes()).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    saved.keep()
+}
+
+fn eight_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
+    // `as` cuts to the integer's range
+    buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8).map(DynamicImage::ImageRgb8)
+}
+
+fn sixteen_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
+    buffer(path, width, height, rgb, |value| (value * 65535.0).round() as u16).map(DynamicImage::ImageRgb16)
+}
+
+fn buffer<T: image::Primitive>(
+    path: &Path,
+    width: usize,
+    height: usize,
+    rgb: &[f64],
+    store: impl Fn(f64) -> T,
+) -> Result<ImageBuffer<Rgb<T>, Vec<T>>>
+where
+    Rgb<T>: image::Pixel<Subpixel = T>,
+{
+    // pictures hold single precision at most
+    if let Some(k) = rgb.iter().position(|value| !(*value as f32).is_finite()) {
+        let problem = format!("number {k} of the picture's RGB is {}", rgb[k]);
+        return Err(Error::picture(path, problem, "look for zero, infinite or huge input"));
+    }
+    let size = (u32::try_from(width).ok().zip(u32::try_from(height).ok()))
+        .filter(|_| width * height * 3 == rgb.len());
+    size.filter(|_| !rgb.is_empty())
+        .and_then(|(width, height)| {
+            ImageBuffer::from_vec(width, height, rgb.iter().map(|&value| store(value)).collect())
+        })
+        .ok_or_else(|| {
+            let problem = format!("{} numbers do not fill {width} x {height} RGB pixels", rgb.len());
+            Error::picture(path, problem, "give a picture of at least one pixel")
+        })
+}
+
+fn save(path: &Path, picture: &DynamicImage, format: ImageFormat) -> Result<()> {
+    let failed = |source: std::io::Error| Error::file(path.display(), source);
+    let mut saved = Saved::new(path)?;
+    let mut out = BufWriter::new(saved.file_mut());
+    picture.write_to(&mut out, format).map_err(|error| match error {
+        image::ImageError::IoError(source) => failed(source),
+        other => Error::picture(path, other, "write another format"),
+    })?;
+    out.flush().map_err(failed)?; // a full disk would go unnoticed when dropped
+    drop(out);
+    saved.keep()
+}

@@ -1,0 +1,196 @@
+//! Corners moved to where the picture has edges.
+//!
+//! Along every side of the panels the light changes: at the outer sides to the background, at the crease by a step, where the
+//! panels differ, or by a kink, where they are alike. Each side is moved to where that change explains its pixels best
+//! ([`super::edge`]), with a covariance that says how well it is known, and the corners to where the sides meet. All is one least
+//! squares problem: the crease of a dark sheet, which noise hides, still ends where the other sides meet.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::edge::{Edge, Side};
+use crate::image::photograph::Photograph;
+use crate::image::placing::{Lens, Point};
+use crate::{Error, Result};
+
+/// Where a panel was seen, and which of its corners it shares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Marked {
+    /// Its number.
+    pub panel: usize,
+    /// Its corners, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS).
+    pub corners: [Point; 4],
+    /// A number for each corner, from 0 on, the same for the same corner of several panels.
+    pub joints: [usize; 4],
+}
+
+/// Corners after refinement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refinement {
+    /// Corners of every panel, in the order in which they were given.
+    pub panels: Vec<[Point; 4]>,
+    /// How far each was moved, px.
+    pub moved_px: Vec<[f64; 4]>,
+    /// Sides at which no edge was found: they were left where they are, but for what their neighbours tell.
+    pub sides_without_edge: Vec<String>,
+}
+
+/// A side: its name, the corners that it joins, and whether there is sheet beyond it.
+struct Ends {
+    name: String,
+    from: usize,
+    to: usize,
+    is_fold: bool,
+}
+
+/// The sides of a panel from corner to corner.
+const SIDES: [&str; 4] = ["crease", "end 1", "outer side", "end 0"];
+
+/// What is found at one side moves the ends of others, so that they are looked at again.
+const ROUNDS: usize = 6;
+/// Each round looks this much nearer than the one before, and more finely,
+const NEARER: f64 = 0.4;
+/// but not nearer than this many standard deviations.
+const LEAST_SDS: f64 = 3.0;
+/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
+const STEP_SD_PX: f64 = 0.015;
+const KINK_SD_PX: f64 = 0.5;
+
+/// Moves the corners of panels to the edges around them.
+///
+/// # Arguments
+/// - `panels`: where they were seen, and which corners are shared.
+/// - `lens`: what bends the picture.
+/// - `reach_px`: how far from a given side an edge is looked for, above 0.
+///
+/// # Errors
+/// [`Error::Usage`] if two panels do not have a corner that they share in one place.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, Marked, Photograph, Point, ReadOptions, refine, write_linear};
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("card.exr");
+/// let card = |k: usize| if (20..80).contains(&(k % 100)) && (30..70).contains(&(k / 100)) { 0.5 } else { 0.0 };
+/// let rgb: Vec<f64> = (0..100 * 100).flat_map(|k| [card(k); 3]).collect();
+/// write_linear(&path, 100, 100, &rgb)?;
+/// let clicked = [(22.0, 28.0), (78.0, 31.0), (81.0, 72.0), (19.0, 69.0)].map(|(x, y)| Point::new(x, y));
+/// let clicked = Marked { panel: 0, corners: clicked, joints: [0, 1, 2, 3] };
+/// let found = refine(&Photograph::open(&path, &ReadOptions::default())?, &[clicked], &Lens::STRAIGHT, 5.0)?;
+/// let corner = found.panels[0][0];
+/// assert!((corner.x - 20.0).hypot(corner.y - 30.0) < 0.2, "{corner:?}");
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
+    let joined = joined(panels, reach_px)?;
+    let given: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
+    let sides = sides(panels);
+    let (corners, edges) = settle(photograph, &given, &sides, lens, reach_px);
+    let refined: Vec<[Point; 4]> =
+        panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner]))).collect();
+    let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
+    let without =
+        sides.iter().zip(&edges).filter(|(_, edge)| edge.is_none()).map(|(side, _)| side.name.clone());
+    Ok(Refinement {
+        moved_px: panels.iter().zip(&refined).map(moved).collect(),
+        sides_without_edge: without.collect(),
+        panels: refined,
+    })
+}
+
+/// Corners and edges after all rounds.
+fn settle(
+    photograph: &Photograph,
+    given: &[Point],
+    sides: &[Ends],
+    lens: &Lens,
+    reach_px: f64,
+) -> (Vec<Point>, Vec<Option<Edge>>) {
+    let mut corners = given.to_vec();
+    let mut reaches = vec![reach_px; sides.len()];
+    let mut edges = Vec::new();
+    for _ in 0..ROUNDS {
+        let find = |(side, reach): (&Ends, &f64)| {
+            let model_sd_px = if side.is_fold { KINK_SD_PX } else { STEP_SD_PX };
+            Side::new(corners[side.from], corners[side.to]).edge(photograph, lens, *reach, model_sd_px)
+        };
+        edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
+        corners = meeting_point(given, &corners, sides, &edges, reach_px);
+        for (reach, edge) in reaches.iter_mut().zip(&edges) {
+            let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
+            *reach = nearer.max(NEARER * *reach).min(reach_px);
+        }
+    }
+    (corners, edges)
+}
+
+/// The sides of panels, those of two panels once.
+fn sides(panels: &[Marked]) -> Vec<Ends> {
+    let mut sides: Vec<Ends> = Vec::new();
+    let crease = |panel: &Marked| [panel.joints[0], panel.joints[1]];
+    let one_crease = panels.iter().all(|panel| crease(panel) == crease(&panels[0]));
+    for (panel, k) in panels.iter().flat_map(|panel| (0..4).map(move |k| (panel, k))) {
+        let (from, to) = (panel.joints[k], panel.joints[(k + 1) % 4]);
+        let joins =
+            |side: &&mut Ends| (side.from, side.to) == (from, to) || (side.to, side.from) == (from, to);
+        if let Some(known) = sides.iter_mut().find(joins) {
+            known.is_fold = true;
+            continue;
+        }
+        let of_panel =
+            if one_crease && k == 0 { String::new() } else { format!(" of panel {}", panel.panel) };
+        sides.push(Ends { name: format!("{}{of_panel}", SIDES[k]), from, to, is_fold: k == 0 });
+    }
+    sides
+}
+
+/// Every corner once, in the middle of where its panels have it.
+fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
+    let seen = || panels.iter().flat_map(|panel| panel.joints.into_iter().zip(panel.corners));
+    let count = seen().map(|(joint, _)| joint + 1).max().unwrap_or(0);
+    let place = |joint: usize| {
+        let places: Vec<Point> = seen().filter(|(of, _)| *of == joint).map(|(_, place)| place).collect();
+        if places.iter().any(|place| place.distance(places[0]) > 2.0 * reach_px) {
+            let problem = "two panels have a corner that they share in different places";
+            let remedy = "give panels that meet at a crease the same ends of it";
+            return Err(Error::usage("--refine", problem, remedy));
+        }
+        let mean = |pick: fn(&Point) -> f64| places.iter().map(pick).sum::<f64>() / places.len() as f64;
+        Ok(Point::new(mean(|p| p.x), mean(|p| p.y)))
+    };
+    (0..count).map(place).collect()
+}
+
+/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the `given` corners count as
+/// known to within the reach.
+fn meeting_point(
+    given: &[Point],
+    corners: &[Point],
+    sides: &[Ends],
+    edges: &[Option<Edge>],
+    reach_px: f64,
+) -> Vec<Point> {
+    let unknowns = 2 * corners.len();
+    let unsure = 1.0 / (reach_px * reach_px);
+    let mut normal = DMatrix::from_diagonal_element(unknowns, unknowns, unsure);
+    let mut right = DVector::from_fn(unknowns, |k, _| {
+        let (given, corner) = (given[k / 2], corners[k / 2]);
+        unsure * if k % 2 == 0 { given.x - corner.x } else { given.y - corner.y }
+    });
+    for (&Ends { from, to, .. }, edge) in sides.iter().zip(edges) {
+        let Some(edge) = edge else { continue };
+        // a corner's move shifts the side by its part across it
+        let across = Side::new(corners[from], corners[to]).across();
+        for (i, corner) in [from, to].into_iter().enumerate() {
+            let mut pull = right.fixed_rows_mut::<2>(2 * corner);
+            pull += across * edge.pull[i];
+            for (j, other) in [from, to].into_iter().enumerate() {
+                let mut information = normal.fixed_view_mut::<2, 2>(2 * corner, 2 * other);
+                information += across * across.transpose() * edge.information[(i, j)];
+            }
+        }
+    }
+    let step = normal.cholesky().map_or_else(|| DVector::zeros(unknowns), |normal| normal.solve(&right));
+    let moved = |(k, corner): (usize, &Point)| Point::new(corner.x + step[2 * k], corner.y + step[2 * k + 1]);
+    corners.iter().enumerate().map(moved).collect()
+}

@@ -1,0 +1,64 @@
+//! The pixels of one facet, and what they add up to.
+
+use super::measurement::{FacetMeasurement, PixelRun};
+use super::outliers::{Placed, without_outliers};
+use super::plane_fit::Estimate;
+use crate::image::photograph::Pixel;
+
+/// Pixels as they are found, a run at a time.
+#[derive(Default)]
+pub(super) struct Tally {
+    placed: Vec<Placed>,
+    /// Of each of `placed`, the part of its pixels that lies in the facet, and where they are.
+    runs: Vec<(f64, PixelRun)>,
+    clipped: usize,
+    not_finite: usize,
+    left_out: Vec<PixelRun>,
+}
+
+impl Tally {
+    /// Takes a run of pixels, of each of which the part `overlap` is in the facet.
+    pub fn add(&mut self, placed: Placed, overlap: f64, pixels: PixelRun) {
+        self.placed.push(placed);
+        self.runs.push((overlap, pixels));
+    }
+
+    /// Counts a pixel without light; most pictures have few.
+    #[cold]
+    pub fn leave_out(&mut self, pixel: Pixel, x: usize, y: usize) {
+        match pixel {
+            Pixel::Clipped => self.clipped += 1,
+            _ => self.not_finite += 1,
+        }
+        match self.left_out.last_mut() {
+            Some(run) if run.row == y && run.columns.end == x => run.columns.end += 1,
+            _ => self.left_out.push(PixelRun { columns: x..x + 1, row: y }),
+        }
+    }
+
+    /// What they say about the facet.
+    pub fn finish(mut self, channels: usize) -> FacetMeasurement {
+        let (sums, kept) = without_outliers(&self.placed, channels);
+        let (mut pixels, mut outliers) = (0.0, 0);
+        for ((placed, (overlap, run)), kept) in self.placed.iter().zip(self.runs).zip(kept) {
+            if kept {
+                pixels += overlap * placed.run.pixels();
+            } else {
+                outliers += placed.run.pixels() as usize;
+                self.left_out.push(run);
+            }
+        }
+        let estimates: Option<Vec<Estimate>> = (0..channels).map(|channel| sums.estimate(channel)).collect();
+        let each = estimates.as_ref();
+        FacetMeasurement {
+            mean: each.map(|each| each.iter().map(|estimate| estimate.mean).collect()),
+            standard_error: each
+                .and_then(|each| each.iter().map(|estimate| estimate.standard_error).collect()),
+            pixels,
+            clipped: self.clipped,
+            not_finite: self.not_finite,
+            outliers,
+            left_out: self.left_out,
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! What a camera wrote beside the picture.
+
+use super::orientation::Orientation;
+
+/// The few EXIF fields that matter to a measurement.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CameraNotes {
+    /// The camera's maker.
+    pub make: Option<String>,
+    /// The camera.
+    pub model: Option<String>,
+    /// Exposure time, s.
+    pub exposure_s: Option<f64>,
+    /// Focal length over aperture.
+    pub f_number: Option<f64>,
+    /// ISO sensitivity.
+    pub iso: Option<u32>,
+    /// How the picture was stored.
+    pub orientation: Orientation,
+    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
+    pub(in crate::image) is_raw: bool,
+    /// What was wrong but did no harm.
+    pub notes: Vec<String>,
+}

@@ -1,0 +1,54 @@
+//! What is known about a photograph besides its pixels.
+
+use super::camera_notes::CameraNotes;
+use crate::image::numbers::{Development, Transfer};
+
+/// What is known about a photograph besides its pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhotographInfo {
+    /// What the camera wrote; coordinates are those of the upright picture.
+    pub camera: CameraNotes,
+    /// Width of the upright picture, px.
+    pub width: usize,
+    /// Height of the upright picture, px.
+    pub height: usize,
+    /// File format, depth and colours as stored: `TIFF, 16-bit, RGB`.
+    pub format: String,
+    /// The curve that was undone, [`Transfer::Linear`] or [`Transfer::Srgb`].
+    pub transfer_used: Transfer,
+    /// The stored number taken as no light, one for all channels or one for each.
+    pub black_level: Vec<f64>,
+    /// The stored number taken as 1, one for all channels or one for each.
+    pub white_level: Vec<f64>,
+    /// White balance and matrix that were undone.
+    pub undone: Option<Development>,
+    /// Of a RAW file: what was read of the sensor.
+    pub sensor: Option<SensorInfo>,
+}
+
+/// The part of a sensor that makes a picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SensorInfo {
+    /// Letters of the colour filters from the area's top left corner as stored, row by row: `RGGB`; none without filters.
+    pub mosaic: Option<String>,
+    /// Left column, top row, width and height of the area read, px of the whole sensor as stored.
+    pub area: [usize; 4],
+}
+
+impl PhotographInfo {
+    /// Of a linear picture of `stored_size` from 0 to 1, with what the camera wrote.
+    pub(in crate::image) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
+        let (width, height) = camera.orientation.upright_size(stored_size);
+        Self {
+            camera,
+            width,
+            height,
+            format,
+            transfer_used: Transfer::Linear,
+            black_level: vec![0.0],
+            white_level: vec![1.0],
+            undone: None,
+            sensor: None,
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Pixels stored with their colours side by side.
+//!
+//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large picture
+//! costs little more than decoding it.
+
+use std::ops::Range;
+
+use image::DynamicImage;
+use ndarray::{Array3, ShapeError};
+
+use super::orientation::Orientation;
+use super::pixel::Pixel;
+use crate::image::numbers::{Development, Scale};
+
+/// Pixels of one colour or three, with or without alpha.
+#[derive(Debug, Clone)]
+pub(in crate::image) struct Interleaved {
+    samples: Samples,
+    /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
+    colours: [usize; 3],
+    alpha: Option<usize>,
+    scale: Scale,
+    /// Linear light of every integer; empty for floats.
+    table: Vec<f64>,
+    development: Option<Development>,
+}
+
+/// Samples of the upright picture, by row, column and place in the pixel.
+#[derive(Debug, Clone)]
+enum Samples {
+    U8(Array3<u8>),
+    U16(Array3<u16>),
+    F32(Array3<f32>),
+    /// Linear light already, infinite where it is clipped.
+    Light(Array3<f32>),
+}
+
+impl Interleaved {
+    /// The pixels of a decoded picture, stored in this orientation, and what was done to them that is to be undone.
+    ///
+    /// # Errors
+    /// If the decoder gave more or fewer samples than the picture has.
+    pub fn from_picture(
+        picture: DynamicImage,
+        orientation: Orientation,
+        scale: Scale,
+        development: Option<Development>,
+    ) -> Result<Self, ShapeError> {
+        let color = picture.color();
+        let channels = usize::from(color.channel_count()) - usize::from(color.has_alpha());
+        Ok(Self {
+            table: scale.table(),
+            samples: Samples::new(picture, orientation)?,
+            colours: colours(channels),
+            alpha: color.has_alpha().then_some(channels),
+            scale,
+            development,
+        })
+    }
+
+    /// Pixels that are linear light already, by row, column and channel of the upright picture, infinite where it is clipped.
+    pub fn from_light(light: Array3<f32>) -> Self {
+        let (_, _, channels) = light.dim();
+        Self {
+            samples: Samples::Light(light),
+            colours: colours(channels),
+            alpha: None,
+            scale: Scale::LINEAR,
+            table: Vec::new(),
+            development: None,
+        }
+    }
+
+    /// Colours of a pixel, 1 or 3.
+    pub fn channels(&self) -> usize {
+        let [red, _, blue] = self.colours;
+        blue - red + 1
+    }
+
+    /// Shows the pixels in `columns` of row `y` one after another, with their columns.
+    #[inline]
+    pub fn visit(&self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
+        match &self.development {
+            None => self.visit_linear(columns, y, visitor),
+            Some(development) => {
+                self.visit_linear(columns, y, |x, pixel| visitor(x, pixel.undeveloped(development)));
+            }
+        }
+    }
+
+    #[inline]
+    fn visit_linear(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+        let integer = |v: usize| self.table[v];
+        let float = |v: f32| self.scale.linear(v.into());
+        match &self.samples {
+            Samples::U8(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
+            Samples::U16(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
+            Samples::F32(stored) => self.visit_stored(stored, float, columns, y, visitor),
+            Samples::Light(light) => self.visit_stored(light, f64::from, columns, y, visitor),
+        }
+    }
+
+    #[inline]
+    fn visit_stored<T: Copy + Into<f64>>(
+        &self,
+        stored: &Array3<T>,
+        linear: impl Fn(T) -> f64,
+        columns: Range<usize>,
+        y: usize,
+        mut visitor: impl FnMut(usize, Pixel),
+    ) {
+        for x in columns {
+            let light = self.colours.map(|channel| linear(stored[[y, x, channel]]));
+            let transparent = self.alpha.is_some_and(|alpha| stored[[y, x, alpha]].into() <= 0.0);
+            visitor(x, Pixel::new(light, transparent));
+        }
+    }
+}
+
+/// Where red, green and blue are in a pixel of so many channels.
+fn colours(channels: usize) -> [usize; 3] {
+    [0, 1, 2].map(|channel| channel.min(channels - 1))
+}
+
+impl Samples {
+    fn new(picture: DynamicImage, orientation: Orientation) -> Result<Self, ShapeError> {
+        let per_pixel = usize::from(picture.color().channel_count());
+        let shape = (picture.height() as usize, picture.width() as usize, per_pixel);
+        let u8s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U8(orientation.upright(all)));
+        let u16s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U16(orientation.upright(all)));
+        let f32s =
+            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::F32(orientation.upright(all)));
+        match picture {
+            DynamicImage::ImageLuma8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageLumaA8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageRgb8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageRgba8(buffer) => u8s(buffer.into_raw()),
+            DynamicImage::ImageLuma16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageLumaA16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgb16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgba16(buffer) => u16s(buffer.into_raw()),
+            DynamicImage::ImageRgba32F(buffer) => f32s(buffer.into_raw()),
+            other => f32s(other.into_rgb32f().into_raw()),
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! A photograph as linear light, pixel by pixel, however it was stored.
+
+mod camera_notes;
+mod flat_field;
+mod info;
+mod interleaved;
+mod mosaic;
+mod orientation;
+mod pixel;
+mod pixels;
+mod sites;
+
+pub use camera_notes::CameraNotes;
+pub use flat_field::FlatField;
+pub use info::{PhotographInfo, SensorInfo};
+pub(in crate::image) use interleaved::Interleaved;
+pub use mosaic::Mosaic;
+pub use orientation::Orientation;
+pub use pixel::Pixel;
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use ndarray::{Array2, Array3};
+
+use self::pixels::Pixels;
+use self::sites::Sites;
+use crate::{Error, Result};
+
+/// A decoded photograph, seen upright.
+#[derive(Debug, Clone)]
+pub struct Photograph {
+    pixels: Pixels,
+    flat_field: Option<Arc<FlatField>>,
+    info: PhotographInfo,
+}
+
+impl Photograph {
+    /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
+    ///
+    /// [`measure`](crate::image::measure) averages each colour's pixels where they are; nothing is interpolated between them.
+    ///
+    /// # Arguments
+    /// - `mosaic`: the colours, from the top left pixel on.
+    /// - `width`, `height`: px, at least 3.
+    /// - `light`: row by row from the top, width x height numbers, infinite where a pixel is clipped.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the picture is smaller or there are not as many numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Mosaic, Photograph, Pixel};
+    /// let light = vec![1.0, 0.5, 1.0, 0.5, 0.25, 0.5, 1.0, 0.5, 1.0];
+    /// let photograph = Photograph::from_mosaic(Mosaic::new("RGGB").unwrap(), 3, 3, light)?;
+    /// assert_eq!(photograph.pixel(1, 1), Pixel::Light([1.0, 0.5, 0.25]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn from_mosaic(mosaic: Mosaic, width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
+        let info = PhotographInfo::new(CameraNotes::default(), (width, height), "mosaic, float".to_owned());
+        let light = Array2::from_shape_vec((height, width), light).ok();
+        light.and_then(|light| Self::from_sites(light, &mosaic, info)).ok_or_else(|| {
+            Error::Numeric(format!("not as many numbers as a mosaic of {width} x {height} px has"))
+        })
+    }
+
+    /// From the light of a sensor's sites by row and column as stored; none if there are less than 3 x 3.
+    pub(in crate::image) fn from_sites(
+        light: Array2<f32>,
+        mosaic: &Mosaic,
+        info: PhotographInfo,
+    ) -> Option<Self> {
+        let sites = Sites::new(light, mosaic, info.camera.orientation)?;
+        Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
+    }
+
+    /// A photograph of linear light that is at hand.
+    ///
+    /// # Arguments
+    /// - `width`, `height`: px, at least 1.
+    /// - `light`: row by row from the top, one number per pixel or three, infinite where it is clipped.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if there are not as many numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel};
+    /// let photograph = Photograph::from_light(1, 2, vec![0.25, 0.5, 0.75, 0.5, f32::INFINITY, 0.25])?;
+    /// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.25, 0.5, 0.75]));
+    /// assert_eq!(photograph.pixel(0, 1), Pixel::Clipped);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn from_light(width: usize, height: usize, light: Vec<f32>) -> Result<Self> {
+        let channels = if width.checked_mul(height) == Some(light.len()) { 1 } else { 3 };
+        let info = PhotographInfo::new(CameraNotes::default(), (width, height), "linear, float".to_owned());
+        match Array3::from_shape_vec((height, width, channels), light) {
+            Ok(light) if !light.is_empty() => Ok(Self::from_stored_light(light, info)),
+            _ => {
+                let problem = format!("not one number or three for each of {width} x {height} px");
+                Err(Error::Numeric(problem))
+            }
+        }
+    }
+
+    /// From linear light by row, column and channel as stored, of 1 or 3 channels.
+    pub(in crate::image) fn from_stored_light(light: Array3<f32>, info: PhotographInfo) -> Self {
+        let upright = info.camera.orientation.upright(light);
+        Self::from_interleaved(Interleaved::from_light(upright), info)
+    }
+
+    /// From pixels with their colours side by side.
+    pub(in crate::image) fn from_interleaved(pixels: Interleaved, info: PhotographInfo) -> Self {
+        Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
+    }
+
+    /// What a photograph of an evenly coloured sheet tells of the light and the lens; `path` is for errors.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if more than half of its pixels cannot be used, or a channel has no light.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel};
+    /// let sheet = Photograph::from_light(2, 1, vec![0.25, 0.25, 0.25, 0.75, 0.75, 0.75])?; // mean 0.5
+    /// let path = std::path::Path::new("sheet.exr");
+    /// let flat_field = sheet.clone().into_flat_field(path)?;
+    /// assert_eq!(sheet.with_flat_field(flat_field.into(), path)?.pixel(0, 0), Pixel::Light([0.5; 3]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn into_flat_field(self, path: &Path) -> Result<FlatField> {
+        FlatField::new(self, path)
+    }
+
+    /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
+    ///
+    /// # Errors
+    /// [`Error::Picture`] if the flat field has another size.
+    pub fn with_flat_field(self, flat_field: Arc<FlatField>, path: &Path) -> Result<Self> {
+        let ((w, h), (width, height)) = (flat_field.size(), (self.width(), self.height()));
+        if (w, h) != (width, height) {
+            let problem = format!("the picture has {width} x {height} px, the flat field {w} x {h}");
+            return Err(Error::picture(path, problem, "take both with the same camera and framing"));
+        }
+        Ok(Self { flat_field: Some(flat_field), ..self })
+    }
+
+    /// Width of the upright picture, px.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.info.width
+    }
+
+    /// Height of the upright picture, px.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.info.height
+    }
+
+    /// Colours of a pixel: 3, or 1 for a grey picture.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.pixels.channels()
+    }
+
+    /// What is known about the photograph besides its pixels.
+    #[must_use]
+    pub fn info(&self) -> &PhotographInfo {
+        &self.info
+    }
+
+    /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean of each
+    /// colour in the nine pixels around it.
+    #[must_use]
+    pub fn pixel(&self, x: usize, y: usize) -> Pixel {
+        let pixel = self.pixels.pixel(x, y);
+        self.flat_field.as_ref().map_or(pixel, |flat| flat.divide(x, y, pixel))
+    }
+
+    /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
+    pub(in crate::image) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
+        let colours = match self.pixels {
+            Pixels::Interleaved(_) => 0..1,
+            Pixels::Sites(_) => 0..3,
+        };
+        colours.map(|colour| Layer { photograph: self, colour })
+    }
+}
+
+/// One of a photograph's layers.
+#[derive(Clone, Copy)]
+pub(in crate::image) struct Layer<'a> {
+    photograph: &'a Photograph,
+    /// Of a mosaic, which colour's sites are shown.
+    colour: usize,
+}
+
+impl Layer<'_> {
+    /// Width and height, px.
+    pub fn size(self) -> (usize, usize) {
+        (self.photograph.width(), self.photograph.height())
+    }
+
+    /// Colours that its pixels have of their own.
+    pub fn channels(self) -> usize {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.channels(),
+            Pixels::Sites(_) => 1,
+        }
+    }
+
+    /// Which of the three numbers of a pixel are its own; a grey pixel has all three, equal.
+    fn numbers(self) -> Range<usize> {
+        match self.photograph.pixels {
+            Pixels::Interleaved(_) => 0..3,
+            Pixels::Sites(_) => self.colour..self.colour + 1,
+        }
+    }
+
+    /// Shows its pixels in `columns` of row `y` one after another, with their columns.
+    #[inline]
+    pub fn visit(self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
+        match &self.photograph.flat_field {
+            None => self.visit_stored(columns, y, visitor),
+            Some(flat) => self.visit_stored(columns, y, |x, pixel| {
+                visitor(x, self.of_own_colour(flat.divide(x, y, pixel)));
+            }),
+        }
+    }
+
+    /// The same as the light was stored.
+    #[inline]
+    fn visit_stored(self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
+        match &self.photograph.pixels {
+            Pixels::Interleaved(pixels) => pixels.visit(columns, y, visitor),
+            Pixels::Sites(sites) => sites.visit(self.colour, columns, y, visitor),
+        }
+    }
+
+    /// A site has its own colour's light in place of all three.
+    fn of_own_colour(self, pixel: Pixel) -> Pixel {
+        match (&self.photograph.pixels, pixel) {
+            (Pixels::Sites(_), Pixel::Light(light)) => Pixel::Light([light[self.colour]; 3]),
+            (_, other) => other,
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Where things lie: points of the picture, panels and charts in it, the lens and the camera that saw them.
+
+mod corners;
+mod distortion;
+mod grid;
+mod homography;
+mod pixel_area;
+mod point;
+mod pose;
+
+pub(in crate::image) use corners::is_inside;
+pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
+pub use distortion::Lens;
+pub use grid::Grid;
+pub use homography::Homography;
+pub(in crate::image) use pixel_area::{Quadrilateral, Sides, sense};
+pub use point::Point;
+pub use pose::camera_position;

@@ -1,0 +1,174 @@
+//! What a camera wrote beside the picture: make, exposure, how it was held.
+//!
+//! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and what is
+//! broken becomes a note.
+
+use std::io::{self, Read, Seek, SeekFrom};
+
+use exif::{Context, Exif, In, Reader, Tag, Value};
+
+use crate::image::photograph::{CameraNotes, Orientation};
+
+/// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
+const TAGS_BYTES: usize = 1 << 20;
+
+/// A TIFF file's own EXIF block: the whole file, but of a large one only the places where tags are kept, the pixels in
+/// between left blank.
+pub(super) fn tiff_tags(file: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
+    let mut block = vec![0; file.seek(SeekFrom::End(0))? as usize];
+    read_part(file, &mut block, 0)?;
+    let directory = match block.get(..8) {
+        Some(&[b'I', _, _, _, a, b, c, d]) => u32::from_le_bytes([a, b, c, d]),
+        Some(&[_, _, _, _, a, b, c, d]) => u32::from_be_bytes([a, b, c, d]),
+        _ => 0,
+    };
+    read_part(file, &mut block, directory as usize)?;
+    let end = block.len();
+    read_part(file, &mut block, end.saturating_sub(TAGS_BYTES))?;
+    Ok(block)
+}
+
+fn read_part(file: &mut (impl Read + Seek), block: &mut [u8], from: usize) -> io::Result<()> {
+    let to = from.saturating_add(TAGS_BYTES).min(block.len());
+    let Some(part) = block.get_mut(from..to) else { return Ok(()) };
+    file.seek(SeekFrom::Start(from as u64))?;
+    file.read_exact(part)
+}
+
+/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block.
+pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
+    let mut notes = Vec::new();
+    let exif = block.and_then(|block| parse(block, &mut notes));
+    let field =
+        |tag| exif.as_ref().and_then(|exif| exif.get_field(tag, In::PRIMARY)).map(|field| &field.value);
+    CameraNotes {
+        make: field(Tag::Make).and_then(text),
+        model: field(Tag::Model).and_then(text),
+        exposure_s: field(Tag::ExposureTime).and_then(positive),
+        f_number: field(Tag::FNumber).and_then(positive),
+        iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
+        orientation: field(Tag::Orientation)
+            .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
+        is_raw: exif.as_ref().is_some_and(is_raw),
+        notes,
+    }
+}
+
+fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
+    Reader::new()
+        .continue_on_error(true)
+        .read_raw(block)
+        .or_else(|error| {
+            error.distill_partial_result(|errors| {
+                notes.extend(errors.iter().map(|error| format!("EXIF: {error}; the field is ignored")));
+            })
+        })
+        .map_err(|error| notes.push(format!("EXIF: {error}; all of it is ignored")))
+        .ok()
+}
+
+/// Whether the first directory is that of a DNG, of a mosaic, or of a preview: then the picture itself is the sensor's, as in
+/// NEF and ARW.
+fn is_raw(exif: &Exif) -> bool {
+    const DNG_VERSION: Tag = Tag(Context::Tiff, 0xc612);
+    const NEW_SUBFILE_TYPE: Tag = Tag(Context::Tiff, 0xfe);
+    const MOSAIC: u32 = 32803;
+    let number = |tag| exif.get_field(tag, In::PRIMARY).and_then(|field| field.value.get_uint(0));
+    number(DNG_VERSION).is_some()
+        || number(Tag::PhotometricInterpretation) == Some(MOSAIC)
+        || number(NEW_SUBFILE_TYPE).is_some_and(|kind| kind & 1 == 1)
+}
+
+fn orientation(value: &Value, notes: &mut Vec<String>) -> Orientation {
+    value.get_uint(0).and_then(Orientation::from_exif).unwrap_or_else(|| {
+        notes.push("EXIF: the orientation is not one of 1 to 8; the picture is taken as upright".to_owned());
+        Orientation::UPRIGHT
+    })
+}
+
+fn text(value: &Value) -> Option<String> {
+    let Value::Ascii(lines) = value else { return None };
+    let line = String::from_utf8_lossy(lines.first()?).trim().to_owned();
+    (!line.is_empty()).then_some(line)
+}
+
+fn positive(value: &Value) -> Option<f64> {
+    let Value::Rational(ratios) = value else { return None };
+    ratios.first().map(exif::Rational::to_f64).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A little-endian block with the given entries: tag, type, count, value.
+    fn block(entries: &[(u16, u16, u32, u32)]) -> Vec<u8> {
+        let mut bytes = b"II*\0\x08\0\0\0".to_vec();
+        bytes.extend((entries.len() as u16).to_le_bytes());
+        for (tag, kind, count, value) in entries {
+            bytes.extend(tag.to_le_bytes());
+            bytes.extend(kind.to_le_bytes());
+            bytes.extend(count.to_le_bytes());
+            bytes.extend(value.to_le_bytes());
+        }
+        bytes.extend([0; 4]);
+        bytes
+    }
+
+    #[test]
+    fn no_exif_is_no_fault() {
+        let camera = read(None);
+        assert_eq!((camera.orientation, camera.notes), (Orientation::UPRIGHT, vec![]));
+    }
+
+    #[test]
+    fn broken_exif_becomes_a_note() {
+        for broken in [b"nonsense".to_vec(), b"II*\0".to_vec(), b"II*\0\xff\xff\xff\xff".to_vec()] {
+            let camera = read(Some(broken));
+            assert_eq!(camera.orientation, Orientation::UPRIGHT);
+            assert!(camera.notes[0].ends_with("is ignored"), "{:?}", camera.notes);
+        }
+    }
+
+    /// The directory may stand anywhere, here between the pixels of a large file.
+    #[test]
+    fn tags_are_found_in_a_large_file() {
+        let (size, directory) = (6 * TAGS_BYTES, 3 * TAGS_BYTES - 5);
+        let small = block(&[(0x112, 3, 1, 6)]);
+        let mut large = vec![0xff; size];
+        large[..4].copy_from_slice(&small[..4]);
+        large[4..8].copy_from_slice(&(directory as u32).to_le_bytes());
+        large[directory..directory + small.len() - 8].copy_from_slice(&small[8..]);
+        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap()));
+        assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
+    }
+
+    #[test]
+    fn good_fields_survive_a_bad_one() {
+        let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6)); // the make lies outside the block
+        let camera = read(Some(block(&[make, orientation])));
+        assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
+        assert_eq!(camera.notes.len(), 1);
+    }
+
+    #[test]
+    fn raw_files_are_told_from_pictures() {
+        for (entry, raw) in [
+            ((0xfe, 4, 1, 0), false),  // the whole picture
+            ((0xfe, 4, 1, 1), true),   // a preview
+            ((0xfe, 4, 1, 2), false),  // a page
+            ((0x106, 3, 1, 2), false), // RGB
+            ((0x106, 3, 1, 32803), true),
+            ((0xc612, 1, 4, 0x0401), true),
+        ] {
+            assert_eq!(read(Some(block(&[entry]))).is_raw, raw, "{entry:?}");
+        }
+    }
+
+    #[test]
+    fn an_impossible_orientation_is_noted() {
+        let camera = read(Some(block(&[(0x112, 3, 1, 9)])));
+        assert_eq!(camera.orientation, Orientation::UPRIGHT);
+        assert!(camera.notes[0].contains("orientation"));
+    }
+}

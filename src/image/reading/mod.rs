@@ -1,0 +1,7 @@
+//! From a picture file to a photograph: formats, EXIF, the RAW files of cameras.
+
+mod decode;
+mod exif;
+mod open;
+#[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
+mod raw;

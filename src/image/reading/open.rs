@@ -1,0 +1,80 @@
+//! From a picture file to a photograph.
+
+use std::path::Path;
+
+use image::ImageFormat;
+
+use super::decode::{Decoded, Picture, decode};
+use super::raw;
+use crate::image::numbers::{ReadOptions, Scale};
+use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
+use crate::{Error, Result};
+
+impl Photograph {
+    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha; with the
+    /// feature `raw` also a camera's RAW file.
+    ///
+    /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
+    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too
+    /// large, or has no colours to undo a development of; [`Error::Usage`] if the white level is not above the black
+    /// level.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel, ReadOptions, write_linear};
+    /// let folder = tempfile::tempdir().unwrap();
+    /// let path = folder.path().join("pixel.exr");
+    /// write_linear(&path, 1, 1, &[0.25, 0.5, 2.0])?;
+    /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+    /// assert_eq!(photograph.pixel(0, 0), Pixel::Light([0.25, 0.5, 2.0]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn open(path: &Path, options: &ReadOptions) -> Result<Self> {
+        let (decoded, undo) = (decode(path)?, options.development.is_some());
+        let no_colours = |what: &str| {
+            let problem = format!("{what} has no white balance and matrix to undo");
+            Error::picture(path, problem, "read it without --undo")
+        };
+        match decoded {
+            Decoded::Raw if undo => Err(no_colours("a RAW file")),
+            Decoded::Raw => raw::open(path, options),
+            Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
+                Err(no_colours("a grey picture"))
+            }
+            Decoded::Picture(picture) => Self::from_picture(picture, options),
+        }
+    }
+
+    fn from_picture(picture: Picture, options: &ReadOptions) -> Result<Self> {
+        let Picture { format, pixels, camera } = picture;
+        let color = pixels.color();
+        let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
+        let scale = Scale::new(options, bits)?;
+        let stored_size = (pixels.width() as usize, pixels.height() as usize);
+        let orientation = camera.orientation;
+        let info = PhotographInfo {
+            transfer_used: scale.transfer,
+            black_level: vec![scale.black],
+            white_level: vec![scale.white],
+            undone: options.development,
+            ..PhotographInfo::new(camera, stored_size, describe(format, bits, color.has_color()))
+        };
+        let pixels = Interleaved::from_picture(pixels, orientation, scale, options.development)
+            .map_err(|error| Error::Numeric(error.to_string()))?;
+        Ok(Self::from_interleaved(pixels, info))
+    }
+}
+
+fn describe(format: ImageFormat, bits: u32, colour: bool) -> String {
+    let name = match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Jpeg => "JPEG",
+        _ => "OpenEXR",
+    };
+    let samples = if bits == 32 { "float".to_owned() } else { format!("{bits}-bit") };
+    format!("{name}, {samples}, {}", if colour { "RGB" } else { "grey" })
+}

@@ -1,0 +1,96 @@
+//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a folder that has what the
+//! page speaks of; links lead to files. What needs pictures or machines of the reader's stands in blocks of `console`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::common::{Ended, Workdir};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A photograph and its corners, photographs in a folder, a room: what pages take for granted.
+const SETUP: &str = r#"
+export LC_ALL=C.UTF-8
+ln -s "$ROOT/tests" tests
+cp tests/data/photos/a_ideal_magenta_50.exr photo.exr
+mkdir photos
+cp photo.exr photos/1.exr
+cp photo.exr photos/2.exr
+echo '{"panel0": [[332,462],[345,77],[122,12],[104,442]], "panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
+printf 'v %s\n' '0 0 0' '2 0 0' '2 2 0' '0 2 0' '0 2 2' '0 0 2' '2 0 2' > room.obj
+printf '%s\n' 'g floor' 'f 1 2 3 4' 'g left' 'f 1 4 5 6' 'g right' 'f 1 6 7 2' >> room.obj
+"#;
+
+/// The fenced blocks of a kind.
+fn blocks<'a>(page: &'a str, kind: &str) -> Vec<&'a str> {
+    let starts = page.split(&format!("\n```{kind}\n")).skip(1).collect::<Vec<_>>();
+    starts.into_iter().map(|block| block.split("\n```\n").next().unwrap()).collect()
+}
+
+/// Runs a page from its first block to its last.
+fn read_along(page: &str) -> Ended {
+    Workdir::new().sh(&format!("ROOT='{ROOT}'{SETUP}{}", blocks(page, "sh").join("\n")))
+}
+
+/// README.md and all pages of docs.
+fn pages() -> Vec<(PathBuf, String)> {
+    let docs = fs::read_dir(Path::new(ROOT).join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let pages = docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    let others = ["README.md", "CONTRIBUTING.md", "docs/paper/README.md", "examples/cluster/README.md"]
+        .map(|name| Path::new(ROOT).join(name));
+    pages.chain(others).map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
+}
+
+#[test]
+fn every_page_runs() {
+    for (path, page) in pages() {
+        // tests/tools/cluster.rs runs the scripts of that page
+        if path.ends_with("examples/cluster/README.md") {
+            continue;
+        }
+        let run = read_along(&page);
+        assert_eq!(run.status, 0, "{}: {run:?}", path.display());
+    }
+}
+
+#[test]
+fn the_readme_shows_what_is_printed() {
+    let page = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    let shown = blocks(&page, "text");
+    let run = read_along(&page);
+    assert!(!shown.is_empty() && shown.iter().all(|text| run.stderr.contains(text)), "{}", run.stderr);
+}
+
+#[test]
+fn a_newcomer_gets_through() {
+    let run = read_along(include_str!("../../docs/tutorial.md"));
+    assert!(
+        run.stderr.contains(r#"--panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90""#),
+        "{run:?}"
+    );
+    let scores: Vec<Vec<&str>> = run
+        .stdout
+        .lines()
+        .filter(|line| line.starts_with("mean "))
+        .map(|line| line.split_whitespace().skip(1).collect())
+        .collect();
+    assert_eq!(scores.len(), 3, "{}", run.stdout);
+    for score in scores {
+        let [rmse, delta_e] = [0, 1].map(|n| score[n].parse::<f64>().unwrap());
+        assert!(rmse < 0.03 && delta_e < 0.6, "{score:?}");
+    }
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let mut missing = Vec::new();
+    for (path, page) in pages() {
+        for link in page.split("](").skip(1).map(|rest| rest.split([')', '#']).next().unwrap()) {
+            let inside = !link.is_empty() && !link.contains("://");
+            if inside && !path.with_file_name(link).exists() {
+                missing.push(format!("{}: {link}", path.display()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+}

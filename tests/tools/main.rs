@@ -1,0 +1,28 @@
+//! The five tools as they are used, on command lines and in pipelines, beside what is known of the answer, and with the programs that
+//! people use them with.
+
+// a test stops at the first surprise, and prints what it measured
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod cli;
+mod cluster;
+#[path = "../common/mod.rs"]
+mod common;
+mod cornell;
+mod determinism;
+mod estimates;
+mod fit;
+mod flat_sheets;
+mod ill_posed;
+mod photographs;
+mod picker;
+mod plots;
+mod python;
+#[cfg(feature = "raw")]
+mod raw;
+#[path = "../common/ready.rs"]
+mod ready;
+mod report;
+mod resume;
+mod spectra_files;
+mod terminal;

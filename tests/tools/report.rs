@@ -1,0 +1,198 @@
+//! `vscore --report`: one file that needs no other, says what the records say, and is harmless whatever samples are called.
+
+use roxmltree::Document;
+use serde_json::Value;
+
+use crate::common::Workdir;
+
+const ONE: &str =
+    "vkernel --facets 4x4 | vforward --reflectance cc24:red --noise-sd 1e-3 | vestimate --fit exposure,tilt";
+const BATCH: &str = "vkernel --facets 3x3 | vforward --reflectance cc24 --noise-sd 1e-3 | vestimate";
+/// Attributes by which a page asks for something.
+const ASKING: [&str; 7] = ["src", "href", "srcset", "poster", "data", "action", "background"];
+
+/// The page, which is XML but for its first line.
+fn body(page: &str) -> &str {
+    page.strip_prefix("<!DOCTYPE html>\n").unwrap()
+}
+
+fn report(folder: &Workdir, script: &str) -> String {
+    let run = folder.sh(&format!("{script} --report out.html >records.ndjson; cat out.html"));
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    run.stdout
+}
+
+fn records(folder: &Workdir) -> Vec<Value> {
+    folder.sh("cat records.ndjson").stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// The table of this caption, row by row.
+fn table(page: &Document, caption: &str) -> Vec<Vec<String>> {
+    let text = |node: roxmltree::Node| {
+        node.descendants().filter(roxmltree::Node::is_text).filter_map(|part| part.text()).collect::<String>()
+    };
+    let is_it = |node: &roxmltree::Node| node.has_tag_name("caption") && text(*node) == caption;
+    let found = page.descendants().find(is_it).unwrap().parent().unwrap();
+    let rows = found.descendants().filter(|node| node.has_tag_name("tr"));
+    rows.map(|row| row.children().map(text).collect()).collect()
+}
+
+#[test]
+fn a_page_asks_for_nothing_and_is_described() {
+    let page = report(&Workdir::new(), &format!("{ONE} | vscore"));
+    let page = Document::parse(body(&page)).unwrap();
+    let elements = || page.descendants().filter(roxmltree::Node::is_element);
+    assert!(
+        !elements().any(|node| matches!(node.tag_name().name(), "script" | "link" | "iframe" | "object"))
+    );
+    for node in elements() {
+        for asking in node.attributes().filter(|attribute| ASKING.contains(&attribute.name())) {
+            assert!(
+                asking.value().starts_with("data:image/") || asking.value().starts_with('#'),
+                "{asking:?}"
+            );
+        }
+        assert!(node.attributes().all(|attribute| !attribute.name().starts_with("on")));
+        let needed = match node.tag_name().name() {
+            "img" => "alt",
+            "svg" => "aria-label",
+            "th" => "scope",
+            "html" => "lang",
+            _ => continue,
+        };
+        assert!(node.attribute(needed).is_some_and(|text| !text.is_empty()), "{needed}: {node:?}");
+    }
+    let style = elements().find(|node| node.has_tag_name("style")).unwrap().text().unwrap();
+    assert!(!style.contains("url(") && !style.contains("@import"));
+    let ids: Vec<_> = elements().filter_map(|node| node.attribute("id")).collect();
+    let links = elements().filter_map(|node| node.attribute("href")?.strip_prefix('#'));
+    links.for_each(|link| assert!(ids.contains(&link), "{link}"));
+}
+
+#[test]
+fn numbers_are_those_of_the_record() {
+    let folder = Workdir::new();
+    let page = report(&folder, &format!("{ONE} | vscore"));
+    let page = Document::parse(body(&page)).unwrap();
+    let records = records(&folder);
+    let sample = &records[1];
+    let same = |shown: &str, told: &Value| {
+        shown.parse::<f64>().unwrap().to_bits() == told.as_f64().unwrap().to_bits()
+    };
+    for row in &table(&page, "Scores")[1..] {
+        // that of all samples has a column each for mean, median and worst
+        row[1..].iter().for_each(|value| assert!(same(value, &sample["metrics"][&row[0]]), "{row:?}"));
+    }
+    let spectrum = table(&page, "Spectrum");
+    let columns = ["wavelengths_nm", "reflectance", "reflectance_sd"];
+    for (n, row) in spectrum[1..].iter().enumerate() {
+        for (cell, column) in row.iter().zip(columns) {
+            assert!(same(cell, &sample["estimate"][column][n]), "{row:?}");
+        }
+        assert!(same(&row[3], &sample["truth"]["reflectance"][n]), "{row:?}");
+    }
+    assert_eq!(spectrum.len(), 62);
+    let fitted = table(&page, "Fitted along with the spectrum");
+    for name in ["exposure", "tilt_deg"] {
+        for part in ["value", "sd"] {
+            let row = fitted.iter().find(|row| row[0] == format!("fit.{name}.{part}")).unwrap();
+            assert!(same(&row[1], &sample["estimate"]["fit"][name][part]), "{row:?}");
+        }
+    }
+    let history = table(&page, "What the tools did");
+    assert_eq!(
+        history[1..].iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
+        ["vkernel", "vforward", "vestimate", "vscore"]
+    );
+    assert_eq!(history[2][2], "--reflectance cc24:red --noise-sd 1e-3");
+    let rms = sample["estimate"]["residual_rms"].as_f64().unwrap();
+    let said = format!("rms {rms:.2} standard deviations");
+    assert!(page.descendants().any(|node| node.text().is_some_and(|text| text.contains(&said))), "{said}");
+}
+
+#[test]
+fn of_many_samples_the_worst_are_shown() {
+    let folder = Workdir::new();
+    let page = report(&folder, &format!("{{ {BATCH}; {BATCH}; }} | vscore"));
+    let page = Document::parse(body(&page)).unwrap();
+    let records = records(&folder);
+    let mut rmse: Vec<f64> = records.iter().filter_map(|record| record["metrics"]["rmse"].as_f64()).collect();
+    assert_eq!(rmse.len(), 48);
+    rmse.sort_by(|a, b| b.total_cmp(a));
+    let worst = table(&page, "Worst samples");
+    let shown: Vec<f64> = worst[1..].iter().map(|row| row[1].parse().unwrap()).collect();
+    assert_eq!(shown, rmse[..10]);
+    let sections = page.descendants().filter(|node| node.attribute("class") == Some("sample"));
+    let mut of_sections: Vec<f64> = sections
+        .map(|section| {
+            let cells = section.descendants().filter(|node| node.has_tag_name("tr"));
+            let texts = cells.filter_map(|row| Some([row.first_child()?.text()?, row.last_child()?.text()?]));
+            texts.into_iter().find(|[name, _]| *name == "rmse").unwrap()[1].parse().unwrap()
+        })
+        .collect();
+    of_sections.sort_by(|a, b| b.total_cmp(a));
+    assert_eq!(of_sections, rmse[..24]);
+    let mean = records.last().unwrap()["rmse"]["mean"].as_f64().unwrap();
+    assert_eq!(table(&page, "Scores")[1][1], mean.to_string());
+}
+
+#[test]
+fn hostile_names_are_text() {
+    let folder = Workdir::new();
+    let id = r#"</title></svg><script>alert(1)</script><img src=x onerror=alert(2)>&\"'\u0000\u001b\n]]>-->"#;
+    let page = report(
+        &folder,
+        &format!(
+            "{ONE} >one; cat >id <<'END'\n{id}\nEND\nID=\"$(cat id)\" python3 -c '
+import json, os, sys
+for line in open(\"one\"):
+    record = json.loads(line)
+    record[\"id\"] = record[\"scene\"] = json.loads(chr(34) + os.environ[\"ID\"] + chr(34))
+    print(json.dumps(record))' | vscore --plot out.svg"
+        ),
+    );
+    let page = Document::parse(body(&page)).unwrap();
+    for name in ["script", "object"] {
+        assert!(!page.descendants().any(|node| node.has_tag_name(name)));
+    }
+    let heading = page.descendants().filter(|node| node.has_tag_name("h2")).find_map(|node| node.text());
+    assert!(heading.is_some());
+    assert!(page.descendants().any(|node| {
+        node.has_tag_name("h2") && node.text().is_some_and(|text| text.contains("<script>alert(1)</script>"))
+    }));
+    let drawn = folder.sh("cat out.svg").stdout;
+    let drawn = Document::parse(&drawn).unwrap();
+    assert!(!drawn.descendants().any(|node| node.has_tag_name("script") || node.has_tag_name("img")));
+}
+
+#[test]
+fn a_report_is_whole_or_absent() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!(
+        "{ONE} >one; vscore one --report there.html --overlay missing.png >/dev/null || echo $?; ls"
+    ));
+    assert!(run.stdout.starts_with("1\n") && !run.stdout.contains("html"), "{run:?}");
+    assert!(run.stderr.contains("missing.png"), "{run:?}");
+    let run = folder.sh(
+        "vscore one --report nowhere/out.html >/dev/null || echo $?; vscore one --report out.pdf || echo $?",
+    );
+    assert_eq!(run.stdout, "1\n2\n");
+    assert!(run.stderr.contains("end the name in .html"), "{run:?}");
+}
+
+/// A photograph of an unknown sheet: the page has all but scores, with the picture that vextract drew.
+#[test]
+fn a_photograph_needs_no_truth() {
+    let folder = Workdir::new();
+    let photo = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
+    let page = report(&folder, &format!(
+        "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii \
+            --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' |
+            vestimate --quiet | vscore"));
+    let page = Document::parse(body(&page)).unwrap();
+    let picture = page.descendants().find(|node| node.has_tag_name("img")).unwrap();
+    assert!(picture.attribute("src").unwrap().starts_with("data:image/jpeg;base64,/9j/"));
+    assert!(picture.attribute("alt").unwrap().contains("a_ideal_magenta_50"));
+    assert_eq!(table(&page, "Measurement").iter().find(|row| row[0] == "image.width").unwrap()[1], "640");
+    assert!(table(&page, "Spectrum")[1][3].is_empty());
+}
