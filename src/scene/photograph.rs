@@ -84,7 +84,7 @@ impl<'a> FoldLight<'a> {
             has_sky_illuminant: setting.has_sky_illuminant()?,
             is_outdoors: eye::daylight_mired(&eye).is_some(),
         };
-        let lit = self.sunlit(&bins, sun)?;
+        let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
         let sheets = sheets::of(fold, sun, pose.eye, &self.nodes, &bins, &lit.even)?;
         Ok(Some(Parts {
@@ -101,13 +101,13 @@ impl<'a> FoldLight<'a> {
         }))
     }
 
-    fn sunlit(&self, bins: &Bins, sun: Vector3<f64>) -> Result<Sunlit> {
+    fn sunlit(&self, bins: &Bins, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Sunlit> {
         let fold = self.setting.fold();
         let [even, odd] = self.setting.light()?.even_and_odd(fold);
         let angle_deg = fold.angle_deg();
-        let ideal = self.bent(BentFold::ideal(angle_deg), sun)?;
+        let ideal = self.bent(BentFold::ideal(angle_deg), sun, view)?;
         let change = |sizes: [f64; 2], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
-            let of = |size| Ok(bins.pool(&(self.bent(bend(size), sun)? - &ideal)));
+            let of = |size| Ok(bins.pool(&(self.bent(bend(size), sun, view)? - &ideal)));
             Ok(Change { sizes, radiance: [of(sizes[0])?, of(sizes[1])?] })
         };
         let flat = BentFold::ideal(angle_deg);
@@ -121,8 +121,8 @@ impl<'a> FoldLight<'a> {
         })
     }
 
-    fn bent(&self, bent: BentFold, sun: Vector3<f64>) -> Result<Array2<f64>> {
-        BentExchange::new(&bent, self.setting.fold(), Vector3::z()).facet_radiance(sun, &self.nodes)
+    fn bent(&self, bent: BentFold, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Array2<f64>> {
+        BentExchange::new(&bent, self.setting.fold(), view).facet_radiance(sun, &self.nodes)
     }
 
     /// Radiance of the ideal fold: facet by node.

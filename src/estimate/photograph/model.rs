@@ -84,7 +84,7 @@ impl<'a> PhotographModel<'a> {
     pub fn new(parts: &'a Parts, kind: Kind, gaussian: &'a Gaussian, whitening: &'a DMatrix<f64>) -> Self {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
-        let coefficients = chebyshev.transpose().try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
+        let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
         Self { parts, kind, gaussian, whitening, unknowns: unknowns_of(parts, kind), coefficients }
     }
 
