@@ -6,16 +6,18 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::Vector3;
 use ndarray::Array2;
 
 use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::exact::Wedge;
+use crate::kernel::quadrature::Rule;
 use crate::sheet::{Angles, Shape};
 
 /// Where rows of patches begin and end, as shares of the panel's depth.
-const EDGES: [f64; 7] = [0.0, 0.06, 0.15, 0.3, 0.5, 0.75, 1.0];
+const EDGES: [f64; 7] = [0.0, 0.05, 0.14, 0.28, 0.48, 0.74, 1.0];
 const ROWS: usize = EDGES.len() - 1;
 /// Patches along the crease.
 const COLS: usize = 5;
@@ -24,6 +26,8 @@ const COUNT: usize = ROWS * COLS;
 const SHIFTS: usize = 2 * COLS - 1;
 /// Directions from a row of patches to the other panel's patches, repeated along the crease.
 const DIRECTIONS: usize = ROWS * SHIFTS;
+/// Places of a patch in each direction over which directions are averaged.
+const PLACES: usize = 4;
 /// Most reflections that are followed one by one.
 const REFLECTIONS: usize = 40;
 /// Light that is let go, relative to what the sun sends.
@@ -62,8 +66,8 @@ impl Patches {
         let wedge = Wedge::new(fold);
         Self {
             panels: frames.each_ref().map(|frame| Panel::new(frame, &wedge, &middles)),
-            between: pairs(&frames[0], &middles),
-            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1], &middles)),
+            between: pairs(&frames[0]),
+            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1])),
             pooling: Pooling::straight(fold, &middles, &columns),
         }
     }
@@ -143,7 +147,8 @@ impl Panel {
         let (mut factors, mut shifts) = (vec![0.0; COUNT * COUNT], [0.0; COLS]);
         let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
         for i in 0..ROWS {
-            from_sun.extend(directions(frame, middles, i).iter().map(|to| Angles::new(&frame.sun, to)));
+            let to = directions(frame, i);
+            from_sun.extend(to.iter().map(|to| Angles::new(&frame.sun, to)));
             let here = row(frame.depth, i);
             for j in 0..ROWS {
                 wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
@@ -152,16 +157,11 @@ impl Panel {
                         PI * shifts[col.abs_diff(other)] / (here.end - here.start);
                 }
             }
-        }
-        let place = |depth: f64, n: usize| {
-            let along = ((n % COLS) as f64 + 0.5) / COLS as f64 - 0.5;
-            [middles[n / COLS] * depth, along * frame.width]
-        };
-        for i in 0..COUNT {
-            let from = place(frame.depth, i);
-            let eye = frame.to_eye(from);
-            let others = (0..COUNT).map(|j| frame.to_other(from, place(frame.other_depth, j)));
-            to_eye.extend(others.map(|light| Angles::new(&light, &eye)));
+            for col in 0..COLS {
+                let along = ((col as f64 + 0.5) / COLS as f64 - 0.5) * frame.width;
+                let eye = frame.to_eye([middles[i] * frame.depth, along]);
+                to_eye.extend((0..COUNT).map(|k| Angles::new(&to[direction(col, k)], &eye)));
+            }
         }
         Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
@@ -191,17 +191,33 @@ fn direction(i: usize, k: usize) -> usize {
     k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
 }
 
-/// Directions from the patches of a row to those of the other panel.
-fn directions(frame: &Frame, middles: &[f64], row: usize) -> Vec<nalgebra::Vector3<f64>> {
-    let shift = |n: usize| (n as f64 + 1.0 - COLS as f64) / COLS as f64 * frame.width;
-    let ends = middles.iter().flat_map(|out| (0..SHIFTS).map(move |n| [out * frame.other_depth, shift(n)]));
-    ends.map(|end| frame.to_other([middles[row] * frame.depth, 0.0], end)).collect()
+/// Directions from the patches of a row to those of the other panel: means over the light between both, which lies between the directions of
+/// their middles only where they are far from each other.
+fn directions(frame: &Frame, row: usize) -> Vec<Vector3<f64>> {
+    let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
+    let unit = frame.width / COLS as f64;
+    let span = |depth: f64, n: usize| gauss.on(EDGES[n] * depth, EDGES[n + 1] * depth);
+    let mean = |other: usize, shift: f64| {
+        let mut sum = Vector3::zeros();
+        for (out, weight) in span(frame.depth, row) {
+            for (far, weight_far) in span(frame.other_depth, other) {
+                for (z, weight_along) in hat.nodes.iter().zip(&hat.weights) {
+                    let along = (shift + z) * unit;
+                    let way = Vector3::new(far * frame.cos - out, along, far * frame.sin);
+                    sum += way * (weight * weight_far * weight_along * out * far / way.norm().powi(5));
+                }
+            }
+        }
+        sum.normalize()
+    };
+    let ends = (0..ROWS).flat_map(|other| (0..SHIFTS).map(move |n| (other, n as f64 + 1.0 - COLS as f64)));
+    ends.map(|(other, shift)| mean(other, shift)).collect()
 }
 
 /// Angles between all directions of each row of patches, each pair once.
-fn pairs(frame: &Frame, middles: &[f64]) -> Vec<Vec<Angles>> {
+fn pairs(frame: &Frame) -> Vec<Vec<Angles>> {
     let row = |row: usize| {
-        let to = directions(frame, middles, row);
+        let to = directions(frame, row);
         let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
         pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
     };
