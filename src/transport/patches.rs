@@ -17,10 +17,10 @@ use crate::kernel::quadrature::Rule;
 use crate::sheet::{Angles, Shape};
 
 /// Where rows of patches begin and end, as shares of the panel's depth.
-const EDGES: [f64; 7] = [0.0, 0.05, 0.14, 0.28, 0.48, 0.74, 1.0];
+const EDGES: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
 const ROWS: usize = EDGES.len() - 1;
-/// Patches along the crease.
-const COLS: usize = 5;
+/// Patches along the crease: it is across them that light near the crease varies most in direction.
+const COLS: usize = 8;
 const COUNT: usize = ROWS * COLS;
 /// Differences of columns.
 const SHIFTS: usize = 2 * COLS - 1;
@@ -48,7 +48,7 @@ struct Panel {
     /// Irradiance from the sun.
     lit: f64,
     /// π times the form factor from each patch to each of the other panel.
-    factors: Vec<f64>,
+    factors: Vec<f32>,
     /// From the sun, towards each patch of the other panel: row by row of directions.
     from_sun: Vec<Angles>,
     /// From each patch of the other panel, towards the eye: patch by patch.
@@ -56,7 +56,7 @@ struct Panel {
 }
 
 /// A shape's body and surface at a list of angles.
-type Parts = Vec<[f64; 2]>;
+type Parts = Vec<[f32; 2]>;
 
 impl Patches {
     /// Those of `fold`, in the light of a sun and before an eye that the frames know.
@@ -75,7 +75,9 @@ impl Patches {
     /// What the eye sees of light that was reflected three times or more: patches of both panels by albedos.
     #[must_use]
     pub fn radiances(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
-        let at = |angles: &[Angles]| angles.iter().map(|angles| shape.at(angles)).collect::<Parts>();
+        let at = |angles: &[Angles]| {
+            angles.iter().map(|angles| shape.at(angles).map(|value| value as f32)).collect::<Parts>()
+        };
         let sun = self.panels.each_ref().map(|panel| at(&panel.from_sun));
         let eye = self.panels.each_ref().map(|panel| at(&panel.to_eye));
         let between = expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
@@ -83,8 +85,8 @@ impl Patches {
             self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, &albedo) in albedos.iter().enumerate() {
-            let r = shape.reflectance_45_0(albedo);
-            let mixed = |parts: &[[f64; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f64>>();
+            let r = shape.reflectance_45_0(albedo) as f32;
+            let mixed = |parts: &[[f32; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f32>>();
             let matrix = mixed(&between);
             let matrix_1 = between_1.as_ref().map(|between| mixed(between));
             let matrices = [&matrix, matrix_1.as_ref().unwrap_or(&matrix)];
@@ -94,7 +96,7 @@ impl Patches {
                 for i in 0..COUNT {
                     let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
                     radiances[[p * COUNT + i, n]] =
-                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| light * eye).sum();
+                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| f64::from(light * eye)).sum();
                 }
             }
         }
@@ -108,8 +110,9 @@ impl Patches {
     }
 
     /// Light sent by each patch of either panel to each of the other after two reflections and more.
-    fn sent(&self, direct: [Vec<f64>; 2], matrices: [&Vec<f64>; 2]) -> [Vec<f64>; 2] {
-        let total = |light: &[Vec<f64>; 2]| light.iter().flatten().map(|value| value.abs()).sum::<f64>();
+    fn sent(&self, direct: [Vec<f32>; 2], matrices: [&Vec<f32>; 2]) -> [Vec<f32>; 2] {
+        let total =
+            |light: &[Vec<f32>; 2]| light.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>();
         let first = total(&direct);
         let (mut light, mut before, mut ratio) = (direct, first, 0.0);
         let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
@@ -128,12 +131,12 @@ impl Patches {
             }
         }
         let ratio = ratio.min(0.999);
-        add(&mut sent, &light, ratio / (1.0 - ratio));
+        add(&mut sent, &light, (ratio / (1.0 - ratio)) as f32);
         sent
     }
 }
 
-fn add(sums: &mut [Vec<f64>; 2], light: &[Vec<f64>; 2], weight: f64) {
+fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {
     for (sum, value) in sums.iter_mut().flatten().zip(light.iter().flatten()) {
         *sum += weight * value;
     }
@@ -144,7 +147,7 @@ impl Panel {
         // the kernel wants lengths in widths of a patch
         let unit = frame.width / COLS as f64;
         let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
-        let (mut factors, mut shifts) = (vec![0.0; COUNT * COUNT], [0.0; COLS]);
+        let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
         let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
         for i in 0..ROWS {
             let to = directions(frame, i);
@@ -154,7 +157,7 @@ impl Panel {
                 wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
                 for (col, other) in (0..COLS).flat_map(|col| (0..COLS).map(move |other| (col, other))) {
                     factors[(i * COLS + col) * COUNT + j * COLS + other] =
-                        PI * shifts[col.abs_diff(other)] / (here.end - here.start);
+                        (PI * shifts[col.abs_diff(other)] / (here.end - here.start)) as f32;
                 }
             }
             for col in 0..COLS {
@@ -167,13 +170,14 @@ impl Panel {
     }
 
     /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
-    fn direct(&self, from_sun: &[f64]) -> Vec<f64> {
+    fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
         let patches = (0..COUNT).flat_map(|i| (0..COUNT).map(move |k| (i, k)));
-        patches.map(|(i, k)| PI * self.lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
+        let lit = (PI * self.lit) as f32;
+        patches.map(|(i, k)| lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
     }
 
     /// What this panel's patches send on of the light that the other's sent.
-    fn reflected(&self, light: &[f64], matrix: &[f64]) -> Vec<f64> {
+    fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
         let mut reflected = vec![0.0; COUNT * COUNT];
         for (i, to) in reflected.chunks_exact_mut(COUNT).enumerate() {
             let rows = matrix[i * COUNT * COUNT..].chunks_exact(COUNT);
