@@ -43,6 +43,10 @@ enum Parts {
 
 impl From<Family> for Shape {
     fn from(family: Family) -> Self {
+        let Family { body_roughness_deg, gloss, fuzz, .. } = family;
+        if [body_roughness_deg, gloss, fuzz].iter().all(|effect| effect.abs() <= 0.0) {
+            return Self::lambertian();
+        }
         Self::of(Parts::Family(Terms::new(family)))
     }
 }

@@ -46,9 +46,4 @@ impl Frame {
     pub fn to_eye(&self, [out, along]: [f64; 2]) -> Vector3<f64> {
         (self.eye - Vector3::new(out, along, 0.0)).normalize()
     }
-
-    /// Direction from such a point to one of the other panel.
-    pub fn to_other(&self, from: [f64; 2], to: [f64; 2]) -> Vector3<f64> {
-        Vector3::new(to[0] * self.cos - from[0], to[1] - from[1], to[0] * self.sin).normalize()
-    }
 }

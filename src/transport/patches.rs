@@ -6,24 +6,28 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::Vector3;
 use ndarray::Array2;
 
 use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::exact::Wedge;
+use crate::kernel::quadrature::Rule;
 use crate::sheet::{Angles, Shape};
 
 /// Where rows of patches begin and end, as shares of the panel's depth.
-const EDGES: [f64; 7] = [0.0, 0.06, 0.15, 0.3, 0.5, 0.75, 1.0];
+const EDGES: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
 const ROWS: usize = EDGES.len() - 1;
-/// Patches along the crease.
-const COLS: usize = 5;
+/// Patches along the crease: it is across them that light near the crease varies most in direction.
+const COLS: usize = 8;
 const COUNT: usize = ROWS * COLS;
 /// Differences of columns.
 const SHIFTS: usize = 2 * COLS - 1;
 /// Directions from a row of patches to the other panel's patches, repeated along the crease.
 const DIRECTIONS: usize = ROWS * SHIFTS;
+/// Places of a patch in each direction over which directions are averaged.
+const PLACES: usize = 4;
 /// Most reflections that are followed one by one.
 const REFLECTIONS: usize = 40;
 /// Light that is let go, relative to what the sun sends.
@@ -44,7 +48,7 @@ struct Panel {
     /// Irradiance from the sun.
     lit: f64,
     /// π times the form factor from each patch to each of the other panel.
-    factors: Vec<f64>,
+    factors: Vec<f32>,
     /// From the sun, towards each patch of the other panel: row by row of directions.
     from_sun: Vec<Angles>,
     /// From each patch of the other panel, towards the eye: patch by patch.
@@ -52,7 +56,7 @@ struct Panel {
 }
 
 /// A shape's body and surface at a list of angles.
-type Parts = Vec<[f64; 2]>;
+type Parts = Vec<[f32; 2]>;
 
 impl Patches {
     /// Those of `fold`, in the light of a sun and before an eye that the frames know.
@@ -62,8 +66,8 @@ impl Patches {
         let wedge = Wedge::new(fold);
         Self {
             panels: frames.each_ref().map(|frame| Panel::new(frame, &wedge, &middles)),
-            between: pairs(&frames[0], &middles),
-            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1], &middles)),
+            between: pairs(&frames[0]),
+            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1])),
             pooling: Pooling::straight(fold, &middles, &columns),
         }
     }
@@ -71,7 +75,9 @@ impl Patches {
     /// What the eye sees of light that was reflected three times or more: patches of both panels by albedos.
     #[must_use]
     pub fn radiances(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
-        let at = |angles: &[Angles]| angles.iter().map(|angles| shape.at(angles)).collect::<Parts>();
+        let at = |angles: &[Angles]| {
+            angles.iter().map(|angles| shape.at(angles).map(|value| value as f32)).collect::<Parts>()
+        };
         let sun = self.panels.each_ref().map(|panel| at(&panel.from_sun));
         let eye = self.panels.each_ref().map(|panel| at(&panel.to_eye));
         let between = expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
@@ -79,8 +85,8 @@ impl Patches {
             self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, &albedo) in albedos.iter().enumerate() {
-            let r = shape.reflectance_45_0(albedo);
-            let mixed = |parts: &[[f64; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f64>>();
+            let r = shape.reflectance_45_0(albedo) as f32;
+            let mixed = |parts: &[[f32; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f32>>();
             let matrix = mixed(&between);
             let matrix_1 = between_1.as_ref().map(|between| mixed(between));
             let matrices = [&matrix, matrix_1.as_ref().unwrap_or(&matrix)];
@@ -90,7 +96,7 @@ impl Patches {
                 for i in 0..COUNT {
                     let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
                     radiances[[p * COUNT + i, n]] =
-                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| light * eye).sum();
+                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| f64::from(light * eye)).sum();
                 }
             }
         }
@@ -104,8 +110,9 @@ impl Patches {
     }
 
     /// Light sent by each patch of either panel to each of the other after two reflections and more.
-    fn sent(&self, direct: [Vec<f64>; 2], matrices: [&Vec<f64>; 2]) -> [Vec<f64>; 2] {
-        let total = |light: &[Vec<f64>; 2]| light.iter().flatten().map(|value| value.abs()).sum::<f64>();
+    fn sent(&self, direct: [Vec<f32>; 2], matrices: [&Vec<f32>; 2]) -> [Vec<f32>; 2] {
+        let total =
+            |light: &[Vec<f32>; 2]| light.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>();
         let first = total(&direct);
         let (mut light, mut before, mut ratio) = (direct, first, 0.0);
         let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
@@ -124,12 +131,12 @@ impl Patches {
             }
         }
         let ratio = ratio.min(0.999);
-        add(&mut sent, &light, ratio / (1.0 - ratio));
+        add(&mut sent, &light, (ratio / (1.0 - ratio)) as f32);
         sent
     }
 }
 
-fn add(sums: &mut [Vec<f64>; 2], light: &[Vec<f64>; 2], weight: f64) {
+fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {
     for (sum, value) in sums.iter_mut().flatten().zip(light.iter().flatten()) {
         *sum += weight * value;
     }
@@ -140,40 +147,37 @@ impl Panel {
         // the kernel wants lengths in widths of a patch
         let unit = frame.width / COLS as f64;
         let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
-        let (mut factors, mut shifts) = (vec![0.0; COUNT * COUNT], [0.0; COLS]);
+        let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
         let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
         for i in 0..ROWS {
-            from_sun.extend(directions(frame, middles, i).iter().map(|to| Angles::new(&frame.sun, to)));
+            let to = directions(frame, i);
+            from_sun.extend(to.iter().map(|to| Angles::new(&frame.sun, to)));
             let here = row(frame.depth, i);
             for j in 0..ROWS {
                 wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
                 for (col, other) in (0..COLS).flat_map(|col| (0..COLS).map(move |other| (col, other))) {
                     factors[(i * COLS + col) * COUNT + j * COLS + other] =
-                        PI * shifts[col.abs_diff(other)] / (here.end - here.start);
+                        (PI * shifts[col.abs_diff(other)] / (here.end - here.start)) as f32;
                 }
             }
-        }
-        let place = |depth: f64, n: usize| {
-            let along = ((n % COLS) as f64 + 0.5) / COLS as f64 - 0.5;
-            [middles[n / COLS] * depth, along * frame.width]
-        };
-        for i in 0..COUNT {
-            let from = place(frame.depth, i);
-            let eye = frame.to_eye(from);
-            let others = (0..COUNT).map(|j| frame.to_other(from, place(frame.other_depth, j)));
-            to_eye.extend(others.map(|light| Angles::new(&light, &eye)));
+            for col in 0..COLS {
+                let along = ((col as f64 + 0.5) / COLS as f64 - 0.5) * frame.width;
+                let eye = frame.to_eye([middles[i] * frame.depth, along]);
+                to_eye.extend((0..COUNT).map(|k| Angles::new(&to[direction(col, k)], &eye)));
+            }
         }
         Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
 
     /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
-    fn direct(&self, from_sun: &[f64]) -> Vec<f64> {
+    fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
         let patches = (0..COUNT).flat_map(|i| (0..COUNT).map(move |k| (i, k)));
-        patches.map(|(i, k)| PI * self.lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
+        let lit = (PI * self.lit) as f32;
+        patches.map(|(i, k)| lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
     }
 
     /// What this panel's patches send on of the light that the other's sent.
-    fn reflected(&self, light: &[f64], matrix: &[f64]) -> Vec<f64> {
+    fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
         let mut reflected = vec![0.0; COUNT * COUNT];
         for (i, to) in reflected.chunks_exact_mut(COUNT).enumerate() {
             let rows = matrix[i * COUNT * COUNT..].chunks_exact(COUNT);
@@ -191,17 +195,33 @@ fn direction(i: usize, k: usize) -> usize {
     k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
 }
 
-/// Directions from the patches of a row to those of the other panel.
-fn directions(frame: &Frame, middles: &[f64], row: usize) -> Vec<nalgebra::Vector3<f64>> {
-    let shift = |n: usize| (n as f64 + 1.0 - COLS as f64) / COLS as f64 * frame.width;
-    let ends = middles.iter().flat_map(|out| (0..SHIFTS).map(move |n| [out * frame.other_depth, shift(n)]));
-    ends.map(|end| frame.to_other([middles[row] * frame.depth, 0.0], end)).collect()
+/// Directions from the patches of a row to those of the other panel: means over the light between both, which lies between the directions of
+/// their middles only where they are far from each other.
+fn directions(frame: &Frame, row: usize) -> Vec<Vector3<f64>> {
+    let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
+    let unit = frame.width / COLS as f64;
+    let span = |depth: f64, n: usize| gauss.on(EDGES[n] * depth, EDGES[n + 1] * depth);
+    let mean = |other: usize, shift: f64| {
+        let mut sum = Vector3::zeros();
+        for (out, weight) in span(frame.depth, row) {
+            for (far, weight_far) in span(frame.other_depth, other) {
+                for (z, weight_along) in hat.nodes.iter().zip(&hat.weights) {
+                    let along = (shift + z) * unit;
+                    let way = Vector3::new(far * frame.cos - out, along, far * frame.sin);
+                    sum += way * (weight * weight_far * weight_along * out * far / way.norm().powi(5));
+                }
+            }
+        }
+        sum.normalize()
+    };
+    let ends = (0..ROWS).flat_map(|other| (0..SHIFTS).map(move |n| (other, n as f64 + 1.0 - COLS as f64)));
+    ends.map(|(other, shift)| mean(other, shift)).collect()
 }
 
 /// Angles between all directions of each row of patches, each pair once.
-fn pairs(frame: &Frame, middles: &[f64]) -> Vec<Vec<Angles>> {
+fn pairs(frame: &Frame) -> Vec<Vec<Angles>> {
     let row = |row: usize| {
-        let to = directions(frame, middles, row);
+        let to = directions(frame, row);
         let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
         pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
     };
