@@ -29,16 +29,18 @@
 //! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
-//! report               -> stream, score, plot, image, colorimetry, spectrum, files, markup
-//! cli                  -> stream, spectrum, progress, message
-//! stream               -> estimate, forward, kernel, response, solve, geometry, camera, spectrum, image, calibrate
+//! report               -> scene, stream, score, plot, image, colorimetry, spectrum, files, markup
+//! cli                  -> scene, stream, spectrum, progress, message
+//! scene                -> stream, estimate, forward, kernel, response, geometry, camera, colorimetry, spectrum, plot
+//! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files
-//! estimate             -> forward, solve
+//! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum
 //! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
 //! kernel               -> response, solve, geometry
 //! response             -> solve
 //! plot                 -> image, geometry, files, markup
 //! image                -> colorimetry, files
+//! score                -> colorimetry
 //! camera, colorimetry  -> spectrum
 //! spectrum             -> files, markup
 //! progress             -> message

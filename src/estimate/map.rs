@@ -1,7 +1,7 @@
 //! The default: the most probable spectrum, given the facets and what is known of reflectances.
 //!
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Newton's method finds the maximum in whitened z under each class that the facets may belong to ([`starts`](super::starts)), the
+//! Newton's method finds the maximum in whitened z under each class that the facets may belong to (`starts`), the
 //! evidence there chooses, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or facets
 //! are further from the model than their noise.
 

@@ -1,4 +1,4 @@
-//! Drawings for people: each a [`figure`](mod@figure) of its own file, SVG or PNG.
+//! Drawings for people: each a `figure` in a file of its own, SVG or PNG.
 //!
 //! [`sheets`] draws what is known of one sheet or of a few, [`batch`] how far off many are, [`surface`] what a kernel makes of its
 //! facets. They are made of [`spectra`], swatches and maps, in one font and in colours that all readers tell apart.

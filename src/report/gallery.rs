@@ -81,7 +81,7 @@ impl Gallery {
     /// What can be drawn of those that are shown.
     ///
     /// # Errors
-    /// As [`Sample::sheet`].
+    /// As [`crate::scene::sheet`].
     pub fn sheets(&self, view: &View) -> Result<Vec<Sheet>> {
         let sheets = self.in_order().map(|shown| shown.sheet(view));
         sheets.filter_map(Result::transpose).collect()

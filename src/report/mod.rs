@@ -1,7 +1,7 @@
 //! A report for people: one HTML file with all that a scored stream says, in drawings and words.
 //!
-//! [`Gallery`] keeps what is to be shown of a stream of any length, [`write`] makes the page of it: [`html`] holds the elements,
-//! [`page`] their look, [`batch`], [`sample`] and [`scene`] the sections. The file needs no other, no script and no network.
+//! [`Gallery`] keeps what is to be shown of a stream of any length, [`write()`] makes the page of it: `html` holds the elements,
+//! `page` their look, `batch`, `sample` and `scene` the sections. The file needs no other, no script and no network.
 
 mod batch;
 mod gallery;

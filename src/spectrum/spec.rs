@@ -83,8 +83,8 @@ impl Specs {
     /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in percent, in fractions.
     ///
     /// # Errors
-    /// Nothing of that name ([`Error::UnknownName`]), a file that cannot be read ([`Error::File`], [`Error::Table`]), or
-    /// values outside 0..1 ([`Error::Spectrum`]).
+    /// [`crate::Error::UnknownName`] if nothing has that name, [`crate::Error::File`] or [`crate::Error::Table`] for a file that cannot be
+    /// read, [`crate::Error::Spectrum`] for values outside 0..1.
     pub fn reflectances(self, spec: &str) -> Result<Vec<Spectrum>> {
         let spectra = self.find(What::Reflectances, spec)?;
         spectra.iter().try_for_each(check_reflectance)?;

@@ -83,7 +83,7 @@ impl Scene {
     /// Says how good the response is and which mesh gave it.
     ///
     /// # Errors
-    /// As [`Fields::set`].
+    /// As [`Fields::set`](super::Fields::set).
     pub fn set_accuracy(&mut self, mesh: &str, tolerance: f64, accuracy: &Accuracy) -> Result<()> {
         self.fields.set("accuracy", AccuracyRecord::new(mesh, tolerance, accuracy))
     }

@@ -63,7 +63,7 @@ impl Scene {
     /// Sets what looks at the fold and in which light.
     ///
     /// # Errors
-    /// As [`Fields::set`].
+    /// As [`Fields::set`](super::Fields::set).
     pub fn set_optics(&mut self, optics: &Optics) -> Result<()> {
         self.fields.set("wavelengths_nm", optics.grid.wavelengths_nm())?;
         self.fields.set("camera", &optics.camera)?;

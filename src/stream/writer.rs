@@ -40,7 +40,8 @@ impl Output {
     /// The file of an interrupted run, or a new one: records that it has are compared, others appended.
     ///
     /// # Errors
-    /// As [`Resumed::open`]: a folder, a file that is no stream, one that another run is writing.
+    /// [`Error::Usage`] for standard output, [`Error::File`] for a folder or a file that another run is writing, [`Error::Record`] if it is
+    /// not a stream.
     pub fn resume(path: &Path, saves: &[(String, PathBuf)]) -> Result<Self> {
         Ok(Self::into(Sink::Resumed(Resumed::open(path)?), saves))
     }

@@ -78,7 +78,7 @@ fn format(path: &Path) -> Result<Format> {
 /// Checks a file's ending before there is anything to write.
 ///
 /// # Errors
-/// [`Error::Usage`] as [`write`].
+/// [`Error::Usage`] as [`write()`].
 pub fn check_ending(path: &Path) -> Result<()> {
     format(path).map(drop)
 }
