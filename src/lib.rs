@@ -35,6 +35,7 @@
 //!                         estimate, forward, response -> solve
 //!                                     forward -> camera -> spectrum
 //!                                     forward -> image -> colorimetry, files
+//!                         transport -> sheet, kernel, geometry, image        sheet -> kernel
 //!               plot -> geometry, image, files
 //!               score, colorimetry -> spectrum -> files                 all -> error
 //! ```
