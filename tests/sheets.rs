@@ -95,7 +95,7 @@ impl Scene {
     }
 }
 
-/// Rows 1 to 9 within half a percent, the row at the crease within one.
+/// Rows 1 to 9 within half a percent, the row at the crease within one and a half.
 #[test]
 fn rendered_sheets_look_like_their_photographs() {
     let glossy = Family { gloss: 0.5, roughness: 0.4, ..Family::default() };
@@ -107,7 +107,7 @@ fn rendered_sheets_look_like_their_photographs() {
             for (channel, weights) in photograph.weights.iter().enumerate() {
                 let told: f64 = bands.iter().zip(weights).map(|(rows, weight)| rows[row] * weight).sum();
                 let off = told / seen[channel] - 1.0;
-                let bound = if row == 0 { 0.01 } else { 0.0055 };
+                let bound = if row == 0 { 0.015 } else { 0.0055 };
                 assert!(off.abs() < bound, "{family:?}: row {row}, channel {channel} is {off:+.4} off");
             }
         }
