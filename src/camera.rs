@@ -113,7 +113,7 @@ impl CameraResponse {
         self.weights.iter().map(|channel| channel.iter().sum()).collect()
     }
 
-    /// Channel values of a flat sheet of this reflectance, a number a waveband, facing the light.
+    /// Channel values of a flat sheet of this reflectance, one number per waveband, facing the light.
     #[must_use]
     pub fn of_flat(&self, reflectance: &[f64]) -> Vec<f64> {
         let value = |channel: &Vec<f64>| channel.iter().zip(reflectance).map(|(w, r)| w * r).sum();
@@ -144,7 +144,7 @@ impl CameraResponse {
         self.weights.iter().any(|channel| channel[band] != 0.0)
     }
 
-    /// Weights of one channel, a number a waveband.
+    /// Weights of one channel, one number per waveband.
     #[must_use]
     pub fn channel(&self, channel: usize) -> &[f64] {
         &self.weights[channel]

@@ -31,11 +31,14 @@
 //! ```text
 //! report               -> scene, stream, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message
-//! scene                -> stream, estimate, forward, kernel, response, geometry, camera, colorimetry, spectrum, plot
+//! scene                -> stream, estimate, forward, transport, sheet, kernel, response, solve, image
+//! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum
 //! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
+//! transport            -> sheet, kernel, geometry, image
+//! sheet                -> kernel
 //! kernel               -> response, solve, geometry
 //! response             -> solve
 //! plot                 -> image, geometry, files, markup

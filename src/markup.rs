@@ -1,6 +1,6 @@
 //! Text within XML and HTML.
 
-/// A text without the characters that no XML may hold: control characters and those that are none.
+/// A text without the characters that no XML may hold: control characters and what is not a character at all.
 ///
 /// # Example
 /// ```

@@ -36,7 +36,7 @@ impl fmt::Display for Steps {
     }
 }
 
-/// One flat patch a facet, solved ever more closely.
+/// One flat patch per facet, solved ever more closely.
 pub fn of_fold(angle_deg: f64) -> Vec<Steps> {
     FACETS.into_iter().flat_map(|n| of_facets(angle_deg, n)).collect()
 }

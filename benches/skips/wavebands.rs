@@ -158,7 +158,7 @@ fn unseen_bands(scene: &Scene) -> String {
 fn unseen_solutions(scene: &Scene) -> String {
     let all = scene.never_blind();
     let skip = Skip::new(
-        "unseen wavebands, a reflectance a facet",
+        "unseen wavebands, one reflectance per facet",
         format!("{} solutions", scene.sheet.len()),
         seen(scene),
     );

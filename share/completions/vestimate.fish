@@ -23,7 +23,7 @@ complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; rep
 complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r
 complete -c vestimate -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
 complete -c vestimate -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
-complete -c vestimate -l irradiance -d 'Direct light: a number a facet, or a row of them a source [default: 1 everywhere]' -r -F
+complete -c vestimate -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
 complete -c vestimate -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
 complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vestimate -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F

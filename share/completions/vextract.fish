@@ -1,4 +1,4 @@
-complete -c vextract -l files-from -d 'More photographs: a file with a name a line, - for standard input' -r -F
+complete -c vextract -l files-from -d 'More photographs: a file with one name per line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
 complete -c vextract -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph\'s EXIF]' -r
 complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside' -r

@@ -1,6 +1,6 @@
 complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)' -r
 complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
-complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a facet, no truth in the samples' -r -F
+complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per facet, no truth in the samples' -r -F
 complete -c vforward -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)' -r
 complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside' -r
 complete -c vforward -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
@@ -19,7 +19,7 @@ complete -c vforward -l up -d 'What points upwards in the photograph [default: t
 complete -c vforward -l field-of-view-deg -d 'Angle over the photograph\'s width [default: it is cut to what it shows]' -r
 complete -c vforward -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
 complete -c vforward -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
-complete -c vforward -l irradiance -d 'Direct light: a number a facet, or a row of them a source [default: 1 everywhere]' -r -F
+complete -c vforward -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
 complete -c vforward -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
 complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vforward -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F

@@ -14,7 +14,7 @@ pub struct KernelArgs {
     /// Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j
     #[arg(long, value_name = "K.npy")]
     pub kernel: Option<PathBuf>,
-    /// Direct light: a number a facet, or a row of them a source [default: 1 everywhere]
+    /// Direct light: one number per facet, or one row per source [default: 1 everywhere]
     #[arg(long, value_name = "E0.npy", requires = "kernel")]
     pub irradiance: Option<PathBuf>,
     /// Areas of the facets [default: those that reciprocity asks for]

@@ -180,6 +180,7 @@ impl Found {
             supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
         });
         Estimate {
+            total: None,
             reflectance: self.point[..bands].to_vec(),
             fitted: of_exposure.into_iter().chain(unknowns).collect(),
             spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),

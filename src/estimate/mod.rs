@@ -44,6 +44,8 @@ pub enum Exposure {
 pub struct Estimate {
     /// Reflectance in every waveband, in (0, 1].
     pub reflectance: Vec<f64>,
+    /// Albedo in every waveband, of a sheet that is not taken to be Lambertian: reflectance for light from everywhere to everywhere.
+    pub total: Option<Vec<f64>>,
     /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance of the reflectance.
     /// None from a method that has no model of its error.
     pub spread: Option<DMatrix<f64>>,

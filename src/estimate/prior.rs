@@ -81,7 +81,7 @@ impl Prior {
     }
 }
 
-/// Classes into which a set of spectra on `wavelengths_nm` falls, one a spectrum.
+/// Classes into which a set of spectra on `wavelengths_nm` falls, one per spectrum.
 #[must_use]
 pub fn classes_of(wavelengths_nm: &[f64], spectra: &[Vec<f64>]) -> Vec<usize> {
     divide(&logits_of(spectra), &matern(wavelengths_nm))

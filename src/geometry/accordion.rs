@@ -24,7 +24,7 @@ pub struct Accordion {
 
 impl Accordion {
     /// The surface. Panels are groups `panel 0`, … from left to right; facets go by panel, then by row from the valley outwards,
-    /// then by column along y. Valleys open towards z; a bent panel is a flat strip a row.
+    /// then by column along y. Valleys open towards z; a bent panel is one flat strip per row.
     ///
     /// # Errors
     /// No crease or too many, an angle out of its range, or too many facets.

@@ -115,7 +115,7 @@ pub struct Lagrange {
     scale: Vec<f64>,
 }
 
-/// A distance that is none, yet has a finite inverse.
+/// A distance as good as zero that still has a finite inverse.
 const NEGLIGIBLE: f64 = 1e-200;
 
 impl Lagrange {

@@ -23,7 +23,7 @@ impl Sheet {
         svg(&spectra(std::slice::from_ref(self)))
     }
 
-    /// Maps of the residuals as SVG; none if there are none.
+    /// Maps of the residuals as SVG; `None` without residuals.
     ///
     /// # Errors
     /// [`Error::Numeric`] if they cannot be drawn.

@@ -19,7 +19,7 @@ pub use drawn::sheet;
 pub use expected::ExpectedError;
 pub use fold::FoldSetting;
 pub use given_kernel::GivenKernel;
-pub use photograph::FoldLight;
+pub use photograph::PhotographedFold;
 pub use residuals::residuals;
 pub use surface::SurfaceSetting;
 

@@ -8,15 +8,15 @@ mod framing;
 mod sheets;
 
 use bins::Bins;
-pub use framing::Pose;
+use framing::Pose;
 use nalgebra::Vector3;
 use ndarray::Array2;
 
 use super::FoldSetting;
 use crate::error::{Error, Result};
+use crate::estimate::photograph::Told;
 use crate::estimate::photograph::model::nodes;
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
-use crate::estimate::photograph::Told;
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
 use crate::stream::Sample;
@@ -32,13 +32,13 @@ const SUN_HEIGHT: f64 = 0.67;
 /// What a sheet of which nothing is known reflects in its strongest channel.
 const REFLECTANCE: f64 = 0.5;
 
-/// The light of a fold on all of its facets, for what does not depend on the photograph.
-pub struct FoldLight<'a> {
+/// A fold of which photographs are taken.
+pub struct PhotographedFold<'a> {
     setting: &'a FoldSetting<'a>,
     nodes: Vec<f64>,
 }
 
-impl<'a> FoldLight<'a> {
+impl<'a> PhotographedFold<'a> {
     /// That of a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting<'a>) -> Self {

@@ -14,6 +14,10 @@ use crate::stream::{Colours, EstimateRecord, Sample, Scene};
 pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<Colours>> {
     let Some(estimate) = sample.estimate()? else { return Ok(None) };
     let fit: Vec<_> = estimate.fitted().map(|(unknown, _)| unknown).collect();
+    // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it says little.
+    if fit.iter().any(|unknown| unknown.is_of_photographs()) {
+        return Ok(None);
+    }
     let (model, measured) = (Setting::of(scene)?.model_to_fit(&fit)?, sample.facet_rgb()?);
     let sd = sample.noise_of(&estimate)?.deviations(model.facets(), &measured)?;
     let fitted = facets(&estimate, &at_fit(&estimate, &model))?;

@@ -3,7 +3,7 @@
 //! Fits of measured materials (A. Sztrajman et al., "Neural BRDF representation and importance sampling", Computer Graphics Forum 2021; the
 //! measurements: J. Dupuy, W. Jakob, SIGGRAPH Asia 2018, and J. Nielsen et al., SIGGRAPH Asia 2015), sampled by `share/make-shapes.py`.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use half::f16;
 
@@ -34,22 +34,27 @@ impl Place {
         let sines = ((1.0 - cos_in * cos_in) * (1.0 - cos_out * cos_out)).max(1e-24).sqrt();
         let cos_azimuth = ((cos_between - cos_in * cos_out) / sines).clamp(-1.0, 1.0);
         let [(light, a), (eye, b)] =
-            [cos_in, cos_out].map(|cos| cell(cos.acos().to_degrees() / STEEPEST_DEG, ANGLES));
-        let (azimuth, c) = cell(cos_azimuth.acos().to_degrees() / 180.0, AZIMUTHS);
+            [cos_in, cos_out].map(|cos| cell(cos.acos().to_degrees() / STEEPEST_DEG, &NODES.0));
+        let (azimuth, c) = cell(cos_azimuth.acos().to_degrees() / 180.0, &NODES.1);
         let first = PARTS * ((light * ANGLES + eye) * AZIMUTHS + azimuth);
         Self { first: first as u32, into: [a, b, c] }
     }
 }
 
-/// The cell, and how far into it, of a share of the range whose nodes are `1 − (1 − x)^1.5`, x even from 0 to 1.
-fn cell(share: f64, nodes: usize) -> (usize, f32) {
-    let x = 1.0 - (1.0 - share.min(1.0)).cbrt().powi(2);
-    let place = x * (nodes - 1) as f64;
-    let low = (place as usize).min(nodes - 2);
-    // between two nodes what is linear is the angle
-    let node = |k: usize| 1.0 - (1.0 - k as f64 / (nodes - 1) as f64).powf(1.5);
-    let into = (share.min(1.0) - node(low)) / (node(low + 1) - node(low));
-    (low, into as f32)
+/// Nodes of angles and azimuths as shares of their ranges: narrow towards grazing angles and the mirror's direction.
+static NODES: LazyLock<([f64; ANGLES], [f64; AZIMUTHS])> = LazyLock::new(|| (nodes(), nodes()));
+
+/// `1 − (1 − x)^1.5`, x even from 0 to 1.
+fn nodes<const N: usize>() -> [f64; N] {
+    std::array::from_fn(|k| 1.0 - (1.0 - k as f64 / (N - 1) as f64).powf(1.5))
+}
+
+/// The cell of a share of the range, and how far into it.
+fn cell(share: f64, nodes: &[f64]) -> (usize, f32) {
+    let share = share.min(1.0);
+    let x = 1.0 - (1.0 - share).cbrt().powi(2);
+    let low = ((x * (nodes.len() - 1) as f64) as usize).min(nodes.len() - 2);
+    (low, ((share - nodes[low]) / (nodes[low + 1] - nodes[low])) as f32)
 }
 
 /// Body and surface of one material.

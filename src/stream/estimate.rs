@@ -46,6 +46,11 @@ pub struct EstimateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
+    /// Albedo, one number per wavelength, of a photographed sheet that is not taken to be Lambertian: what it reflects of light from all
+    /// directions into all directions. The reflectance is that of an instrument that lights at 45° and looks from 0°.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub total_reflectance: Option<Vec<f64>>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
@@ -146,7 +151,11 @@ impl EstimateRecord {
                 "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
             )
         });
-        let untold = self.fit.iter().flat_map(Quantities::iter).filter(|(_, one)| !one.supported);
+        // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do not speak of it.
+        let is_real =
+            self.fit.iter().flat_map(Quantities::iter).any(|(unknown, _)| unknown.is_of_photographs());
+        let untold = self.fit.iter().flat_map(Quantities::iter);
+        let untold = untold.filter(|(_, one)| !is_real && !one.supported);
         let untold =
             untold.map(|(unknown, _)| format!("the facets do not tell {}; it is as expected", unknown.name));
         misfit.into_iter().chain(untold).collect()
@@ -163,6 +172,7 @@ impl Sample {
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
+        finite("estimate.total_reflectance", estimate.total.iter().flatten())?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
         finite("estimate.fit", estimate.fitted.iter().flat_map(|fitted| [&fitted.value, &fitted.sd]))?;
         let covariance = estimate.covariance().filter(|_| with_covariance);
@@ -181,6 +191,7 @@ impl Sample {
                 iterations: estimate.iterations,
                 termination: Some((&estimate.termination).into()),
                 reflectance_sd,
+                total_reflectance: estimate.total.clone(),
                 fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
                 covariance: covariance.map(rows),
                 noise: noise.map(NoiseRecord::of).transpose()?,

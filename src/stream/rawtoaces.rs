@@ -72,7 +72,7 @@ pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
 fn read(path: &str) -> Result<Table> {
     let SpectraFile { spectral_data: SpectralData { index, data } } = json_file::read(path, EXAMPLE)?;
     let refused = |problem: String| {
-        let remedy = "give every wavelength, in nm, a number a spectrum".to_owned();
+        let remedy = "give each wavelength, in nm, one number per spectrum".to_owned();
         Error::Spectrum { name: path.to_owned(), problem, remedy }
     };
     let count = index.main.len();

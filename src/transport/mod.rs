@@ -4,6 +4,7 @@
 //! reflected once is exact, and what is reflected twice is integrated over the directions at each [point](points); only what is reflected
 //! more often goes through flat [patches]. Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
 
+mod eye;
 mod frame;
 pub mod patches;
 pub mod points;
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::geometry::Fold;
 use crate::sheet::Shape;
+pub use eye::{Eye, eye_before};
 use frame::Frame;
 use patches::Patches;
 use points::Points;
@@ -29,7 +31,7 @@ use points::Points;
 /// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has radiance 1.
 ///
 /// # Source
-/// `real-sheets` prototypes of directed radiances; Deeb et al., eq. (4), without its Lambertian assumption.
+/// Deeb et al., eq. (4), without its Lambertian assumption.
 ///
 /// # Example
 /// ```

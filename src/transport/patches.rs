@@ -64,10 +64,13 @@ impl Patches {
         let middles: Vec<f64> = EDGES.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
         let columns: Vec<f64> = (0..COLS).map(|col| (col as f64 + 0.5) / COLS as f64).collect();
         let wedge = Wedge::new(fold);
+        let to = directions(&frames[0]);
+        let to_1 = (!fold.is_symmetric()).then(|| directions(&frames[1]));
+        let seen = [&to, to_1.as_ref().unwrap_or(&to)];
         Self {
-            panels: frames.each_ref().map(|frame| Panel::new(frame, &wedge, &middles)),
-            between: pairs(&frames[0]),
-            between_1: (!fold.is_symmetric()).then(|| pairs(&frames[1])),
+            panels: [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p])),
+            between: pairs(&to),
+            between_1: to_1.as_ref().map(|to| pairs(to)),
             pooling: Pooling::straight(fold, &middles, &columns),
         }
     }
@@ -143,14 +146,13 @@ fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {
 }
 
 impl Panel {
-    fn new(frame: &Frame, wedge: &Wedge, middles: &[f64]) -> Self {
+    fn new(frame: &Frame, wedge: &Wedge, middles: &[f64], to: &[Vec<Vector3<f64>>]) -> Self {
         // the kernel wants lengths in widths of a patch
         let unit = frame.width / COLS as f64;
         let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
         let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
         let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
-        for i in 0..ROWS {
-            let to = directions(frame, i);
+        for (i, to) in to.iter().enumerate() {
             from_sun.extend(to.iter().map(|to| Angles::new(&frame.sun, to)));
             let here = row(frame.depth, i);
             for j in 0..ROWS {
@@ -195,37 +197,39 @@ fn direction(i: usize, k: usize) -> usize {
     k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
 }
 
-/// Directions from the patches of a row to those of the other panel: means over the light between both, which lies between the directions of
-/// their middles only where they are far from each other.
-fn directions(frame: &Frame, row: usize) -> Vec<Vector3<f64>> {
+/// Directions from the patches of each row to those of the other panel: means over the light between both, which lies between the
+/// directions of their middles only where they are far from each other.
+fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
     let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
     let unit = frame.width / COLS as f64;
     let span = |depth: f64, n: usize| gauss.on(EDGES[n] * depth, EDGES[n + 1] * depth);
-    let mean = |other: usize, shift: f64| {
+    let mean = |row: usize, other: usize, shift: f64| {
         let mut sum = Vector3::zeros();
         for (out, weight) in span(frame.depth, row) {
             for (far, weight_far) in span(frame.other_depth, other) {
                 for (z, weight_along) in hat.nodes.iter().zip(&hat.weights) {
                     let along = (shift + z) * unit;
                     let way = Vector3::new(far * frame.cos - out, along, far * frame.sin);
-                    sum += way * (weight * weight_far * weight_along * out * far / way.norm().powi(5));
+                    let square = way.norm_squared();
+                    sum += way
+                        * (weight * weight_far * weight_along * out * far
+                            / (square * square * square.sqrt()));
                 }
             }
         }
         sum.normalize()
     };
     let ends = (0..ROWS).flat_map(|other| (0..SHIFTS).map(move |n| (other, n as f64 + 1.0 - COLS as f64)));
-    ends.map(|(other, shift)| mean(other, shift)).collect()
+    (0..ROWS).map(|row| ends.clone().map(|(other, shift)| mean(row, other, shift)).collect()).collect()
 }
 
 /// Angles between all directions of each row of patches, each pair once.
-fn pairs(frame: &Frame) -> Vec<Vec<Angles>> {
-    let row = |row: usize| {
-        let to = directions(frame, row);
+fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Vec<Angles>> {
+    let row = |to: &Vec<Vector3<f64>>| {
         let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
         pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
     };
-    (0..ROWS).map(row).collect()
+    to.iter().map(row).collect()
 }
 
 /// For each patch a matrix: from each patch of the other panel towards each.

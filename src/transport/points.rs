@@ -1,8 +1,8 @@
 //! Light that is reflected once or twice, at points of both panels.
 //!
-//! Seen from a point, the direction `(ψ, t)`, ψ in the plane across the crease from the perpendicular to the other panel and t
-//! towards the crease's end, has `dω = cos t dψ dt` and `cosθ = cos t cos(ψ − θ)`. The sun is far: what comes from there depends on the
-//! direction alone, so that Gauss rules in ψ and t converge fast wherever the point is, at the crease too.
+//! Seen from a point, a direction is the angle ψ in the plane across the crease, from the perpendicular to the other panel, and the sine v of
+//! the angle out of that plane: `dω = dψ dv`, and the cosine of incidence is `√(1 − v²) cos(ψ − θ)` in a fold opened by θ. The sun is far: what
+//! comes along a direction depends on that alone, so that Gauss rules in ψ and v converge fast wherever the point is, at the crease too.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -19,8 +19,8 @@ use crate::sheet::{Angles, Shape};
 const OUT: usize = 8;
 const ALONG: usize = 6;
 /// Directions at each point: across the crease and along it.
-const ACROSS: usize = 10;
-const SIDEWAYS: usize = 8;
+const ACROSS: usize = 8;
+const SIDEWAYS: usize = 10;
 
 /// The points of both panels, with all directions of light to the eye by one or two reflections.
 pub struct Points {
@@ -119,16 +119,16 @@ fn ways(
     let mut ways = Vec::with_capacity(ACROSS * SIDEWAYS);
     for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
         let away = out * sin / psi.cos();
-        let [low, high] = [-0.5, 0.5].map(|end| ((end * here.width - along) / away).atan());
-        for (t, weight) in sideways.on(low, high) {
-            let (side, flat) = t.sin_cos();
+        let [low, high] = [-0.5, 0.5].map(|end| end * here.width - along).map(|end| end / end.hypot(away));
+        for (side, weight) in sideways.on(low, high) {
+            let flat = (1.0 - side * side).sqrt();
             let (slope, cosine) = (psi - opening).sin_cos();
             let from = Vector3::new(flat * slope, side, flat * cosine);
             let back = Vector3::new(-flat * psi.sin(), -side, flat * psi.cos());
             ways.push(Way {
                 at_other: Angles::new(other_sun, &back),
                 at_point: Angles::new(&from, to_eye),
-                weight: weight_across * weight * flat * flat * cosine,
+                weight: weight_across * weight * flat * cosine,
             });
         }
     }

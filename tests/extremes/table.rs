@@ -17,7 +17,7 @@ What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D
 `cargo test --test extremes` holds, then what was measured:
 
 - facets without noise, off by so much of the brightest. The sheet reflects 0.9, the row's reflectance, or is `cc24:red` (lights and
-  cameras). One flat patch a facet, solved to 1e-9, beside NumPy's form factors (Sparrow's double integral) and conjugate gradients;
+  cameras). One flat patch per facet, solved to 1e-9, beside NumPy's form factors (Sparrow's double integral) and conjugate gradients;
   \"undivided\" is `--mesh auto` beside the limit of NumPy's patches, that of panels 1000 times as wide as deep along a crease without end;
 - RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, of `cc24:red` or the row's reflectance;
 - root mean square of its errors in units of their standard deviations;

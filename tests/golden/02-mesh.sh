@@ -1,4 +1,4 @@
-# Facets are where colour is measured, the mesh is where the bounces are solved: one flat patch a facet (the paper's
+# Facets are where colour is measured, the mesh is where the bounces are solved: one flat patch per facet (the paper's
 # model) is 4 % off next to the crease of a light grey sheet, patches a tenth as large 0.1 %. Percent, row by row:
 for mesh in facets 40x40 auto; do
     vkernel --angle-deg 45 --facets 4x4 --mesh $mesh --tolerance 1e-7 |

@@ -18,7 +18,7 @@ import json
 import numpy as np
 whole, part = (json.load(open(name))["facet_rgb"] for name in ("whole.json", "part.json"))
 for panel in (0, 1):
-    print(f"panel {panel}, a line a row from the crease, a letter a facet from end 0")
+    print(f"panel {panel}, one line per row from the crease, one letter per facet from end 0")
     for row in range(5):
         facets = [25 * panel + 5 * row + col for col in range(5)]
         print("".join("-" if part[k] is None else "=" if np.allclose(part[k], whole[k], rtol=2e-3) else "?" for k in facets))

@@ -1,5 +1,5 @@
 # A kernel made with NumPy, of facets of several sizes that see each other in no particular way, under two lights: facets as NumPy's
-# dense solution of eq. (15) has them, with one reflectance and with one a facet; then a sheet estimated from samples alone.
+# dense solution of eq. (15) has them, with one reflectance and with one per facet; then a sheet estimated from samples alone.
 python3 - <<'END'
 import numpy as np
 area = np.linspace(0.5, 2, 12)

@@ -1,6 +1,6 @@
 # tolerance 1e-5 1e-7
 # Three squares that meet in a corner, under two suns of unlike spectra: each facet as NumPy has it by the dense solution of eq. (15), of
-# one reflectance, beside a known material, and with a reflectance a facet. Then spectra from such facets, with noise.
+# one reflectance, beside a known material, and with one reflectance per facet. Then spectra from such facets, with noise.
 python3 - <<'END'
 import itertools
 axes = [(1, 2), (2, 0), (0, 1)]

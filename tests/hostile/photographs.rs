@@ -146,8 +146,8 @@ fn lists_of_photographs() {
 END
         "#,
         &[
-            case("sh extract empty.txt", 2, &["--files-from", "empty.txt", "a name a line"]),
-            case("sh extract - < empty.txt", 2, &["--files-from", "a name a line"]),
+            case("sh extract empty.txt", 2, &["--files-from", "empty.txt", "one name per line"]),
+            case("sh extract - < empty.txt", 2, &["--files-from", "one name per line"]),
             case("sh extract missing.txt", 1, &["missing.txt", "No such file"]),
             case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
             case("sh extract .", 1, &["directory"]),

@@ -44,7 +44,7 @@ fn matrix(fold: &Fold) -> DMatrix<f64> {
     DMatrix::from_row_slice(facets, facets, &rows)
 }
 
-/// Poles and residues of the fold with one flat patch a facet.
+/// Poles and residues of the fold with one flat patch per facet.
 fn response(fold: &Fold) -> Response {
     respond(fold, Mesh::Facets, 1e-12).unwrap().0
 }
@@ -227,7 +227,7 @@ proptest! {
         }
     }
 
-    /// Eq. (24) with a reflectance a facet, black and white ones among them, in the light of sun and sky.
+    /// Eq. (24) with one reflectance per facet, black and white ones among them, in the light of sun and sky.
     #[test]
     fn facets_of_any_reflectance_solve_the_dense_system(
         fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0,

@@ -3,6 +3,7 @@
 // a test stops at the first surprise, and prints what it measured
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod bent;
 mod calibration;
 mod colorimetry;
 #[path = "../common/mod.rs"]
@@ -18,4 +19,5 @@ mod published;
 mod reference_form_factors;
 mod sensor;
 mod shapes;
+mod sheets;
 mod surfaces;

@@ -1,6 +1,6 @@
 //! Surfaces whose facets hide each other, against irradiances found by random walks, closed forms, and the fold's own formulas.
 //!
-//! `tests/data/shapes` has the surfaces with what random walks, two million a facet, found on them.
+//! `tests/data/shapes` has the surfaces with what random walks, two million per facet, found on them.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -217,7 +217,7 @@ fn irradiances_are_those_of_the_random_walks() {
                     rms_relative(&found, &want)
                 });
                 println!(
-                    "{name} light {towards:.2?} r = {r}: off by {:.3} % rms, one patch a facet {:.2} %",
+                    "{name} light {towards:.2?} r = {r}: off by {:.3} % rms, one patch per facet {:.2} %",
                     100.0 * rms,
                     100.0 * rms_flat
                 );

@@ -37,7 +37,7 @@ impl Surface {
         SurfaceResponse::solve(&self.exchange(), light.as_slice(), 1e-13).unwrap().0
     }
 
-    /// Irradiance by solving eq. (15) as it stands, with a reflectance a patch.
+    /// Irradiance by solving eq. (15) as it stands, with one reflectance per patch.
     fn dense(&self, light: &DVector<f64>, reflectance: &DVector<f64>) -> DVector<f64> {
         let count = self.areas.len();
         let system = DMatrix::identity(count, count) - &self.kernel * DMatrix::from_diagonal(reflectance);
@@ -150,7 +150,7 @@ proptest! {
         prop_assert!((ours - &dense).amax() < 1e-10 * dense.amax().max(1e-6));
     }
 
-    /// A reflectance a facet.
+    /// One reflectance per facet.
     #[test]
     fn facets_of_many_reflectances_obey_eq_24(
         surface in surfaces(),

@@ -7,9 +7,9 @@ use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, SceneModel, Unknown};
+use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SceneModel, Unknown};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, photograph, smooth};
-use vfold::scene::{FoldLight, FoldSetting, Setting};
+use vfold::scene::{FoldSetting, PhotographedFold, Setting};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
@@ -74,7 +74,13 @@ fn check_fit(args: &Args) -> Result<()> {
         let problem = "exposure is given by --exposure already";
         return Err(Error::usage("--fit", problem, "leave one of them out"));
     }
-    if args.fit.iter().any(|flag| *flag != EXPOSURE.flag) && !args.has_prior() {
+    if let Some(alone) = args.fit.iter().find(|flag| [&AUTO, &NONE].contains(flag))
+        && args.fit.len() > 1
+    {
+        let problem = format!("{} stands alone", alone.value);
+        return Err(Error::usage("--fit", problem, "leave it or the others out"));
+    }
+    if args.fit.iter().any(|flag| ![EXPOSURE.flag, &NONE].contains(flag)) && !args.has_prior() {
         let problem = format!("nothing but exposure is fitted with --prior {}", args.prior());
         return Err(Error::usage("--fit", problem, "leave --prior out or give spectra"));
     }
@@ -199,7 +205,11 @@ impl<'a> Estimator<'a> {
     /// # Errors
     /// Flags that contradict each other, or a prior that cannot be read.
     pub fn new(args: &'a Args) -> Result<Self> {
-        Ok(Self { args, method: method(args)?, fit: unknowns::of_flags(&args.fit) })
+        Ok(Self {
+            args,
+            method: method(args)?,
+            fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
+        })
     }
 
     /// The flags behind it.
@@ -251,10 +261,8 @@ impl<'a> Estimator<'a> {
         }
         let Some(record) = &context.record else { return Ok(None) };
         let setting = FoldSetting::of(record)?;
-        let Some(parts) = FoldLight::of(&setting).parts(sample, known)? else { return Ok(None) };
-        dump(&sample.id(), &parts);
-        let (estimate, _albedo) = photograph::estimate(&parts, prior, MODEL_ERROR)?;
-        Ok(Some(estimate))
+        let Some(parts) = PhotographedFold::of(&setting).parts(sample, known)? else { return Ok(None) };
+        photograph::estimate(&parts, prior, MODEL_ERROR).map(Some)
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
@@ -317,25 +325,4 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
 /// The same standard deviation for every facet, white being 1.
 fn alike(rgb: &Colours) -> Colours {
     rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect()
-}
-
-fn dump(id: &str, parts: &vfold::estimate::photograph::Parts) {
-    let Ok(folder) = std::env::var("DUMP") else { return };
-    let m = |m: &nalgebra::DMatrix<f64>| serde_json::json!(m.row_iter().map(|r| r.iter().copied().collect::<Vec<f64>>()).collect::<Vec<_>>());
-    let v = |v: &nalgebra::DVector<f64>| serde_json::json!(v.as_slice());
-    let ch = |c: &vfold::estimate::photograph::parts::Change| serde_json::json!([c.sizes, [m(&c.radiance[0]), m(&c.radiance[1])]]);
-    let dep = |d: &Vec<vfold::estimate::photograph::sheets::Departure>| serde_json::json!(d.iter().map(|d| serde_json::json!([m(&d.radiance), d.reflectance])).collect::<Vec<_>>());
-    let t = &parts.told;
-    let json = serde_json::json!({
-        "told": {"exposure": t.exposure, "guess": t.exposure_guess, "by_chart": t.by_chart, "angle_deg": t.angle_deg, "tilt_deg": t.tilt_deg, "mired": t.daylight_mired, "outdoors": t.is_outdoors},
-        "places": parts.places.iter().map(|p| [p.panel as f64, p.depth, p.along, p.off_centre]).collect::<Vec<_>>(),
-        "values": m(&parts.values), "sd": m(&parts.sd),
-        "even": m(&parts.sun.even), "odd": m(&parts.sun.odd), "angle": ch(&parts.sun.angle_deg), "crease": ch(&parts.sun.crease_radius),
-        "bow": ch(&parts.sun.bow_deg), "bowd": ch(&parts.sun.bow_difference_deg),
-        "sky": m(&parts.sky.radiance), "sky_open": parts.sky.open, "ground": m(&parts.ground.radiance), "ground_open": parts.ground.open, "height": parts.sun_height,
-        "families": dep(&parts.sheets.families), "measured": dep(&parts.sheets.measured),
-        "wl": parts.eye.wavelengths_nm, "sens": m(&parts.eye.sensitivities), "sun": v(&parts.eye.sun), "skyp": v(&parts.eye.sky), "daylight": m(&parts.eye.daylight), "reference": parts.eye.reference,
-        "errors": parts.eye.errors.iter().map(|(c, e)| serde_json::json!([c, v(e)])).collect::<Vec<_>>(),
-    });
-    let _ = std::fs::write(format!("{folder}/{id}.json"), json.to_string());
 }

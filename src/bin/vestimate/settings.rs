@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vfold::estimate::Exposure;
-use vfold::estimate::unknowns::{self, Flag};
+use vfold::estimate::unknowns::{self, Flag, NONE};
 
 /// The prior whose classes are known, and the default.
 pub const MUNSELL: &str = "munsell";
@@ -24,9 +24,10 @@ pub enum Smoothness {
 
 /// Parses what `--fit` takes.
 pub fn fit() -> impl TypedValueParser<Value = &'static Flag> {
-    let values = unknowns::flags().map(|flag| PossibleValue::new(flag.value).help(flag.help));
-    PossibleValuesParser::new(values).try_map(|value| {
-        unknowns::flags().find(|flag| flag.value == value).ok_or_else(|| format!("{value} is not fitted"))
+    let flags = || unknowns::flags().chain([&NONE]);
+    let values = flags().map(|flag| PossibleValue::new(flag.value).help(flag.help));
+    PossibleValuesParser::new(values).try_map(move |value| {
+        flags().find(|flag| flag.value == value).ok_or_else(|| format!("{value} is not fitted"))
     })
 }
 

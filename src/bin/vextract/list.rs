@@ -11,7 +11,7 @@ use super::Args;
 /// Those of the command line, then those of the list.
 ///
 /// # Errors
-/// [`Error::Usage`] if there are none, or list and scene both come from standard input; [`Error::File`] if the list cannot be
+/// [`Error::Usage`] if no pictures are named, or list and scene both come from standard input; [`Error::File`] if the list cannot be
 /// read.
 pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     let mut images = args.images.clone();
@@ -23,7 +23,7 @@ pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
         images.extend(names(list).map_err(|e| Error::file(list.display(), e))?);
         if images.is_empty() {
             let problem = format!("{} names no photograph", list.display());
-            return Err(Error::usage("--files-from", problem, "write a name a line"));
+            return Err(Error::usage("--files-from", problem, "write one name per line"));
         }
     }
     Ok(images)

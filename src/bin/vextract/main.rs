@@ -69,7 +69,7 @@ struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG; RAW if built with the feature raw
     #[arg(value_name = "IMAGE", required_unless_present_any = ["generate", "list", "files_from"])]
     images: Vec<PathBuf>,
-    /// More photographs: a file with a name a line, - for standard input
+    /// More photographs: a file with one name per line, - for standard input
     #[arg(long, value_name = "FILE")]
     files_from: Option<PathBuf>,
     /// Scene from vkernel [default: standard input]

@@ -40,7 +40,7 @@ struct Args {
     /// Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet
     #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
     panel_reflectance: Vec<(usize, String)>,
-    /// Reflectance of every facet, one sample a file: facets (panel, row, column) x wavebands, float64; one flat patch a
+    /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per
     /// facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render"])]

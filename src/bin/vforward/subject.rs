@@ -16,7 +16,7 @@ pub enum Subject {
         sheets: Vec<Sheet>,
         card: Option<ReferencePanel>,
     },
-    /// Files with a reflectance a facet.
+    /// Files with one reflectance per facet.
     Facets(Vec<PathBuf>),
 }
 

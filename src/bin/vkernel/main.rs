@@ -62,7 +62,7 @@ struct Args {
     /// status 1 if one is broken
     #[arg(long)]
     check: bool,
-    /// Where the bounces are solved: as fine as needed, one flat patch a facet (the paper's model), given patches, or on a shape so many
+    /// Where the bounces are solved: as fine as needed, one flat patch per facet (the paper's model), given patches, or on a shape so many
     /// cells along each side of a facet [default: auto; facets unless --method is exact]
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,

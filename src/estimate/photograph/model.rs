@@ -174,12 +174,15 @@ impl<'a> PhotographModel<'a> {
     /// that channel and for a reflectance of the ground of 1.
     fn powers(&self, conditions: &Conditions) -> [DVector<f64>; 3] {
         let eye = &self.parts.eye;
-        let sun = conditions.sun_mired.map_or_else(|| eye.sun.clone(), |mired| daylight(&eye.daylight, mired));
-        let sky = conditions.sky_mired.map_or_else(|| eye.sky.clone(), |mired| daylight(&eye.daylight, mired));
+        let sun =
+            conditions.sun_mired.map_or_else(|| eye.sun.clone(), |mired| daylight(&eye.daylight, mired));
+        let sky =
+            conditions.sky_mired.map_or_else(|| eye.sky.clone(), |mired| daylight(&eye.daylight, mired));
         let white = |power: &DVector<f64>| eye.sensitivities.row(eye.reference).transpose().dot(power);
         let (sun, sky) = (&sun / white(&sun), &sky / white(&sky));
         let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
-        let ground = DVector::from_iterator(sun.len(), eye.wavelengths_nm.iter().map(redness)).component_mul(&sun);
+        let ground =
+            DVector::from_iterator(sun.len(), eye.wavelengths_nm.iter().map(redness)).component_mul(&sun);
         [sun, sky, ground]
     }
 
@@ -195,7 +198,8 @@ impl<'a> PhotographModel<'a> {
         let (eye, [sky_amount, ground_amount]) = (&self.parts.eye, self.ambient(conditions));
         let said = &eye.sensitivities * &eye.sun;
         let said = &said / said[eye.reference];
-        let light = sun + sky_amount * self.parts.sky.open * sky + ground_amount * self.parts.ground.open * ground;
+        let light =
+            sun + sky_amount * self.parts.sky.open * sky + ground_amount * self.parts.ground.open * ground;
         (&eye.sensitivities * light).component_div(&said)
     }
 
@@ -216,7 +220,9 @@ impl<'a> PhotographModel<'a> {
             }
         }
         let weighted = |power: &DVector<f64>| {
-            DMatrix::from_fn(sensitivities.nrows(), sensitivities.ncols(), |c, band| sensitivities[(c, band)] * power[band])
+            DMatrix::from_fn(sensitivities.nrows(), sensitivities.ncols(), |c, band| {
+                sensitivities[(c, band)] * power[band]
+            })
         };
         let [sun, sky, ground] = self.powers(&conditions);
         let amounts = self.ambient(&conditions);
@@ -287,7 +293,8 @@ fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
                 1 => (x, 2.0),
                 _ => (
                     2.0 * x * values[(n - 1, column)] - values[(n - 2, column)],
-                    4.0 * values[(n - 1, column)] + 2.0 * x * slopes[(n - 1, column)] - slopes[(n - 2, column)],
+                    4.0 * values[(n - 1, column)] + 2.0 * x * slopes[(n - 1, column)]
+                        - slopes[(n - 2, column)],
                 ),
             };
             values[(n, column)] = value;

@@ -49,11 +49,11 @@ struct Maximum {
     termination: Termination,
 }
 
-/// The estimate from a photograph, and the albedo of the sheet.
+/// The estimate from a photograph.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<(Estimate, Vec<f64>)> {
+pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
     let kinds = kinds(parts);
@@ -119,13 +119,11 @@ fn linear<'a>(
     let by_logit = by_coordinate * coordinates_of;
     let rest = solution.at.jacobian.columns(scene, others);
     let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
-    let jacobian = DMatrix::from_fn(by_logit.nrows(), own.basis().ncols() + others, |_, _| 0.0);
-    let mut jacobian = jacobian;
+    let mut jacobian = DMatrix::zeros(by_logit.nrows(), own.basis().ncols() + others);
     jacobian.columns_mut(0, own.basis().ncols()).gemm(1.0, &by_logit, own.basis(), 0.0);
     jacobian.columns_mut(own.basis().ncols(), others).copy_from(&rest);
-    let residuals = &solution.at.residuals
-        + &by_logit * (&logit - own.mean())
-        + rest * solution.w.rows(scene, others);
+    let residuals =
+        &solution.at.residuals + &by_logit * (&logit - own.mean()) + rest * solution.w.rows(scene, others);
     let mut information = jacobian.tr_mul(&jacobian);
     (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
     let factor = Cholesky::new(information)?;
@@ -193,13 +191,14 @@ fn reflectance(point: &Point) -> DVector<f64> {
     DVector::from_iterator(point.albedo.len(), point.albedo.iter().map(of))
 }
 
-/// The mean of all maxima by their evidence, what they do not agree on as an error; and the albedo.
-fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<(Estimate, Vec<f64>)> {
+/// The mean of all maxima by their evidence, what they do not agree on as an error.
+fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<Estimate> {
     let most = maxima.first()?.ln_evidence;
     let odds: Vec<f64> = maxima.iter().map(|one| (one.ln_evidence - most).exp()).collect();
     let total: f64 = odds.iter().sum();
     let shares = || odds.iter().map(|odds| odds / total);
-    let reflectance: DVector<f64> = maxima.iter().zip(shares()).map(|(one, share)| share * &one.reflectance).sum();
+    let reflectance: DVector<f64> =
+        maxima.iter().zip(shares()).map(|(one, share)| share * &one.reflectance).sum();
     let bands = reflectance.len();
     let mut albedo = vec![0.0; bands];
     let mut rows = Vec::new();
@@ -209,7 +208,8 @@ fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<(Estimate, V
         rows.push(share.sqrt() * (&one.reflectance - &reflectance).transpose());
     }
     let best = maxima.into_iter().next()?;
-    let estimate = Estimate {
+    Some(Estimate {
+        total: Some(albedo),
         reflectance: reflectance.iter().copied().collect(),
         spread: Some(DMatrix::from_rows(&rows)),
         exposure: best.point.exposure,
@@ -219,6 +219,5 @@ fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<(Estimate, V
         iterations: trace.iter().map(|run| run.len() as u32).sum(),
         trace,
         termination: best.termination,
-    };
-    Some((estimate, albedo))
+    })
 }

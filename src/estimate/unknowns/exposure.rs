@@ -14,12 +14,14 @@ pub static EXPOSURE: Unknown = Unknown {
     photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.exposure = value }),
 };
 
-/// A chart or a card is uneven, not quite where the sheet is, nor turned as it was said to be: standard deviation of the logarithm of an
-/// exposure that is known, and of one that is not.
-const KNOWN_SD: f64 = 0.04;
+/// Standard deviations of the logarithm of an exposure: one that was given; one by a chart or a card, which is uneven, not quite where
+/// the sheet is, nor turned as it was said to be; and one that is not known.
+const GIVEN_SD: f64 = 0.02;
+const CHART_SD: f64 = 0.04;
 const FREE_SD: f64 = 1.0;
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd: KNOWN_SD });
+    let sd = if told.by_chart { CHART_SD } else { GIVEN_SD };
+    let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd });
     Some(known.unwrap_or(Normal { mean: told.exposure_guess.ln(), sd: FREE_SD }))
 }

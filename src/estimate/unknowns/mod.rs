@@ -84,6 +84,9 @@ pub static TABLE: &[&Unknown] = &[
 pub static AUTO: Flag =
     Flag { value: "auto", help: "All that sets a real sheet apart from an ideal one, bounded by priors" };
 
+/// What asks that the scene is believed as it is told.
+pub static NONE: Flag = Flag { value: "none", help: "Nothing: the scene is believed as it is told" };
+
 /// A number of the scene that can be fitted.
 pub struct Unknown {
     /// Name of the field in records, unit included.
@@ -205,6 +208,17 @@ pub fn flags() -> impl Iterator<Item = &'static Flag> {
 #[must_use]
 pub fn of_flags(asked: &[&Flag]) -> Vec<&'static Unknown> {
     TABLE.iter().copied().filter(|unknown| asked.contains(&unknown.flag)).collect()
+}
+
+impl Unknown {
+    /// Whether it is one of photographs of real sheets alone.
+    #[must_use]
+    pub fn is_of_photographs(&self) -> bool {
+        match self.role {
+            Role::Photograph => true,
+            Role::Exposure | Role::Sources { .. } => false,
+        }
+    }
 }
 
 /// Names tell unknowns apart.

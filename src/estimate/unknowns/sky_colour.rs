@@ -14,7 +14,10 @@ pub static SKY_COLOUR: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
-    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.sky_mired = Some(1e6 / value) }),
+    photograph: Some(Effect {
+        prior: of_photograph,
+        set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
+    }),
 };
 
 /// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three between 7700 K and

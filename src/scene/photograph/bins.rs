@@ -30,7 +30,8 @@ impl Bins {
         for (facet, values) in rgb.iter().enumerate() {
             if values.as_ref().is_some_and(|values| values.iter().all(|value| *value > 0.0)) {
                 let (panel, place) = (facet / grid.len(), facet % grid.len());
-                let (row, column) = (place / grid.cols * rows / grid.rows, place % grid.cols * columns / grid.cols);
+                let (row, column) =
+                    (place / grid.cols * rows / grid.rows, place % grid.cols * columns / grid.cols);
                 members[(panel * rows + row) * columns + column].push(facet);
             }
         }

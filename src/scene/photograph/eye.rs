@@ -69,6 +69,7 @@ pub fn daylight_mired(eye: &Eye) -> Option<f64> {
         ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
     };
     // 4500 K to 8000 K: what people call daylight, in steps of 1e-6/K
-    let best = (125..=222).map(f64::from).map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let best =
+        (125..=222).map(f64::from).map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
     (best.0 < DAYLIGHT).then_some(best.1)
 }

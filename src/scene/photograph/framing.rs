@@ -4,12 +4,13 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::error::Result;
 use crate::geometry::Fold;
-use crate::image::{Homography, Point, camera_position};
+use crate::image::{Homography, Point};
 use crate::stream::Sample;
+use crate::transport::eye_before;
 
 /// A camera before a fold, as the corners of the panels tell it.
 pub struct Pose {
-    /// Place of the camera in the fold's coordinates (across, along the crease, out of the opening), in depths of the panels.
+    /// Place of the camera in the fold's coordinates (across, along the crease, out of the opening), in the fold's unit.
     pub eye: Vector3<f64>,
     /// The direction of space, square to the view, that goes up in the picture.
     up: Vector3<f64>,
@@ -22,45 +23,20 @@ impl Pose {
     /// That of a photograph's sample; none if it has no corners, or they do not tell it.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the corners are no panels.
+    /// [`crate::Error::Field`] if the corners are not those of panels.
     pub fn of(sample: &Sample, fold: &Fold) -> Result<Option<Self>> {
         let Some(framing) = sample.framing()? else { return Ok(None) };
         let [Some(panel0), Some(panel1)] = framing.panels else { return Ok(None) };
-        let outline = |corners: [[f64; 2]; 4]| Homography::from_unit_square(corners.map(|[x, y]| Point::new(x, y)));
-        let outlines = [outline(panel0)?, outline(panel1)?];
-        let half = fold.angle_rad() / 2.0;
-        let width = fold.width() / fold.depths()[0];
-        // Seen in a mirror the other end of the crease comes first; the fold is the same.
-        let corners = |way: f64| {
-            let end = |side: f64| Vector3::new(0.0, 0.5 * way * side * width, 0.0);
-            let outer = |x: f64, side: f64| end(side) + Vector3::new(x * half.sin(), 0.0, half.cos());
-            let px = |panel: usize, n: usize| outlines[panel].corners()[n];
-            vec![
-                (end(-1.0), px(0, 0)),
-                (end(1.0), px(0, 1)),
-                (outer(-1.0, 1.0), px(0, 2)),
-                (outer(-1.0, -1.0), px(0, 3)),
-                (outer(1.0, 1.0), px(1, 2)),
-                (outer(1.0, -1.0), px(1, 3)),
-            ]
-        };
-        let seen = [1.0, -1.0].into_iter().map(|way| (way, corners(way)));
-        let Some((way, seen, mut eye)) =
-            seen.filter_map(|(way, seen)| Some((way, camera_position(&seen)?, seen))).map(|(w, e, s)| (w, s, e)).next()
-        else {
-            return Ok(None);
-        };
-        let mut up = upwards(&seen, eye);
-        // Facets count from end 0: in the mirror the camera and what is up are on the other side.
-        eye.y *= way;
-        up.y *= way;
-        let [width_px, height_px] = framing.size.map(|size| size as f64);
+        let panels = [panel0, panel1].map(|corners| corners.map(|[x, y]| Point::new(x, y)));
+        let Some(eye) = eye_before(fold, &panels) else { return Ok(None) };
+        let outlines = [Homography::from_unit_square(panels[0])?, Homography::from_unit_square(panels[1])?];
+        let [width, height] = framing.size.map(f64::from);
         Ok(Some(Self {
-            eye,
-            up,
+            eye: eye.position.coords,
+            up: upwards(fold, &panels, eye.position.coords),
             outlines,
-            centre: Point::new(width_px / 2.0, height_px / 2.0),
-            half_diagonal: 0.5 * width_px.hypot(height_px),
+            centre: Point::new(width / 2.0, height / 2.0),
+            half_diagonal: 0.5 * width.hypot(height),
         }))
     }
 
@@ -78,11 +54,12 @@ impl Pose {
 }
 
 /// The direction square to the view that rises most in the picture.
-fn upwards(seen: &[(Vector3<f64>, Point)], eye: Vector3<f64>) -> Vector3<f64> {
-    let count = seen.len();
-    let middle = seen.iter().map(|(place, _)| place).sum::<Vector3<f64>>() / count as f64;
-    let places = DMatrix::from_fn(count, 4, |row, k| if k == 3 { 1.0 } else { (seen[row].0 - middle)[k] });
-    let rise = DVector::from_iterator(count, seen.iter().map(|(_, p)| -p.y));
+fn upwards(fold: &Fold, panels: &[[Point; 4]; 2], eye: Vector3<f64>) -> Vector3<f64> {
+    let corners = fold.panels().map(|panel| panel.corners);
+    let seen: Vec<_> = (0..8).map(|n| (corners[n / 4][n % 4], panels[n / 4][n % 4])).collect();
+    let middle = seen.iter().map(|(place, _)| place).sum::<Vector3<f64>>() / seen.len() as f64;
+    let places = DMatrix::from_fn(seen.len(), 4, |n, k| if k == 3 { 1.0 } else { (seen[n].0 - middle)[k] });
+    let rise = DVector::from_iterator(seen.len(), seen.iter().map(|(_, p)| -p.y));
     let slopes = places.svd(true, true).solve(&rise, 1e-9).unwrap_or_else(|_| DVector::zeros(4));
     let slope = Vector3::new(slopes[0], slopes[1], slopes[2]);
     let view = (eye - middle).normalize();

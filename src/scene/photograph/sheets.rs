@@ -34,8 +34,9 @@ pub fn of(
     let families = families();
     let shapes: Vec<Shape> = families.iter().map(|family| Shape::from(*family)).collect();
     let distinct: Vec<usize> = (0..families.len()).filter(|n| is_distinct(*n)).collect();
-    let all: Vec<Shape> = distinct.iter().map(|n| shapes[*n].clone()).chain(measured()?.iter().cloned()).collect();
-    let eye = Point3::from(fold.depths()[0] * eye);
+    let all: Vec<Shape> =
+        distinct.iter().map(|n| shapes[*n].clone()).chain(measured()?.iter().cloned()).collect();
+    let eye = Point3::from(eye);
     let beyond = departures(fold, &sun, &eye, &all, nodes);
     let departure = |(shape, radiance): (&Shape, ndarray::ArrayView2<f64>)| Departure {
         radiance: bins.pool(&radiance.to_owned()),
@@ -104,7 +105,10 @@ fn variations(measured: &[Departure], lambertian: &Radiance) -> Vec<Departure> {
         // coefficients of the kinds, which add up to nothing
         let own = vectors.column(*n);
         let middle = own.mean();
-        let mut sum = Departure { radiance: Radiance::zeros(lambertian.nrows(), lambertian.ncols()), reflectance: [0.0; 2] };
+        let mut sum = Departure {
+            radiance: Radiance::zeros(lambertian.nrows(), lambertian.ncols()),
+            reflectance: [0.0; 2],
+        };
         for (kind, share) in measured.iter().zip(own.iter()) {
             let share = scale * (share - middle);
             sum.radiance += share * &kind.radiance;
