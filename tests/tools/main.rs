@@ -22,6 +22,7 @@ mod python;
 mod raw;
 #[path = "../common/ready.rs"]
 mod ready;
+mod real_sheets;
 mod report;
 mod resume;
 mod spectra_files;

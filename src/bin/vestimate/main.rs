@@ -54,7 +54,8 @@ struct Args {
     /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
     #[arg(long, value_name = "X|free|sum", value_parser = settings::exposure)]
     exposure: Option<Exposure>,
-    /// What is fitted along with the spectrum, with commas between; the scene's values are what is expected
+    /// What is fitted along with the spectrum, with commas between; the scene's values are what is expected [default: auto
+    /// for photographs that an ideal fold does not explain, else none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = settings::fit())]
     fit: Vec<&'static Flag>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]

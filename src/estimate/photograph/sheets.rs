@@ -20,8 +20,9 @@ impl Departure {
     fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
             self.radiance.zip_apply(&other.radiance, |sum, one| *sum += share * one);
-            for n in 0..2 {
-                self.reflectance[n] += share * (other.reflectance[n] - reference[n]);
+            let departed = other.reflectance.iter().zip(&reference);
+            for (sum, (other, reference)) in self.reflectance.iter_mut().zip(departed) {
+                *sum += share * (other - reference);
             }
         }
     }

@@ -38,8 +38,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-/// A clear sky gives a tenth to a third of the sun's light, on a horizontal plane; mean and standard deviation on the scale of
-/// [`Scale::Positive`] in a photograph, whose unknown is that.
+/// In a photograph with direct sun: what a clear sky gives to a horizontal plane.
 const OF_PHOTOGRAPH: Normal = Normal { mean: 0.12, sd: 0.06 };
 
 fn of_photograph(told: &Told) -> Option<Normal> {

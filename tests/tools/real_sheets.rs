@@ -1,0 +1,201 @@
+//! Photographs of sheets as they are, glossy, rough, bowed, under a real sky and through a real lens, with the defaults of every tool: the
+//! truth is what an instrument of 45:0 says. The table is printed with `cargo test --test tools real_sheets -- --nocapture`.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::common::{Workdir, left_out};
+
+const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared");
+
+/// What came of a photograph.
+struct Outcome {
+    name: String,
+    rmse: f64,
+    mean_error: f64,
+    delta_e: Option<f64>,
+    within_two_sd: f64,
+    /// Two standard deviations to both sides.
+    bar: f64,
+}
+
+#[test]
+fn sheets_as_they_are_give_their_spectra() {
+    let Some(real) = sidecars("real") else { return };
+    let all: Vec<Outcome> = real.iter().map(|path| of_real(path)).collect();
+    let every: Vec<&Outcome> = all.iter().filter(|one| one.name.starts_with("all_")).collect();
+    print_table(&all);
+    assert!(mean(&every, |one| one.rmse) < 0.045, "all effects: {}", mean(&every, |one| one.rmse));
+    assert!(mean(&every, |one| one.within_two_sd) > 0.85);
+    assert!(mean(&every, |one| one.bar) < 0.2);
+    for one in all.iter().filter(|one| one.name.starts_with("one_")) {
+        assert!(one.rmse < 0.045 && one.within_two_sd > 0.85, "{}: {}", one.name, one.rmse);
+    }
+}
+
+/// Their shapes are among those of the prior, so that this tests the way from the picture to the spectrum, not the prior.
+#[test]
+fn measured_materials_give_their_reflectance() {
+    let Some(materials) = sidecars("materials") else { return };
+    for (exposure, most) in [("--exposure 1", 0.05), ("--exposure free", 0.12)] {
+        let all: Vec<Outcome> = materials.iter().map(|path| of_material(path, exposure)).collect();
+        println!("{exposure}");
+        print_table(&all);
+        let error = mean(&all.iter().collect::<Vec<_>>(), |one| one.mean_error);
+        assert!(error < most, "{exposure}: {error}");
+    }
+}
+
+fn print_table(all: &[Outcome]) {
+    println!("picture                RMSE   mean error  CIEDE2000  within two sd  width of the bars");
+    for Outcome { name, rmse, mean_error, delta_e, within_two_sd, bar } in all {
+        let delta_e = delta_e.map_or_else(String::new, |delta_e| format!("{delta_e:.2}"));
+        println!("{name:<20}{rmse:>8.4}{mean_error:>12.4}{delta_e:>10}{within_two_sd:>14.2}{bar:>15.3}");
+    }
+}
+
+fn mean(all: &[&Outcome], of: impl Fn(&Outcome) -> f64) -> f64 {
+    all.iter().map(|one| of(one)).sum::<f64>() / all.len() as f64
+}
+
+/// The sidecars of a folder of photographs, in the order of their names.
+fn sidecars(folder: &str) -> Option<Vec<PathBuf>> {
+    let folder = Path::new(SHARED).join(folder);
+    let Ok(entries) = fs::read_dir(&folder) else {
+        left_out(&format!("the photographs of {}, which is not there", folder.display()));
+        return None;
+    };
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    Some(paths)
+}
+
+fn of_real(path: &Path) -> Outcome {
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let told = &sidecar["told"];
+    let wavelengths = numbers(&sidecar["wavelengths_nm"]);
+    let columns = |columns: Vec<Vec<f64>>| table(&wavelengths, &columns);
+    let camera = columns(told["camera_sensitivities_rgb"].as_array().unwrap().iter().map(numbers).collect());
+    let light = columns(vec![numbers(&told["illuminant_spd"])]);
+    let truth = numbers(&sidecar["reflectance"]);
+    let calibration = match (told.get("chart"), told.get("white_region")) {
+        (Some(chart), _) => {
+            let cos = &told["chart_cos"];
+            format!("--chart '{}' --chart-cos {cos} --chart-reference cc24-babelcolor", corners(chart))
+        }
+        (_, Some(white)) => {
+            let (reflectance, cos) = (&told["white_reflectance"], &told["white_cos"]);
+            format!("--white-region '{}' --white-reflectance {reflectance} --white-cos {cos}", corners(white))
+        }
+        _ => String::new(),
+    };
+    let scene = format!(
+        "--angle-deg {} --tilt-deg {} --slant-deg {}",
+        told["angle_deg"], told["tilt_deg"], told["slant_deg"]
+    );
+    let panels =
+        format!("--panel0 '{}' --panel1 '{}' --refine", corners(&told["panel0"]), corners(&told["panel1"]));
+    let photo = path.with_extension("tif");
+    let sample = run(
+        &camera,
+        &light,
+        &columns(vec![truth.clone()]),
+        &scene,
+        &photo,
+        &format!("{panels} {calibration}"),
+        "",
+    );
+    outcome(path, &sample, &truth, <[f64]>::to_vec)
+}
+
+fn of_material(path: &Path, exposure: &str) -> Outcome {
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let bands = numbers(&sidecar["bands_nm"]);
+    let truth = numbers(&sidecar["reflectance_45_0"]);
+    let wavelengths: Vec<f64> = (0..61).map(|n| 400.0 + 5.0 * f64::from(n)).collect();
+    let channel = |band: &f64| wavelengths.iter().map(|nm| f64::from((nm - band).abs() < 0.1)).collect();
+    let camera = table(&wavelengths, &bands.iter().map(channel).collect::<Vec<_>>());
+    let light = table(&wavelengths, &[vec![1.0; 61]]);
+    let scene = format!("--angle-deg {} --tilt-deg {}", sidecar["angle_deg"], sidecar["tilt_deg"]);
+    let panels =
+        format!("--panel0 '{}' --panel1 '{}'", corners(&sidecar["panel0"]), corners(&sidecar["panel1"]));
+    let photo = path.with_extension("exr");
+    let sample = run(&camera, &light, "", &scene, &photo, &panels, exposure);
+    let places: Vec<usize> = bands
+        .iter()
+        .map(|band| wavelengths.iter().position(|nm| (nm - *band).abs() < 0.1).unwrap())
+        .collect();
+    outcome(path, &sample, &truth, |estimate| places.iter().map(|place| estimate[*place]).collect())
+}
+
+/// The sample that the tools make of a photograph.
+fn run(
+    camera: &str,
+    light: &str,
+    truth: &str,
+    scene: &str,
+    photo: &Path,
+    extract: &str,
+    estimate: &str,
+) -> Value {
+    let score = if truth.is_empty() { "" } else { "| vscore --truth truth.csv" };
+    let run = Workdir::new().sh(&format!(
+        r#"
+cat > camera.csv <<END
+{camera}END
+cat > light.csv <<END
+{light}END
+cat > truth.csv <<END
+{truth}END
+vkernel {scene} |
+vextract -q "{photo}" --camera camera.csv --illuminant light.csv {extract} |
+vestimate -q {estimate} {score}
+"#,
+        photo = photo.display(),
+    ));
+    assert!(run.status == 0, "{}: {}", photo.display(), run.stderr);
+    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    records.into_iter().find(|record| record["kind"] == "sample").unwrap()
+}
+
+fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -> Vec<f64>) -> Outcome {
+    let reflectance = at(&numbers(&sample["estimate"]["reflectance"]));
+    let sd = at(&numbers(&sample["estimate"]["reflectance_sd"]));
+    let count = truth.len() as f64;
+    let errors: Vec<f64> = reflectance.iter().zip(truth).map(|(found, truth)| found - truth).collect();
+    let within = errors.iter().zip(&sd).filter(|(error, sd)| error.abs() < 2.0 * **sd).count();
+    Outcome {
+        name: path.file_stem().unwrap().to_string_lossy().into_owned(),
+        rmse: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+        mean_error: errors.iter().map(|error| error.abs()).sum::<f64>() / count,
+        delta_e: sample["metrics"]["ciede2000"].as_f64(),
+        within_two_sd: within as f64 / count,
+        bar: 4.0 * sd.iter().sum::<f64>() / count,
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn corners(panel: &Value) -> String {
+    let corners = panel.as_array().unwrap().iter().map(|corner| format!("{},{}", corner[0], corner[1]));
+    corners.collect::<Vec<_>>().join(" ")
+}
+
+/// Columns of numbers beside wavelengths, as CSV.
+fn table(wavelengths: &[f64], columns: &[Vec<f64>]) -> String {
+    let mut text = String::from("nm");
+    (0..columns.len()).for_each(|n| write!(text, ",c{n}").unwrap());
+    text.push('\n');
+    for (row, nm) in wavelengths.iter().enumerate() {
+        write!(text, "{nm}").unwrap();
+        columns.iter().for_each(|column| write!(text, ",{}", column[row]).unwrap());
+        text.push('\n');
+    }
+    text
+}
