@@ -64,8 +64,13 @@ impl Scene {
         let node = |k: u8| 0.5 - 0.5 * (std::f64::consts::PI * (f64::from(k) + 0.5) / 10.0).cos();
         let nodes: Vec<f64> = (0..10).map(node).collect();
         let (x, z) = tilt_deg.to_radians().sin_cos();
-        let beyond =
-            departures(&fold, &Vector3::new(x, 0.0, z), &Point3::from(eye), &[shape.clone()], &nodes);
+        let beyond = departures(
+            &fold,
+            &Vector3::new(x, 0.0, z),
+            &Point3::from(eye),
+            std::slice::from_ref(&shape),
+            &nodes,
+        );
         let on_panels = [tilt_deg, -tilt_deg].map(|tilt| (0.5 * angle_deg + tilt).to_radians().sin());
         let lambertian = refinement::refine(&fold, 1e-5).unwrap().response;
         Self {
@@ -85,8 +90,8 @@ impl Scene {
         let mut weights = vec![0.0; self.nodes.len()];
         self.lagrange.at(albedo, &mut weights);
         let facet = |panel: usize, facet: usize| {
-            let values = self.beyond.slice(ndarray::s![0, 100 * panel + facet, ..]);
-            let beyond: f64 = values.iter().zip(&weights).map(|(value, weight)| value * weight).sum();
+            let value = |node: usize| self.beyond[[0, 100 * panel + facet, node]];
+            let beyond: f64 = weights.iter().enumerate().map(|(node, weight)| weight * value(node)).sum();
             albedo * self.lambertian.irradiance(panel, facet, self.sun, [albedo; 2]) + beyond
         };
         std::array::from_fn(|row| {
@@ -123,8 +128,8 @@ fn a_measured_sheet_agrees_with_patches() {
     let scene = Scene::new(material.angle_deg, material.tilt_deg, material.eye, shape);
     for (channel, reflectance) in material.reflectance_45_0.into_iter().enumerate() {
         let rows = scene.rows(reflectance);
-        for row in 2..10 {
-            let off = rows[row] / material.rows[row][channel] - 1.0;
+        for (row, (told, seen)) in rows.iter().zip(&material.rows).enumerate().skip(2) {
+            let off = told / seen[channel] - 1.0;
             assert!(off.abs() < 0.04, "row {row}, channel {channel} is {off:+.4} off");
         }
     }
