@@ -16,6 +16,9 @@ use crate::transport::departures;
 const VARIATIONS: usize = 8;
 /// How far sheets of a kind vary, relative to how far kinds do.
 const WITHIN_KINDS: f64 = 0.4;
+/// How much more or less an instrument of 45:0 says of sheets that send the same to the camera, relative to their albedo: kinds that were
+/// measured differ by that.
+const INSTRUMENT: f64 = 0.08;
 /// Least radiance that departures are compared with: what is added to the brightness of the facets.
 const FLOOR: f64 = 0.05;
 /// A kind that departs from a Lambertian sheet by more than that in the mean, relative to the brightness of the facets, is taken to depart
@@ -45,7 +48,9 @@ pub fn of(
     let mut known: Vec<Departure> = all.iter().zip(beyond.axis_iter(Axis(0))).map(departure).collect();
     let mut measured = known.split_off(distinct.len());
     measured.iter_mut().for_each(|one| bound(one, lambertian));
-    let variations = variations(&measured, lambertian);
+    let mut variations = variations(&measured, lambertian);
+    let unseen = Radiance::zeros(lambertian.nrows(), lambertian.ncols());
+    variations.push(Departure { radiance: unseen, reflectance: [INSTRUMENT, 0.0] });
     let place = |n: usize| distinct.iter().position(|one| *one == representative(n)).unwrap_or(0);
     let families = (0..families.len()).map(|n| known[place(n)].clone()).collect();
     Ok(Sheets { families, measured, variations })
