@@ -50,7 +50,7 @@ _vestimate() {
                     return 0
                     ;;
                 --fit)
-                    COMPREPLY=($(compgen -W "exposure angle tilt sky" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "exposure angle tilt sky auto none" -- "${cur}"))
                     return 0
                     ;;
                 --reference-panel)

@@ -3,10 +3,12 @@ complete -c vestimate -l smoothness -d 'Weight of the squared second differences
 complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
 complete -c vestimate -l exposure -d 'Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]' -r
-complete -c vestimate -l fit -d 'What is fitted along with the spectrum, with commas between; the scene\'s values are what is expected' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
+complete -c vestimate -l fit -d 'What is fitted along with the spectrum, with commas between; the scene\'s values are what is expected [default: auto for photographs that an ideal fold does not explain, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'
 tilt\t'Angle of the sun off the bisecting plane'
-sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'"
+sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'
+auto\t'All that sets a real sheet apart from an ideal one, bounded by priors'
+none\t'Nothing: the scene is believed as it is told'"
 complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal' -r -F
