@@ -7,7 +7,7 @@ use super::conditions::Conditions;
 use super::parts::{Ambient, Parts, Radiance};
 use super::sheets::{Departure, Kind};
 use crate::estimate::gaussian::{Gaussian, logistic};
-use crate::estimate::unknowns::{Expected, TABLE};
+use crate::estimate::unknowns::{Expected, TABLE, Unknown};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
@@ -64,15 +64,10 @@ pub struct Point {
     pub exposure: f64,
 }
 
-/// Unknowns of a photograph, of which something is known before.
-#[must_use]
-pub fn unknowns_of(parts: &Parts, kind: Kind) -> Vec<Expected> {
-    let of_family = ["gloss", "gloss_roughness", "body_roughness_deg"];
-    let expected = |unknown: &&'static crate::estimate::unknowns::Unknown| {
+/// Unknowns of a photograph, of which something is known before. Those of a family stay at their priors in a sheet of another kind.
+fn unknowns_of(parts: &Parts) -> Vec<Expected> {
+    let expected = |unknown: &&'static Unknown| {
         let effect = unknown.photograph.as_ref()?;
-        if kind != Kind::Family && of_family.contains(&unknown.name) {
-            return None;
-        }
         Some(Expected { unknown, prior: (effect.prior)(&parts.told)? })
     };
     TABLE.iter().filter_map(expected).collect()
@@ -85,7 +80,7 @@ impl<'a> PhotographModel<'a> {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
         let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
-        Self { parts, kind, gaussian, whitening, unknowns: unknowns_of(parts, kind), coefficients }
+        Self { parts, kind, gaussian, whitening, unknowns: unknowns_of(parts), coefficients }
     }
 
     /// The unknowns of the scene.
@@ -99,7 +94,7 @@ impl<'a> PhotographModel<'a> {
     pub fn layout(&self) -> [usize; 4] {
         let scene = self.gaussian.basis().ncols();
         let sheet = scene + self.unknowns.len();
-        let camera = sheet + self.parts.sheets.variations.len();
+        let camera = sheet + self.parts.sheets.variation_count();
         [scene, sheet, camera, camera + self.parts.eye.errors.len()]
     }
 

@@ -56,6 +56,8 @@ pub struct Sheets {
     pub measured: Vec<Departure>,
     /// How sheets of a kind differ, in units of a standard deviation: differences of departures.
     pub variations: Vec<Departure>,
+    /// Standard deviation of what an instrument of 45:0 says of a sheet of a measured kind, relative to its albedo, that no facet tells.
+    pub instrument: f64,
 }
 
 /// The kind that a sheet is taken to be.
@@ -68,11 +70,22 @@ pub enum Kind {
 }
 
 impl Sheets {
+    /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says beyond them.
+    #[must_use]
+    pub fn variation_count(&self) -> usize {
+        self.variations.len() + 1
+    }
+
     /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
     #[must_use]
     pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
         let mut sum = match kind {
-            Kind::Measured(n) => self.measured[n].clone(),
+            Kind::Measured(n) => {
+                let mut own = self.measured[n].clone();
+                own.reflectance[0] += self.instrument * variations.last().copied().unwrap_or(0.0);
+                own
+            }
+            // of a family the formula tells it
             Kind::Family => self.family(conditions),
         };
         for (variation, size) in self.variations.iter().zip(variations) {

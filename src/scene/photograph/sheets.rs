@@ -48,12 +48,10 @@ pub fn of(
     let mut known: Vec<Departure> = all.iter().zip(beyond.axis_iter(Axis(0))).map(departure).collect();
     let mut measured = known.split_off(distinct.len());
     measured.iter_mut().for_each(|one| bound(one, lambertian));
-    let mut variations = variations(&measured, lambertian);
-    let unseen = Radiance::zeros(lambertian.nrows(), lambertian.ncols());
-    variations.push(Departure { radiance: unseen, reflectance: [INSTRUMENT, 0.0] });
+    let variations = variations(&measured, lambertian);
     let place = |n: usize| distinct.iter().position(|one| *one == representative(n)).unwrap_or(0);
     let families = (0..families.len()).map(|n| known[place(n)].clone()).collect();
-    Ok(Sheets { families, measured, variations })
+    Ok(Sheets { families, measured, variations, instrument: INSTRUMENT })
 }
 
 /// The families at the nodes: strength and roughness of the surface, roughness of the body, the last fastest.
