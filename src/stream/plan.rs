@@ -30,7 +30,7 @@ pub(super) struct PlanRecord {
     expected_rmse: ExpectedRmse,
     /// Standard deviation to expect of what is fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    expected_sd: Option<Quantities<f64>>,
+    expected_sd: Option<Quantities<f64, false>>,
 }
 
 /// Of several reflectances.
