@@ -25,13 +25,6 @@ const BETWEEN_PANELS: f64 = 0.3;
 const CREASE_DEPTH: f64 = 0.06;
 
 impl ModelError {
-    /// The same with all but the noise of the facets `factor` times as large.
-    #[must_use]
-    pub fn scaled(self, factor: f64) -> Self {
-        let Self { shared, own, white, at_crease } = self;
-        Self { shared: factor * shared, own: factor * own, white: factor * white, at_crease }
-    }
-
     /// The inverse of the Cholesky factor of the covariance of all values, facet by facet and in each channel by channel.
     ///
     /// # Arguments
