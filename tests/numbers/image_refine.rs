@@ -79,12 +79,17 @@ fn corners_four_pixels_off_find_back() {
     }
 }
 
-/// A picture of 200 x 200 px of light, refined from a quadrilateral in its middle.
+/// A grey picture of 200 x 200 px of light, refined from a quadrilateral in its middle.
 fn refined(light: impl Fn(f64, f64) -> f64) -> (Refinement, [Point; 4]) {
+    refined_in_colour(|x, y| [light(x, y); 3])
+}
+
+/// The same of a picture in colour.
+fn refined_in_colour(light: impl Fn(f64, f64) -> [f64; 3]) -> (Refinement, [Point; 4]) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("light.exr");
     let rgb: Vec<f64> =
-        (0..200 * 200).flat_map(|k| [light(f64::from(k % 200) + 0.5, f64::from(k / 200) + 0.5); 3]).collect();
+        (0..200 * 200).flat_map(|k| light(f64::from(k % 200) + 0.5, f64::from(k / 200) + 0.5)).collect();
     write_linear(&path, 200, 200, &rgb).unwrap();
     let given = [(50.3, 40.2), (150.1, 45.0), (160.7, 150.4), (42.0, 155.5)].map(|(x, y)| Point::new(x, y));
     (refine(&open(&path), &marked(&[given]), &Lens::STRAIGHT, 6.0).unwrap(), given)
@@ -106,6 +111,36 @@ fn where_there_is_no_edge_corners_stay() {
         assert!(found.moved_px[0].iter().all(|moved| *moved < 1e-9), "{found:?}");
         assert!(found.panels[0].iter().zip(&given).all(|(a, b)| distance(*a, *b) < 1e-9));
     }
+}
+
+/// A sheet as bright as the table that it lies on, of another colour; all corners are a little off.
+#[test]
+fn an_edge_between_colours_that_are_equally_bright_is_found() {
+    let corners = [(48.0, 42.5), (152.0, 43.0), (158.0, 152.0), (44.0, 153.0)].map(|(x, y)| Point::new(x, y));
+    let is_sheet = |x: f64, y: f64| {
+        (0..4).all(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            (b.x - a.x) * (y - a.y) > (b.y - a.y) * (x - a.x)
+        })
+    };
+    let (found, _) = refined_in_colour(|x, y| if is_sheet(x, y) { [0.5, 0.3, 0.1] } else { [0.2, 0.3, 0.4] });
+    for (found, truth) in found.panels[0].iter().zip(corners) {
+        assert!(distance(*found, truth) < 0.3, "{found:?} {truth:?}");
+    }
+}
+
+/// Behind a side the sheet's shadow falls on the table and ends a few pixels further out, where the step is greater: the side stays at
+/// the end of the sheet.
+#[test]
+fn the_end_of_a_shadow_is_not_the_end_of_the_sheet() {
+    let beyond = |x: f64, y: f64| (x - 153.0) * 105.4 / 105.9 - (y - 45.0) * 10.6 / 105.9;
+    let (found, _) = refined_in_colour(|x, y| match beyond(x, y) {
+        outside if outside > 4.0 => [0.5, 0.5, 0.5],
+        outside if outside > 0.0 => [0.02, 0.02, 0.02],
+        _ => [0.4, 0.2, 0.1],
+    });
+    let [moved, outer] = [found.moved_px[0][1], found.moved_px[0][2]];
+    assert!((moved - 2.9).abs() < 0.4 && (outer - 2.9).abs() < 0.4, "{found:?}");
 }
 
 /// One side has an edge, 3 px off: its two corners follow it, along the other sides nothing is known.

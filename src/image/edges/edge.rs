@@ -2,10 +2,11 @@
 //!
 //! The pixels around the side are looked at in pieces along it. For each place where an edge may cross a piece, its pixels are
 //! explained as two planes of light with the edge between them, mixed by area in the pixels that it crosses; the residuals of all
-//! pieces together tell how likely each line is. A step and a kink are both found so, to a fraction of a pixel, in noise that
-//! hides them in any one row of pixels. What smooth light explains as well is no edge.
+//! pieces and all channels together tell how likely each line is: a sheet may be as bright as the table, but not of its colour. A step and a kink are both found so, to a fraction of a pixel, in noise that
+//! hides them in any one row of pixels. What smooth light explains as well is no edge. Behind a sheet its shadow may end, too: up to
+//! the edge the sheet goes on as it is further inwards.
 
-use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector3};
 
 use crate::image::photograph::{Photograph, Pixel};
 use crate::image::placing::{Lens, Point, Quadrilateral};
@@ -30,6 +31,13 @@ const LEAST_GAIN: f64 = 20.0;
 const EXACT: f64 = 1e-3;
 /// Numbers that explain a piece: two planes of light, or a polynomial across it.
 const COEFFICIENTS: usize = 4;
+/// A sheet goes on up to its edge if its light varies there by no more than this, relative to further inwards.
+const UNEVEN: f64 = 2.0;
+/// Pixels nearer to an edge than that may see what is beyond it, px.
+const BESIDE_PX: f64 = 2.0;
+/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
+const STEP_SD_PX: f64 = 0.015;
+const KINK_SD_PX: f64 = 0.5;
 
 /// Where the edge at a side is: its distances from the side's two ends, px, as a normal distribution.
 #[derive(Debug, Clone)]
@@ -49,11 +57,14 @@ pub(super) struct Side {
     along: Vector2<f64>,
 }
 
-/// Some pixels near a side: distance from it, px, and light.
+/// Some pixels near a side.
 struct Piece {
     /// Where it is along the side, from 0 to 1.
     place: f64,
-    pixels: Vec<(f64, f64)>,
+    /// Distance from the side, px, and light.
+    pixels: Vec<(f64, Vector3<f64>)>,
+    /// Channels that tell something of their own: the three of a grey picture are one.
+    channels: usize,
 }
 
 impl Side {
@@ -67,20 +78,28 @@ impl Side {
         Vector2::new(-self.along.y, self.along.x)
     }
 
-    /// The edge within `reach_px` of the side, if there is one; the model itself is as exact as `model_sd_px`.
+    /// The edge within `reach_px` of the side, if there is one. `inner`: a place on the sheet, if that ends here.
     pub fn edge(
         &self,
         photograph: &Photograph,
         lens: &Lens,
         reach_px: f64,
-        model_sd_px: f64,
+        inner: Option<Point>,
     ) -> Option<Edge> {
         let pieces = self.pieces(photograph, lens, reach_px);
+        let inwards = inner.map(|inner| {
+            Vector2::new(inner.x - self.from.x, inner.y - self.from.y).dot(&self.across()).signum()
+        });
+        let breaks = |piece: &Piece| inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px));
+        let breaks: Vec<_> = pieces.iter().map(breaks).collect();
         let lines: Vec<[usize; 2]> =
             (0..PLACES * PLACES).map(|line| [line / PLACES, line % PLACES]).collect();
         let likelihoods = |blur_px| -> Vec<f64> {
-            let gains = |piece: &Piece| (piece.place, piece.gains(&self.across(), blur_px, reach_px));
-            let gains: Vec<_> = pieces.iter().map(gains).collect();
+            let gains = |(piece, breaks): (&Piece, &[f64; PLACES])| {
+                let gains = piece.gains(&self.across(), blur_px, reach_px);
+                (piece.place, std::array::from_fn(|place| gains[place] - breaks[place]))
+            };
+            let gains: Vec<_> = pieces.iter().zip(&breaks).map(gains).collect();
             lines.iter().map(|line| log_likelihood(&gains, *line)).collect()
         };
         let greatest = |likelihoods: &[f64]| likelihoods.iter().copied().fold(0.0, f64::max);
@@ -94,6 +113,7 @@ impl Side {
             let ends = line.map(|place| offset(place, reach_px));
             (Vector2::from(ends), (likelihood - greatest).exp())
         });
+        let model_sd_px = if inner.is_some() { STEP_SD_PX } else { KINK_SD_PX };
         Some(Edge::of(weighted, reach_px, model_sd_px))
     }
 
@@ -118,15 +138,16 @@ impl Side {
                 let centre = lens.undistort(Point::new(x as f64 + 0.5, y as f64 + 0.5));
                 let from = Vector2::new(centre.x - self.from.x, centre.y - self.from.y);
                 let (along, across) = (from.dot(&self.along), from.dot(&self.across()));
-                if let Pixel::Light([r, g, b_]) = photograph.pixel(x, y)
+                if let Pixel::Light(light) = photograph.pixel(x, y)
                     && (a..b).contains(&along)
                     && across.abs() <= width_px
                 {
-                    pixels.push((across, r + g + b_));
+                    pixels.push((across, Vector3::from(light)));
                 }
             }
         }
-        Piece { place: (places[0] + places[1]) / 2.0, pixels }
+        let is_grey = pixels.iter().all(|(_, light)| light.max() <= light.min());
+        Piece { place: (places[0] + places[1]) / 2.0, pixels, channels: if is_grey { 1 } else { 3 } }
     }
 
     fn at(&self, along: f64, across: f64) -> Point {
@@ -154,39 +175,68 @@ fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64
 impl Piece {
     /// Gain in log likelihood of an edge at each of the places over none.
     fn gains(&self, across: &Vector2<f64>, blur_px: f64, reach_px: f64) -> [f64; PLACES] {
-        let count = self.pixels.len() as f64;
-        let brightest = self.pixels.iter().map(|(_, light)| light.abs()).fold(0.0, f64::max);
-        let exact = count * (EXACT * brightest).powi(2);
+        let (count, exact) = (self.pixels.len() as f64, self.exact());
         let width_px = reach_px + FLANK_PX;
-        let smooth = self.residual(|distance| {
+        let all = || self.pixels.iter();
+        let smooth = residual(all(), |distance| {
             let d = distance / width_px;
             [1.0, d, d * d, d * d * d]
         });
         let gain = |place| {
-            let edge = self.residual(|distance| {
+            let edge = residual(all(), |distance| {
                 let z = distance - offset(place, reach_px);
                 let beyond = share_beyond(z, across, blur_px);
                 [1.0 - beyond, (1.0 - beyond) * z, beyond, beyond * z]
             })?;
             let spare = count - COEFFICIENTS as f64 - 1.0;
-            Some(0.5 * spare * ((smooth? + exact) / (edge + exact)).ln())
+            Some(0.5 * spare * self.sum_of_ln(smooth? + exact, edge + exact))
         };
         std::array::from_fn(|place| gain(place).filter(|gain| gain.is_finite()).unwrap_or(0.0))
     }
 
-    /// Sum of squares that the best combination of basis functions of the distance leaves; none if there is no one best.
-    fn residual(&self, basis: impl Fn(f64) -> [f64; COEFFICIENTS]) -> Option<f64> {
-        let mut normal = SMatrix::<f64, COEFFICIENTS, COEFFICIENTS>::zeros();
-        let (mut right, mut squares) = (SVector::<f64, COEFFICIENTS>::zeros(), 0.0);
-        for &(distance, light) in &self.pixels {
-            let basis = SVector::from(basis(distance));
-            normal += basis * basis.transpose();
-            right += basis * light;
-            squares += light * light;
-        }
-        let explained = right.dot(&normal.cholesky()?.solve(&right));
-        (self.pixels.len() > 2 * COEFFICIENTS).then_some((squares - explained).max(0.0))
+    /// By how much the light inside an edge at each of the places is less likely than it would be if the sheet went on up to there.
+    fn breaks(&self, inwards: f64, reach_px: f64) -> [f64; PLACES] {
+        let within = |least: f64| {
+            let pixels = self.pixels.iter().filter(move |(distance, _)| inwards * distance > least);
+            let count = pixels.clone().count() as f64;
+            Some((residual(pixels, |distance| [1.0, distance])? / count + self.exact() / count, count))
+        };
+        let Some((further, _)) = within(reach_px) else { return [0.0; PLACES] };
+        let usual = further * UNEVEN * UNEVEN;
+        std::array::from_fn(|place| {
+            within(inwards * offset(place, reach_px) + BESIDE_PX)
+                .map_or(0.0, |(variance, count)| 0.5 * count * self.sum_of_ln(variance.sup(&usual), usual))
+        })
     }
+
+    /// Sums of squares that count as nothing.
+    fn exact(&self) -> Vector3<f64> {
+        let brightest = self.pixels.iter().fold(Vector3::zeros(), |most, (_, light)| light.abs().sup(&most));
+        brightest.map(|light: f64| self.pixels.len() as f64 * (EXACT * light).powi(2))
+    }
+
+    /// Sum over the channels of the logarithms of ratios.
+    fn sum_of_ln(&self, over: Vector3<f64>, under: Vector3<f64>) -> f64 {
+        over.component_div(&under).iter().take(self.channels).map(|ratio| ratio.ln()).sum()
+    }
+}
+
+/// Sum of squares that the best combination of basis functions of the distance leaves in each channel; none if there is no one best.
+fn residual<'a, const COUNT: usize>(
+    pixels: impl Iterator<Item = &'a (f64, Vector3<f64>)>,
+    basis: impl Fn(f64) -> [f64; COUNT],
+) -> Option<Vector3<f64>> {
+    let mut normal = SMatrix::<f64, COUNT, COUNT>::zeros();
+    let (mut right, mut squares, mut count) = (SMatrix::<f64, COUNT, 3>::zeros(), Vector3::zeros(), 0);
+    for (distance, light) in pixels {
+        let basis = SVector::from(basis(*distance));
+        normal += basis * basis.transpose();
+        right += basis * light.transpose();
+        squares += light.component_mul(light);
+        count += 1;
+    }
+    let explained = normal.cholesky()?.solve(&right).component_mul(&right).row_sum_tr();
+    (count > 2 * COUNT).then_some((squares - explained).sup(&Vector3::zeros()))
 }
 
 /// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it, if it saw by `blur_px` more to all sides.

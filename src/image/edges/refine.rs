@@ -35,12 +35,12 @@ pub struct Refinement {
     pub sides_without_edge: Vec<String>,
 }
 
-/// A side: its name, the corners that it joins, and whether there is sheet beyond it.
+/// A side: its name, the corners that it joins, and another corner of its panel, if there is no sheet beyond it.
 struct Ends {
     name: String,
     from: usize,
     to: usize,
-    is_fold: bool,
+    inner: Option<usize>,
 }
 
 /// The sides of a panel from corner to corner.
@@ -52,9 +52,6 @@ const ROUNDS: usize = 6;
 const NEARER: f64 = 0.4;
 /// but not nearer than this many standard deviations.
 const LEAST_SDS: f64 = 3.0;
-/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
-const STEP_SD_PX: f64 = 0.015;
-const KINK_SD_PX: f64 = 0.5;
 
 /// Moves the corners of panels to the edges around them.
 ///
@@ -111,8 +108,8 @@ fn settle(
     let mut edges = Vec::new();
     for _ in 0..ROUNDS {
         let find = |(side, reach): (&Ends, &f64)| {
-            let model_sd_px = if side.is_fold { KINK_SD_PX } else { STEP_SD_PX };
-            Side::new(corners[side.from], corners[side.to]).edge(photograph, lens, *reach, model_sd_px)
+            let inner = side.inner.map(|corner| corners[corner]);
+            Side::new(corners[side.from], corners[side.to]).edge(photograph, lens, *reach, inner)
         };
         edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
         corners = meeting_point(given, &corners, sides, &edges, reach_px);
@@ -134,12 +131,13 @@ fn sides(panels: &[Marked]) -> Vec<Ends> {
         let joins =
             |side: &&mut Ends| (side.from, side.to) == (from, to) || (side.to, side.from) == (from, to);
         if let Some(known) = sides.iter_mut().find(joins) {
-            known.is_fold = true;
+            known.inner = None;
             continue;
         }
         let of_panel =
             if one_crease && k == 0 { String::new() } else { format!(" of panel {}", panel.panel) };
-        sides.push(Ends { name: format!("{}{of_panel}", SIDES[k]), from, to, is_fold: k == 0 });
+        let inner = (k != 0).then_some(panel.joints[(k + 2) % 4]);
+        sides.push(Ends { name: format!("{}{of_panel}", SIDES[k]), from, to, inner });
     }
     sides
 }
