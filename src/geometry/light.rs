@@ -1,5 +1,7 @@
 //! Collimated light on a fold, and a uniform sky.
 
+use nalgebra::Vector3;
+
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 
@@ -68,6 +70,14 @@ impl Light {
     #[must_use]
     pub fn slant_deg(&self) -> f64 {
         self.slant_deg
+    }
+
+    /// The direction towards the sun, in the coordinates of [`Fold::panels`].
+    #[must_use]
+    pub fn towards(&self) -> Vector3<f64> {
+        let (tilt_sin, tilt_cos) = self.tilt_deg.to_radians().sin_cos();
+        let (slant_sin, slant_cos) = self.slant_deg.to_radians().sin_cos();
+        Vector3::new(tilt_sin * slant_cos, slant_sin, tilt_cos * slant_cos)
     }
 
     /// What the panels of `fold` receive alike from the sun on the bisecting plane, and what panel 0 receives more and

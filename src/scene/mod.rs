@@ -8,6 +8,7 @@ mod drawn;
 mod expected;
 mod fit;
 mod fold;
+mod folded_sheet;
 mod given_kernel;
 mod photograph;
 mod residuals;
@@ -18,8 +19,9 @@ use std::collections::BTreeMap;
 pub use drawn::sheet;
 pub use expected::ExpectedError;
 pub use fold::FoldSetting;
+pub use folded_sheet::FoldedSheet;
 pub use given_kernel::GivenKernel;
-pub use photograph::PhotographedFold;
+pub use photograph::{Beyond, PhotographedFold};
 pub use residuals::residuals;
 pub use surface::SurfaceSetting;
 

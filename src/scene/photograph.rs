@@ -7,6 +7,8 @@ mod eye;
 mod framing;
 mod sheets;
 
+use std::fmt;
+
 use bins::Bins;
 use framing::Pose;
 use nalgebra::Vector3;
@@ -32,29 +34,73 @@ const SUN_HEIGHT: f64 = 0.67;
 /// What a sheet of which nothing is known reflects in its strongest channel.
 const REFLECTANCE: f64 = 0.5;
 
+/// Why a photograph is not taken to be of a real sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beyond {
+    /// A panel is a card.
+    Card,
+    /// One panel is deeper than the other.
+    UnequalPanels,
+    /// There is more than one picture of the sheet.
+    SeveralLights,
+    /// The corners are not given, or no camera sees the panels so.
+    NoPose,
+    /// No facet has any light.
+    NoFacets,
+}
+
+impl fmt::Display for Beyond {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Card => "one panel is a card",
+            Self::UnequalPanels => "one panel is deeper than the other",
+            Self::SeveralLights => "there are pictures under several lights",
+            Self::NoPose => "the corners do not tell where the camera stood",
+            Self::NoFacets => "no facet has any light",
+        })
+    }
+}
+
 /// A fold of which photographs are taken.
 pub struct PhotographedFold<'a> {
     setting: &'a FoldSetting<'a>,
     nodes: Vec<f64>,
+    /// Name of a measured sheet that is taken to be unknown.
+    left_out: Option<String>,
 }
 
 impl<'a> PhotographedFold<'a> {
     /// That of a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting<'a>) -> Self {
-        Self { setting, nodes: nodes(NODES) }
+        Self { setting, nodes: nodes(NODES), left_out: None }
     }
 
-    /// The parts of a photograph; none if where the camera stood is not known, or the scene is not one of two panels of a sheet alone.
+    /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes of a sheet that nobody measured.
+    #[must_use]
+    pub fn leaving_out(self, sheet: &str) -> Self {
+        Self { left_out: Some(sheet.to_owned()), ..self }
+    }
+
+    /// The parts of a photograph, or why there are none.
     ///
     /// # Errors
     /// [`Error::Field`] if facets or corners do not fit the scene.
-    pub fn parts(&self, sample: &Sample, exposure: Option<f64>) -> Result<Option<Parts>> {
+    pub fn parts(
+        &self,
+        sample: &Sample,
+        exposure: Option<f64>,
+    ) -> Result<std::result::Result<Parts, Beyond>> {
         let (setting, fold) = (self.setting, self.setting.fold());
-        if setting.card()?.is_some() || !fold.is_symmetric() || setting.pictures()? != 1 {
-            return Ok(None);
+        let beyond = [
+            (setting.card()?.is_some(), Beyond::Card),
+            (!fold.is_symmetric(), Beyond::UnequalPanels),
+            (setting.pictures()? != 1, Beyond::SeveralLights),
+        ];
+        if let Some((_, why)) = beyond.into_iter().find(|(is_so, _)| *is_so) {
+            return Ok(Err(why));
         }
-        let Some(pose) = Pose::of(sample, fold)? else { return Ok(None) };
+        let Some(pose) = Pose::of(sample, fold)? else { return Ok(Err(Beyond::NoPose)) };
         let (light, facets) = (setting.light()?, fold.facets());
         let (rgb, sd) = (sample.facet_rgb()?, sample.facet_sd()?);
         if rgb.len() != 2 * facets.len() {
@@ -62,12 +108,8 @@ impl<'a> PhotographedFold<'a> {
             return Err(Error::field("facet_rgb", problem));
         }
         let bins = Bins::new(fold, &rgb, sd.as_ref(), &pose);
-        let Some(values) = bins.values() else { return Ok(None) };
-        let sun = Vector3::new(
-            light.tilt_deg().to_radians().sin() * light.slant_deg().to_radians().cos(),
-            light.slant_deg().to_radians().sin(),
-            light.tilt_deg().to_radians().cos() * light.slant_deg().to_radians().cos(),
-        );
+        let Some(values) = bins.values() else { return Ok(Err(Beyond::NoFacets)) };
+        let sun = light.towards();
         let eye = eye::of(setting)?;
         let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);
         let mean = (0..values.nrows()).map(strongest).sum::<f64>() / values.nrows().max(1) as f64;
@@ -86,8 +128,9 @@ impl<'a> PhotographedFold<'a> {
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
-        let sheets = sheets::of(fold, sun, pose.eye, &self.nodes, &bins, &lit.even)?;
-        Ok(Some(Parts {
+        let sheets =
+            sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, &lit.even, self.left_out.as_deref())?;
+        Ok(Ok(Parts {
             told,
             places: bins.places().to_vec(),
             sd: bins.sd(),

@@ -26,9 +26,6 @@ const CUTOFF: f64 = 1e-2;
 
 /// Residuals, in units of their expected size, below which a photograph is taken to be of an ideal fold.
 const IDEAL: f64 = 2.0;
-/// What no unknown explains in photographs.
-const MODEL_ERROR: ModelError = ModelError { shared: 0.012, own: 0.004, white: 0.004, at_crease: 0.05 };
-
 /// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
 const UNEXPLAINED: f64 = 0.3;
 
@@ -261,8 +258,20 @@ impl<'a> Estimator<'a> {
         }
         let Some(record) = &context.record else { return Ok(None) };
         let setting = FoldSetting::of(record)?;
-        let Some(parts) = PhotographedFold::of(&setting).parts(sample, known)? else { return Ok(None) };
-        photograph::estimate(&parts, prior, MODEL_ERROR).map(Some)
+        let parts = match PhotographedFold::of(&setting).parts(sample, known)? {
+            Ok(parts) => parts,
+            Err(why) => {
+                if !self.args.common.quiet {
+                    let (id, misfit) = (sample.id(), ideal.residual_rms);
+                    let text = format!(
+                        "{id}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what sets it apart is not estimated; expect errors beyond the bars"
+                    );
+                    cli::say("vestimate", &text);
+                }
+                return Ok(None);
+            }
+        };
+        photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS).map(Some)
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.

@@ -4,6 +4,7 @@ mod nonuniform;
 mod photograph;
 mod render;
 mod setup;
+mod sheet;
 mod subject;
 
 use std::path::PathBuf;
@@ -12,6 +13,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use render::RenderArgs;
 use setup::Setup;
+use sheet::SheetArgs;
 use subject::Subject;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
 use vfold::forward::bounces::Bounces;
@@ -43,7 +45,7 @@ struct Args {
     /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per
     /// facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
-        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render"])]
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "gloss", "body_roughness_deg", "fuzz"])]
     facet_reflectance: Vec<PathBuf>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
@@ -68,6 +70,8 @@ struct Args {
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    #[command(flatten)]
+    sheet: SheetArgs,
     #[command(flatten)]
     render: RenderArgs,
     #[command(flatten)]

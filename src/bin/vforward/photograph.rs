@@ -1,13 +1,13 @@
 //! The photograph of what is folded.
 
 use nalgebra::DMatrix;
-use vfold::Result;
 use vfold::camera::CameraResponse;
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::forward::render::{FoldView, Picture, ShapeView};
 use vfold::forward::{FacetModel, Lighting};
 use vfold::scene::{FoldSetting, Setting, SurfaceSetting};
 use vfold::stream::Corners;
+use vfold::{Error, Result};
 
 use super::render::say_corners;
 use super::setup::Setup;
@@ -52,7 +52,19 @@ impl Setup<'_> {
             fold.lighting()?
         };
         let model = fold.fine_model(view.grid(), &lighting)?;
-        Ok((view.take(&self.light(&model, reflectance)), view.corners()))
+        let light = match self.args.sheet.family()? {
+            None => self.light(&model, reflectance),
+            Some(_) if for_screen => {
+                let problem = "a sheet that is not perfectly matt is rendered as the camera sees it";
+                return Err(Error::usage("--render", problem, "give a name in .exr or .tif"));
+            }
+            Some(family) => {
+                let sheet = fold.folded_sheet(family, view.eye(), Some(view.grid()))?;
+                let albedo = sheet.albedo(reflectance)?;
+                self.light(&model, &albedo) + self.args.exposure * sheet.beyond(&albedo)
+            }
+        };
+        Ok((view.take(&light), view.corners()))
     }
 
     fn shape_picture(

@@ -18,8 +18,9 @@ pub struct RenderArgs {
     /// Size of the photograph
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
-    /// Where the camera stands, in the unit of the panels [default: off by a few degrees from where the sun is]
-    #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
+    /// Where the camera stands, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: off by a few
+    /// degrees from where the sun is]
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<Vector3<f64>>,
     /// What it looks at [default: the middle]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
 use vfold::forward::FacetModel;
-use vfold::forward::bounces::Bounces;
+use vfold::forward::bounces::{Bounces, Truncation};
 use vfold::forward::noise::Noise;
+use vfold::forward::render::FoldView;
 use vfold::parallel::{Item, in_order};
-use vfold::scene::{GivenKernel, Setting};
+use vfold::scene::{FoldedSheet, GivenKernel, Setting};
 use vfold::stream::{Corners, Output, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
@@ -27,6 +28,8 @@ pub struct Setup<'a> {
     pub(super) noise: Noise,
     pub(super) bounces: Bounces,
     pub(super) model: FacetModel,
+    /// What a sheet shows that is not perfectly matt.
+    sheet: Option<FoldedSheet>,
 }
 
 impl<'a> Setup<'a> {
@@ -38,7 +41,18 @@ impl<'a> Setup<'a> {
     ) -> Result<Self> {
         let setting = Setting::of(scene)?;
         let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
-        Ok(Self { args, scene, setting, given, noise, bounces, model })
+        let sheet = args.sheet.family()?.map(|family| match &setting {
+            Setting::Fold(fold) => {
+                let view = FoldView::new(fold.fold(), &args.render.viewpoint(), args.render.frame()?)?;
+                fold.folded_sheet(family, view.eye(), None)
+            }
+            Setting::Surface(_) => Err(Error::field(
+                "geometry",
+                "only a fold of two panels can be of a sheet that is not perfectly matt",
+            )),
+        });
+        let sheet = sheet.transpose()?;
+        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet })
     }
 
     /// Writes a sample a sheet or file; the first says where its panels are `seen`.
@@ -56,7 +70,7 @@ impl<'a> Setup<'a> {
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64, seen: &[(usize, Corners)]) -> Result<Sample> {
-        let (rgb, truncation) = self.bounces.facet_rgb(&self.model, &sheet.spectrum.reflectance);
+        let (rgb, truncation) = self.facet_rgb(&sheet.spectrum.reflectance)?;
         let mut sample = self.sample(&sheet.id, rgb, stream)?;
         truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
         sample.set_truth(&sheet.spectrum)?;
@@ -64,6 +78,14 @@ impl<'a> Setup<'a> {
             sample.set_panel_regions(path, self.args.render.size(), seen)?;
         }
         Ok(sample)
+    }
+
+    /// Facet RGB at exposure 1.
+    fn facet_rgb(&self, reflectance: &[f64]) -> Result<(DMatrix<f64>, Option<Truncation>)> {
+        let Some(sheet) = &self.sheet else { return Ok(self.bounces.facet_rgb(&self.model, reflectance)) };
+        let albedo = sheet.albedo(reflectance)?;
+        let (matt, truncation) = self.bounces.facet_rgb(&self.model, &albedo);
+        Ok((matt + sheet.beyond(&albedo), truncation))
     }
 
     /// One after the other: each keeps all threads busy.

@@ -37,6 +37,8 @@ pub struct Conditions {
     pub gloss_roughness: f64,
     /// Roughness of the body: Oren and Nayar's σ, degrees.
     pub body_roughness_deg: f64,
+    /// By how much the body is brighter where light grazes it, or the eye.
+    pub fuzz: f64,
 }
 
 /// What was said of a photograph.

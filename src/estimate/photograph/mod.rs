@@ -7,6 +7,7 @@
 //! that a prior of measured materials knows, and [`search`] finds the most probable spectrum under all of them.
 
 pub mod conditions;
+pub mod corners;
 pub mod error;
 pub mod model;
 pub mod parts;

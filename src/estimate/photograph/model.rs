@@ -12,6 +12,8 @@ use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
+/// Over so many nanometres what an instrument says is off alike.
+const INSTRUMENT_NM: f64 = 60.0;
 /// Of a value that is compared with a measured one, the least share of the brightest.
 const DARKEST: f64 = 1e-6;
 
@@ -119,6 +121,7 @@ impl<'a> PhotographModel<'a> {
             gloss: 0.0,
             gloss_roughness: 0.42,
             body_roughness_deg: 0.0,
+            fuzz: 0.0,
         };
         let [first, ..] = self.layout();
         for (n, expected) in self.unknowns.iter().enumerate() {
@@ -255,6 +258,24 @@ impl<'a> PhotographModel<'a> {
     fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
         let most = values.max();
         DVector::from_iterator(values.len(), values.transpose().iter().map(|value| value.max(DARKEST * most)))
+    }
+
+    /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
+    #[must_use]
+    pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
+        let wavelengths_nm = &self.parts.eye.wavelengths_nm;
+        let own = match self.kind {
+            Kind::Measured => self.parts.sheets.instrument.own,
+            Kind::Family => return None,
+        };
+        let (first, last) = (wavelengths_nm.first()?, wavelengths_nm.last()?);
+        let count = ((last - first) / INSTRUMENT_NM).ceil() as usize + 1;
+        let bump = |n: usize, nm: f64| (-((nm - first) / INSTRUMENT_NM - n as f64).powi(2)).exp();
+        let all = |nm: f64| (0..count).map(|n| bump(n, nm).powi(2)).sum::<f64>().sqrt();
+        Some(DMatrix::from_fn(count, albedo.len(), |n, band| {
+            let nm = wavelengths_nm[band];
+            own * albedo[band] * bump(n, nm) / all(nm)
+        }))
     }
 
     /// The Gaussian of logits of albedo.

@@ -1,6 +1,6 @@
 //! The most probable spectrum under all kinds of sheets and all classes of spectra.
 //!
-//! Every kind of sheet is tried under all spectra as one Gaussian; the kinds of most evidence are tried again under the classes that the
+//! Either kind of sheet is tried under all spectra as one Gaussian; those of evidence are tried again under the classes that the
 //! model, linearised there, leaves possible. What is reported is the mean over all of these, weighed by their evidence, and the error
 //! bars hold how far they are apart.
 
@@ -23,13 +23,10 @@ const TOLERANCE: f64 = 3e-2;
 /// Most iterations of a search.
 const SORTING_LIMIT: usize = 25;
 const LIMIT: usize = 60;
-/// Kinds of sheets and classes of spectra that are tried further, and the least evidence for one, as the logarithm of its share of the
-/// first's.
-const KINDS: usize = 3;
+/// Classes of spectra that are tried further, and the least evidence for one of them, or for a kind of sheets, as the logarithm of its
+/// share of the first's.
 const CLASSES: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -5.0;
-/// Share of families among kinds of sheets before the picture is looked at.
-const FAMILY_SHARE: f64 = 0.5;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
 /// Step of difference quotients, in standard deviations.
@@ -56,37 +53,28 @@ struct Maximum {
 pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
-    let kinds = kinds(parts);
-    let sorted = kinds.iter().filter_map(|(kind, ln_share)| {
-        let model = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
+    let kinds = [Kind::Family, Kind::Measured];
+    let sorted = kinds.into_iter().filter_map(|kind| {
+        let model = PhotographModel::new(parts, kind, prior.broad(), &whitening);
         let solution = search(&model, DVector::zeros(model.unknowns()), SORTING_TOLERANCE, SORTING_LIMIT);
-        let ln_evidence = ln_share + solution.ln_evidence(1.0)?;
-        ln_evidence.is_finite().then_some((ln_evidence, *kind, *ln_share, solution))
+        let ln_evidence = solution.ln_evidence(1.0)?;
+        ln_evidence.is_finite().then_some((ln_evidence, kind, solution))
     });
-    let sorted = most_evident(sorted.collect(), KINDS, |one| one.0);
-    let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.3.trace.clone()).collect();
+    let sorted = most_evident(sorted.collect(), kinds.len(), |one| one.0);
+    let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
     let mut maxima = Vec::new();
-    for (_, kind, ln_share, solution) in &sorted {
+    for (_, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
         let likely = prior.classes().iter().filter_map(|class| linear(&all, solution, class));
         for (_, class, start) in most_evident(likely.collect(), CLASSES, |one| one.0) {
             let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
             let found = search(&model, start, TOLERANCE, LIMIT);
-            maxima.extend(Maximum::of(&model, &found, ln_share + class.ln_share));
+            maxima.extend(Maximum::of(&model, &found, class.ln_share));
         }
     }
-    let maxima = most_evident(maxima, KINDS * CLASSES, |one| one.ln_evidence);
+    let maxima = most_evident(maxima, kinds.len() * CLASSES, |one| one.ln_evidence);
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
     mean(maxima, trace).ok_or_else(not_finite)
-}
-
-/// Kinds of sheets with the logarithms of their shares.
-fn kinds(parts: &Parts) -> Vec<(Kind, f64)> {
-    let measured = parts.sheets.measured.len();
-    let share = if measured == 0 { 1.0 } else { FAMILY_SHARE };
-    let each = ((1.0 - share) / measured.max(1) as f64).ln();
-    let all = (0..measured).map(|n| (Kind::Measured(n), each));
-    std::iter::once((Kind::Family, share.ln())).chain(all).collect()
 }
 
 fn search(model: &PhotographModel, start: DVector<f64>, tolerance: f64, limit: usize) -> Solution<()> {
@@ -160,7 +148,11 @@ impl Maximum {
         let lower = found.information()?.l();
         let residual_rms = (found.at.residuals.norm_squared() / found.at.residuals.len() as f64).sqrt();
         let widened = residual_rms.max(1.0);
-        let spread = widened * lower.solve_lower_triangular(&slopes.transpose())?;
+        let of_facets = widened * lower.solve_lower_triangular(&slopes.transpose())?;
+        let spread = model.instrument_errors(&point.albedo).map_or_else(
+            || of_facets.clone(),
+            |errors| DMatrix::from_rows(&of_facets.row_iter().chain(errors.row_iter()).collect::<Vec<_>>()),
+        );
         let own = lower.solve_lower_triangular(&DMatrix::identity(end, end))?;
         let sd = |n: usize| widened * own.column(n).norm();
         let fitted = model.scene_unknowns().iter().zip(scene..sheet).map(|(expected, n)| {

@@ -17,7 +17,16 @@ impl Departure {
         Self { radiance: Radiance::zeros(like.nrows(), like.ncols()), reflectance: [1.0, 0.0] }
     }
 
-    fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
+    /// What it has more than another.
+    #[must_use]
+    pub fn less(&self, other: &Self) -> Self {
+        let mut difference = self.clone();
+        difference.add(-1.0, other, [0.0; 2]);
+        difference
+    }
+
+    /// Adds a share of another, the reflectance of which counts from `reference`.
+    pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
             self.radiance.zip_apply(&other.radiance, |sum, one| *sum += share * one);
             let departed = other.reflectance.iter().zip(&reference);
@@ -46,18 +55,35 @@ pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
     body_roughness_deg: [0.0, 12.0, 25.0],
 };
 
-/// All kinds that are known.
+/// Sizes of fuzz at which it is known, on the family in the middle of [`FAMILY_NODES`].
+pub const FUZZ: [f64; 2] = [0.4, 1.0];
+/// How far sheets of a family vary beyond its numbers, relative to how far measured sheets differ.
+const FAMILY_VARIATION: f64 = 0.4;
+
+/// What is known of how sheets reflect.
 #[derive(Clone, Debug)]
 pub struct Sheets {
     /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength, roughness of the surface,
     /// roughness of the body, the last fastest.
     pub families: Vec<Departure>,
-    /// Measured sheets.
-    pub measured: Vec<Departure>,
-    /// How sheets of a kind differ, in units of a standard deviation: differences of departures.
+    /// What [`FUZZ`] changes.
+    pub fuzz: [Departure; 2],
+    /// The mean of measured sheets.
+    pub measured: Departure,
+    /// How measured sheets differ, in units of a standard deviation: differences of departures.
     pub variations: Vec<Departure>,
-    /// Standard deviation of what an instrument of 45:0 says of a sheet of a measured kind, relative to its albedo, that no facet tells.
-    pub instrument: f64,
+    /// What facets do not tell of measured sheets.
+    pub instrument: Instrument,
+}
+
+/// By how much more or less an instrument of 45:0 says of a sheet than sheets that send the same to the camera: standard deviations relative
+/// to the albedo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instrument {
+    /// In all wavebands alike.
+    pub shared: f64,
+    /// In each waveband for itself, smooth over the wavelengths.
+    pub own: f64,
 }
 
 /// The kind that a sheet is taken to be.
@@ -65,8 +91,8 @@ pub struct Sheets {
 pub enum Kind {
     /// A family: its numbers are among the conditions.
     Family,
-    /// Like one that was measured.
-    Measured(usize),
+    /// Like those that were measured.
+    Measured,
 }
 
 impl Sheets {
@@ -79,17 +105,17 @@ impl Sheets {
     /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
     #[must_use]
     pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
-        let mut sum = match kind {
-            Kind::Measured(n) => {
-                let mut own = self.measured[n].clone();
-                own.reflectance[0] += self.instrument * variations.last().copied().unwrap_or(0.0);
-                own
+        let (mut sum, variation) = match kind {
+            Kind::Measured => {
+                let mut mean = self.measured.clone();
+                mean.reflectance[0] += self.instrument.shared * variations.last().copied().unwrap_or(0.0);
+                (mean, 1.0)
             }
             // of a family the formula tells it
-            Kind::Family => self.family(conditions),
+            Kind::Family => (self.family(conditions), FAMILY_VARIATION),
         };
-        for (variation, size) in self.variations.iter().zip(variations) {
-            sum.add(*size, variation, [0.0, 0.0]);
+        for (own, size) in self.variations.iter().zip(variations) {
+            sum.add(variation * size, own, [0.0, 0.0]);
         }
         sum
     }
@@ -106,6 +132,9 @@ impl Sheets {
             let share = shares[0][n / 9] * shares[1][n / 3 % 3] * shares[2][n % 3];
             sum.add(share, departure, [1.0, 0.0]);
         }
+        let ([a, b], fuzz) = (FUZZ, conditions.fuzz);
+        sum.add(fuzz * (fuzz - b) / (a * (a - b)), &self.fuzz[0], [0.0, 0.0]);
+        sum.add(fuzz * (fuzz - a) / (b * (b - a)), &self.fuzz[1], [0.0, 0.0]);
         sum
     }
 }

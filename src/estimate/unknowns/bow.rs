@@ -15,7 +15,7 @@ pub static BOW: Unknown = Unknown {
 };
 
 /// Sheets that are held at their edges turn by a few degrees.
-const PRIOR: Normal = Normal { mean: 0.0, sd: 2.0 };
+const PRIOR: Normal = Normal { mean: 0.0, sd: 1.5 };
 
 fn prior(_: &Told) -> Option<Normal> {
     Some(PRIOR)

@@ -18,7 +18,7 @@ pub static EXPOSURE: Unknown = Unknown {
 /// the sheet is, nor turned as it was said to be; and one that is not known.
 const GIVEN_SD: f64 = 0.02;
 const CHART_SD: f64 = 0.04;
-const FREE_SD: f64 = 1.0;
+const FREE_SD: f64 = 0.6;
 
 fn of_photograph(told: &Told) -> Option<Normal> {
     let sd = if told.by_chart { CHART_SD } else { GIVEN_SD };

@@ -16,6 +16,7 @@ mod crease;
 mod exposure;
 mod factor;
 mod first_gain;
+mod fuzz;
 mod glare;
 mod gloss;
 mod gloss_roughness;
@@ -41,6 +42,7 @@ use crease::CREASE;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
 use first_gain::FIRST_GAIN;
+use fuzz::FUZZ;
 use glare::GLARE;
 use gloss::GLOSS;
 use gloss_roughness::GLOSS_ROUGHNESS;
@@ -71,6 +73,7 @@ pub static TABLE: &[&Unknown] = &[
     &GLOSS,
     &GLOSS_ROUGHNESS,
     &BODY_ROUGHNESS,
+    &FUZZ,
     &CREASE,
     &BOW,
     &BOW_DIFFERENCE,

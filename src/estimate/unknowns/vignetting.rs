@@ -15,7 +15,7 @@ pub static VIGNETTING: Unknown = Unknown {
 };
 
 /// Lenses lose 0 to 30 %.
-const PRIOR: Normal = Normal { mean: 0.8, sd: 1.1 };
+const PRIOR: Normal = Normal { mean: 0.8, sd: 0.8 };
 
 fn prior(_: &Told) -> Option<Normal> {
     Some(PRIOR)

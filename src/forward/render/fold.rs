@@ -62,6 +62,12 @@ impl FoldView {
         self.panels.iter().enumerate().filter_map(|(k, panel)| Some((k, seen(panel)?))).collect()
     }
 
+    /// Where the camera stands, in the fold's unit.
+    #[must_use]
+    pub fn eye(&self) -> Vector3<f64> {
+        self.camera.position()
+    }
+
     /// Cells of a panel whose light a picture needs.
     #[must_use]
     pub fn grid(&self) -> FacetGrid {

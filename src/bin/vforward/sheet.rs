@@ -1,0 +1,51 @@
+//! How the sheet reflects, beside its reflectance.
+
+use clap::Args;
+use vfold::sheet::Family;
+use vfold::{Error, Result};
+
+#[derive(Args)]
+#[command(next_help_heading = "Sheet")]
+pub struct SheetArgs {
+    /// Strength of the surface's reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye
+    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    gloss: f64,
+    /// Roughness of the surface: alpha of its microfacets (GGX), above 0 to 1
+    #[arg(long, value_name = "X", default_value_t = 0.42, allow_negative_numbers = true)]
+    gloss_roughness: f64,
+    /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    body_roughness_deg: f64,
+    /// By how much the body is brighter where light grazes it, or the eye, as that of felt
+    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    fuzz: f64,
+}
+
+impl SheetArgs {
+    /// The family; none if the sheet is perfectly matt.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if a number is out of its range.
+    pub fn family(&self) -> Result<Option<Family>> {
+        let Self { gloss, gloss_roughness, body_roughness_deg, fuzz } = *self;
+        let within = |flag, value: f64, most: f64| {
+            if (0.0..=most).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::usage(flag, format!("{value} is out of range"), format!("give 0 to {most}")))
+        };
+        within("--gloss", gloss, 2.0)?;
+        within("--gloss-roughness", gloss_roughness, 1.0)?;
+        within("--body-roughness-deg", body_roughness_deg, 45.0)?;
+        within("--fuzz", fuzz, 2.0)?;
+        if gloss > 0.0 && gloss_roughness < LEAST_ROUGHNESS {
+            let problem = format!("a surface of roughness {gloss_roughness} is a mirror");
+            return Err(Error::usage("--gloss-roughness", problem, format!("give {LEAST_ROUGHNESS} to 1")));
+        }
+        let is_matt = [gloss, body_roughness_deg, fuzz].iter().all(|effect| *effect <= 0.0);
+        Ok((!is_matt).then_some(Family { body_roughness_deg, gloss, roughness: gloss_roughness, fuzz }))
+    }
+}
+
+/// Narrower reflections than those of this roughness are not seen by the patches that light is exchanged between.
+const LEAST_ROUGHNESS: f64 = 0.15;

@@ -1,0 +1,22 @@
+//! Fibres that stand up from the sheet.
+
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+
+/// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
+pub static FUZZ: Unknown = Unknown {
+    name: "fuzz",
+    about: "By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive { unit: 0.15 },
+    role: Role::Photograph,
+    photograph: Some(Effect { prior, set: |conditions, value| conditions.fuzz = value }),
+};
+
+/// Paper and paint have next to none, cloth some, felt up to 1.
+const PRIOR: Normal = Normal { mean: -2.0, sd: 2.5 };
+
+fn prior(_: &Told) -> Option<Normal> {
+    Some(PRIOR)
+}

@@ -1,0 +1,106 @@
+//! A fold of a sheet that is not Lambertian, seen by a camera from where it stands.
+
+use nalgebra::{DMatrix, Point3, Vector3};
+use ndarray::{Array2, Axis};
+
+use super::FoldSetting;
+use crate::camera::CameraResponse;
+use crate::error::{Error, Result};
+use crate::estimate::photograph::model::nodes;
+use crate::geometry::{FacetGrid, Fold, Light, Spacing};
+use crate::kernel::quadrature::Lagrange;
+use crate::sheet::{Family, Shape};
+use crate::transport::departures;
+
+/// Nodes of albedo.
+const NODES: usize = 10;
+
+/// What a sheet of a family shows beyond a Lambertian one.
+pub struct FoldedSheet {
+    shape: Shape,
+    nodes: Lagrange,
+    /// What facets have more, facet by node.
+    beyond: Array2<f64>,
+    camera: CameraResponse,
+}
+
+impl FoldSetting<'_> {
+    /// A sheet of a family in this fold, seen from `eye` in the fold's unit, on the facets of the scene or on others that are `finer`.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the scene has a card, panels of different depth, or more than one light.
+    pub fn folded_sheet(
+        &self,
+        family: Family,
+        eye: Vector3<f64>,
+        finer: Option<FacetGrid>,
+    ) -> Result<FoldedSheet> {
+        let refuse = |field, problem: &str| Err(Error::field(field, problem.to_owned()));
+        if self.card()?.is_some() {
+            return refuse("reference_panel", "a sheet that is not perfectly matt is folded alone");
+        }
+        if !self.fold().is_symmetric() {
+            return refuse("geometry", "a sheet that is not perfectly matt needs two panels of one depth");
+        }
+        if self.pictures()? != 1 {
+            return refuse("illuminants", "a sheet that is not perfectly matt is seen under one light");
+        }
+        let fold = match finer {
+            Some(grid) => self.fold().with_facets(grid)?.with_spacing(Spacing::Uniform),
+            None => self.fold().clone(),
+        };
+        Ok(FoldedSheet::new(&fold, &self.light()?, self.lighting()?.sun, family, eye))
+    }
+}
+
+impl FoldedSheet {
+    fn new(fold: &Fold, light: &Light, camera: CameraResponse, family: Family, eye: Vector3<f64>) -> Self {
+        let (shape, nodes) = (Shape::from(family), nodes(NODES));
+        let all =
+            departures(fold, &light.towards(), &Point3::from(eye), std::slice::from_ref(&shape), &nodes);
+        let beyond = all.index_axis(Axis(0), 0).to_owned();
+        Self { shape, nodes: Lagrange::new(&nodes), beyond, camera }
+    }
+
+    /// Albedo of the sheet of this 45:0 reflectance in every waveband.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if no such sheet has it: what its surface reflects is more, or it would send out more light than it gets.
+    pub fn albedo(&self, reflectance: &[f64]) -> Result<Vec<f64>> {
+        let [slope, offset] = self.shape.slope_and_offset();
+        let of = |reflectance: &f64| {
+            let albedo = (reflectance - offset) / slope;
+            if (0.0..=1.0).contains(&albedo) {
+                return Ok(albedo);
+            }
+            let problem = format!(
+                "no sheet with this surface and body reflects {reflectance} at 45:0 ({:.3} to {:.3})",
+                offset.max(0.0),
+                slope + offset
+            );
+            Err(Error::usage("--reflectance", problem, "give another, or less gloss, roughness and fuzz"))
+        };
+        reflectance.iter().map(of).collect()
+    }
+
+    /// What facets have beyond those of a Lambertian sheet of this albedo under the sun: facet by channel.
+    #[must_use]
+    pub fn beyond(&self, albedo: &[f64]) -> DMatrix<f64> {
+        let (facets, nodes) = self.beyond.dim();
+        let mut shares = vec![0.0; nodes];
+        let mut rgb = DMatrix::zeros(facets, self.camera.channels());
+        for (band, albedo) in albedo.iter().enumerate() {
+            if !self.camera.sees(band) {
+                continue;
+            }
+            self.nodes.at(*albedo, &mut shares);
+            for (facet, beyond) in self.beyond.axis_iter(Axis(0)).enumerate() {
+                let light: f64 = beyond.iter().zip(&shares).map(|(beyond, share)| beyond * share).sum();
+                for channel in 0..rgb.ncols() {
+                    rgb[(facet, channel)] += light * self.camera.channel(channel)[band];
+                }
+            }
+        }
+        rgb
+    }
+}
