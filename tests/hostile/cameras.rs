@@ -110,11 +110,7 @@ END
     assert_refused(
         &setup,
         &[
-            case(
-                "sh extract 'NIKON D5200.tif'",
-                2,
-                &["'NIKON NIKON D5200'", "nikon-d5100", "--list cameras"],
-            ),
+            case("sh extract 'NIKON D5200.tif'", 2, &["'NIKON NIKON D5200'", "--list cameras"]),
             case("sh extract 'iPhone 12.tif'", 2, &["'NIKON iPhone 12'", "not known; name one", "rawtoaces"]),
         ],
     );

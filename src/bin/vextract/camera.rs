@@ -4,9 +4,9 @@ use vfold::image::Photograph;
 use vfold::{Error, Result, spectrum};
 
 /// The camera that was named, or the one that the first photograph names; none only if that cannot be read.
-pub fn camera<'a>(named: Option<&'a str>, first: Option<&Photograph>) -> Result<Option<&'a str>> {
+pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<String>> {
     if let Some(camera) = named {
-        return Ok(Some(camera));
+        return Ok(Some(camera.to_owned()));
     }
     let Some(info) = first.map(Photograph::info) else { return Ok(None) };
     let (make, model) =
@@ -24,9 +24,5 @@ fn unknown(make: &str, model: &str) -> Error {
         return Error::usage("--camera", "the photograph names no camera", REMEDY);
     }
     let problem = format!("the photograph names '{make} {model}', whose sensitivities are not known");
-    let remedy = match spectrum::cameras_like(model).as_slice() {
-        [] => REMEDY.to_owned(),
-        near => format!("{} is called much like it; {REMEDY}", near.join(" or ")),
-    };
-    Error::usage("--camera", problem, remedy)
+    Error::usage("--camera", problem, REMEDY)
 }

@@ -119,7 +119,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut scene = read_scene(&args.scene)?;
     let first = Photograph::open(&images[0], &options);
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        scene.set_optics(&args.optics.resolve(camera, &args.common)?)?;
+        scene.set_optics(&args.optics.resolve(&camera, &args.common)?)?;
     }
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
