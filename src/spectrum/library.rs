@@ -3,7 +3,7 @@
 pub use super::names::What;
 use super::names::{same_name, unknown};
 use super::tables::builtin;
-use super::{Spectrum, cameras, daylight, munsell, own};
+use super::{ClearSky, Spectrum, Sun, cameras, daylight, munsell, own};
 use crate::error::{Error, Result};
 
 /// A table embedded in the program, with the file it was made from.
@@ -104,7 +104,11 @@ fn listed(what: What) -> Result<Vec<(String, String)>> {
         What::Illuminants => {
             let cie = cie_illuminants()?;
             let daylight = ("daylight:CCT", "CIE daylight of 4000..25000 K, such as daylight:5500");
-            rows(cie.iter().map(|cie| (cie.name(), about(cie.name()))).chain([daylight]))
+            let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
+            let sky =
+                "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
+            let computed = [daylight, ("sun:WHERE", sun), ("sky:WHERE", sky)];
+            rows(cie.iter().map(|cie| (cie.name(), about(cie.name()))).chain(computed))
         }
     })
 }
@@ -174,6 +178,17 @@ fn members_called(name: &str, mut members: Vec<Spectrum>) -> Result<Vec<Spectrum
 }
 
 fn illuminant(name: &str) -> Result<Option<Spectrum>> {
+    let clear_sky = |place| Sun::parse(place).map(ClearSky::usual);
+    let named = |spectrum: Spectrum| Some(spectrum.renamed(|_| name.to_owned()));
+    match name.split_once(':') {
+        Some(("sun", place)) => clear_sky(place)?.direct().map(named),
+        Some(("sky", place)) => clear_sky(place)?.diffuse().map(named),
+        _ => cie_illuminant(name),
+    }
+}
+
+/// One of the tables, or daylight of a colour temperature.
+fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
     let Some(cct_k) = name.strip_prefix("daylight:") else {
         return Ok(cie_illuminants()?.into_iter().find(|cie| same_name(cie.name(), name)));
     };
@@ -207,12 +222,12 @@ mod tests {
 
     #[test]
     fn every_listed_name_is_found() {
-        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 54), (What::Illuminants, 47)] {
+        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 54), (What::Illuminants, 49)] {
             let names = listed(what).unwrap();
             assert_eq!(names.len(), count);
             for (name, _) in names {
                 assert!(
-                    find(what, &name.replace("CCT", "5500")).unwrap().is_some(),
+                    find(what, &name.replace("CCT", "5500").replace("WHERE", "40deg")).unwrap().is_some(),
                     "{name}"
                 );
             }

@@ -4,6 +4,7 @@
 //! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
 
 mod cameras;
+mod clear_sky;
 mod daylight;
 pub mod formats;
 mod grid;
@@ -14,15 +15,18 @@ mod munsell;
 mod names;
 mod own;
 pub mod spec;
+mod sun;
 mod tables;
 
 pub use cameras::{MeasuredCamera, measured_cameras, measured_curves};
+pub use clear_sky::ClearSky;
 pub use daylight::{daylight_vectors, daylight_weights};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;
 pub use library::camera_by_exif;
 pub use spec::{camera, illuminant, reflectances};
+pub use sun::Sun;
 
 use crate::error::{Error, Result};
 use interpolation::sprague;

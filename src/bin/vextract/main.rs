@@ -3,6 +3,7 @@
 mod batch;
 mod calibration;
 mod camera;
+mod light;
 mod list;
 mod panels;
 mod pictures;
@@ -118,8 +119,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
     let mut scene = read_scene(&args.scene)?;
     let first = Photograph::open(&images[0], &options);
+    let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        scene.set_optics(&args.optics.resolve(&camera, &args.common)?)?;
+        let (optics, assumed) = light::optics(&args.optics, first.as_ref().ok());
+        scene.set_optics(&optics.resolve(&camera, &args.common)?)?;
+        said.extend(assumed.filter(|_| !args.common.quiet));
     }
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
@@ -145,9 +149,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;
+        said.iter().for_each(|line| cli::say("vextract", line));
         out.scene(&scene)?;
         return out.sample(&sample);
     }
+    said.iter().for_each(|line| cli::say("vextract", line));
     out.expect(images.len());
     out.scene(&scene)?;
     let kept = out.kept()?;

@@ -1,6 +1,7 @@
 //! What a camera wrote beside the picture.
 
 use super::orientation::Orientation;
+use super::taken::Taken;
 
 /// The few EXIF fields that matter to a measurement.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,6 +16,8 @@ pub struct CameraNotes {
     pub f_number: Option<f64>,
     /// ISO sensitivity.
     pub iso: Option<u32>,
+    /// Where, when and in which light it was taken.
+    pub taken: Taken,
     /// How the picture was stored.
     pub orientation: Orientation,
     /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.

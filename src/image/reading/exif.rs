@@ -7,6 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use exif::{Context, Exif, In, Reader, Tag, Value};
 
+use super::exif_taken::taken;
 use crate::image::photograph::{CameraNotes, Orientation};
 
 /// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
@@ -49,6 +50,7 @@ pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
         iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
         orientation: field(Tag::Orientation)
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
+        taken: exif.as_ref().map(taken).unwrap_or_default(),
         is_raw: exif.as_ref().is_some_and(is_raw),
         notes,
     }

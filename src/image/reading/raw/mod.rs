@@ -1,6 +1,7 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
 mod sensor;
+mod taken;
 mod tiff_directories;
 
 use std::any::Any;
@@ -122,6 +123,7 @@ fn camera_notes(image: &RawImage, exif: &Exif) -> CameraNotes {
         f_number: ratio(&exif.fnumber),
         iso: exif.iso_speed_ratings.map(u32::from).or(exif.iso_speed),
         orientation: Orientation::from_exif(exif.orientation.unwrap_or(1).into()).unwrap_or_default(),
+        taken: taken::taken(exif),
         ..CameraNotes::default()
     }
 }
