@@ -278,6 +278,7 @@ impl OpticsArgs {
                     .iter()
                     .find_map(|channel| channel.interpolation(&grid))
                     .map(name),
+                stands_in: None,
             },
             illuminants: match self.illuminant.as_slice() {
                 [] => vec![light(&DAYLIGHT.to_owned())?],

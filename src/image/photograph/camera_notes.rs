@@ -16,6 +16,8 @@ pub struct CameraNotes {
     pub f_number: Option<f64>,
     /// ISO sensitivity.
     pub iso: Option<u32>,
+    /// Rows of the matrix from XYZ to its R, G and B in daylight, as DNG has it.
+    pub xyz_to_camera: Option<[[f64; 3]; 3]>,
     /// Where, when and in which light it was taken.
     pub taken: Taken,
     /// How the picture was stored.
