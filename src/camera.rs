@@ -1,4 +1,12 @@
-//! From the spectrum of light to the numbers of a camera.
+//! From the spectrum of light to the numbers of a camera, and what is known of cameras that nobody measured.
+
+mod from_chart;
+mod measured;
+mod stand_in;
+
+pub use from_chart::{ChartCamera, ChartPatch};
+pub use measured::{KnownCurves, curve_error, known_curves};
+pub use stand_in::{ColourMatrix, LeftOut, StandIn, StandIns, Why};
 
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;

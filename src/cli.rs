@@ -211,15 +211,19 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
     numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| "write X,Y,Z, three numbers".to_owned())
 }
 
+/// What lights a fold if nothing is said.
+const DAYLIGHT: &str = "D65";
+
 /// Camera, illuminants and wavelengths: what looks at a fold.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one
-    /// picture with these in the order of the lights, skies aside
-    #[arg(long, value_name = "SPEC", default_value = "D65")]
+    /// Illuminant: built-in name, daylight:CCT, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a
+    /// picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
+    /// [default: D65; of a photograph that says where and when it was taken, the sun's]
+    #[arg(long, value_name = "SPEC")]
     pub illuminant: Vec<String>,
-    /// Illuminant of the sky [default: that of the sun]
+    /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]
     #[arg(long, value_name = "SPEC")]
     pub sky_illuminant: Option<String>,
     /// Wavelengths, nm
@@ -242,6 +246,7 @@ impl OpticsArgs {
     /// [`Error::Usage`] if there are several; `why` one is all that the tool takes.
     pub fn one_illuminant(&self, why: &str) -> Result<&str> {
         match self.illuminant.as_slice() {
+            [] => Ok(DAYLIGHT),
             [one] => Ok(one),
             several => Err(Error::usage("--illuminant", format!("{} are given", several.len()), why)),
         }
@@ -273,10 +278,28 @@ impl OpticsArgs {
                     .iter()
                     .find_map(|channel| channel.interpolation(&grid))
                     .map(name),
+                stands_in: None,
             },
-            illuminants: self.illuminant.iter().map(light).collect::<Result<_>>()?,
-            sky: self.sky_illuminant.as_ref().map(light).transpose()?,
+            illuminants: match self.illuminant.as_slice() {
+                [] => vec![light(&DAYLIGHT.to_owned())?],
+                given => given.iter().map(light).collect::<Result<_>>()?,
+            },
+            sky: self.sky()?.as_ref().map(light).transpose()?,
             grid,
         })
+    }
+
+    /// The spectrum of the sky; `sky` alone goes with the sun.
+    fn sky(&self) -> Result<Option<String>> {
+        match (self.sky_illuminant.as_deref(), self.illuminant.as_slice()) {
+            (Some("sky"), [sun, ..]) if sun.starts_with("sun:") => Ok(Some(sun.replacen("sun:", "sky:", 1))),
+            (Some("sky"), _) => {
+                let problem = "the sky of which sun?";
+                let remedy =
+                    "give --illuminant sun:40deg or sun:LAT,LON,TIME with it, or --sky-illuminant sky:40deg";
+                Err(Error::usage("--sky-illuminant", problem, remedy))
+            }
+            (spec, _) => Ok(spec.map(str::to_owned)),
+        }
     }
 }

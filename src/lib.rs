@@ -43,7 +43,7 @@
 //! response             -> solve
 //! plot                 -> image, geometry, files, markup
 //! image                -> colorimetry, files
-//! score                -> colorimetry
+//! score, camera        -> colorimetry
 //! camera, colorimetry  -> spectrum
 //! spectrum             -> files, markup
 //! progress             -> message

@@ -33,7 +33,7 @@ pub use measuring::{
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{
-    CameraNotes, FlatField, Mosaic, Orientation, Photograph, PhotographInfo, Pixel, SensorInfo,
+    CameraNotes, FlatField, Mosaic, Orientation, Photograph, PhotographInfo, Pixel, SensorInfo, Taken,
 };
 pub use placing::{
     CHART_CORNERS, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,

@@ -1,9 +1,9 @@
 //! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
 
 pub use super::names::What;
-use super::names::{nearest, same_name, unknown};
+use super::names::{same_name, unknown};
 use super::tables::builtin;
-use super::{Spectrum, daylight, munsell, own};
+use super::{ClearSky, Spectrum, Sun, cameras, daylight, munsell, own};
 use crate::error::{Error, Result};
 
 /// A table embedded in the program, with the file it was made from.
@@ -87,8 +87,7 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn list(what: What) -> Result<Vec<(String, String)>> {
-    let mut rows: Vec<(String, String)> =
-        listed(what)?.into_iter().map(|(name, about)| (name, about.to_owned())).collect();
+    let mut rows = listed(what)?;
     for file in own::files()? {
         let hidden = if find(what, &file.name)?.is_some() { "; the built-in one has the name" } else { "" };
         let about = format!("own, {} in {}{hidden}", file.file_name(), own::VARIABLE);
@@ -98,17 +97,32 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
 }
 
 /// What is built in.
-fn listed(what: What) -> Result<Vec<(String, &'static str)>> {
+fn listed(what: What) -> Result<Vec<(String, String)>> {
     Ok(match what {
-        What::Cameras => CAMERAS.iter().map(|camera| (camera.name.to_owned(), camera.about)).collect(),
-        What::Reflectances => REFLECTANCE_SETS.iter().map(|set| (set.name.to_owned(), set.about)).collect(),
+        What::Cameras => listed_cameras(),
+        What::Reflectances => rows(REFLECTANCE_SETS.iter().map(|set| (set.name, set.about))),
         What::Illuminants => {
             let cie = cie_illuminants()?;
-            let mut rows: Vec<_> = cie.iter().map(|cie| (cie.name().to_owned(), about(cie.name()))).collect();
-            rows.push(("daylight:CCT".into(), "CIE daylight of 4000..25000 K, such as daylight:5500"));
-            rows
+            let daylight = ("daylight:CCT", "CIE daylight of 4000..25000 K, such as daylight:5500");
+            let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
+            let sky =
+                "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
+            let computed = [daylight, ("sun:WHERE", sun), ("sky:WHERE", sky)];
+            rows(cie.iter().map(|cie| (cie.name(), about(cie.name()))).chain(computed))
         }
     })
+}
+
+fn rows<'a>(rows: impl Iterator<Item = (&'a str, &'a str)>) -> Vec<(String, String)> {
+    rows.map(|(name, about)| (name.to_owned(), about.to_owned())).collect()
+}
+
+/// The first three, then those of rawtoaces-data but for one that is among the three.
+fn listed_cameras() -> Vec<(String, String)> {
+    let first = rows(CAMERAS.iter().map(|camera| (camera.name, camera.about)));
+    let measured = cameras::measured_cameras().map(|camera| (camera.name(), camera.about()));
+    let others = measured.filter(|(name, _)| CAMERAS.iter().all(|camera| camera.name != name.as_str()));
+    first.into_iter().chain(others).collect()
 }
 
 fn about(illuminant: &str) -> &'static str {
@@ -137,8 +151,11 @@ fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
 pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
     match what {
         What::Cameras => {
-            let camera = CAMERAS.iter().find(|camera| same_name(camera.name, name));
-            camera.map(|camera| (camera.channels)()).transpose()
+            let channels = match CAMERAS.iter().find(|camera| same_name(camera.name, name)) {
+                Some(camera) => Some((camera.channels)()),
+                None => cameras::by_name(name).map(|camera| camera.channels()),
+            };
+            channels.transpose()
         }
         What::Illuminants => Ok(illuminant(name)?.map(|illuminant| vec![illuminant])),
         What::Reflectances => {
@@ -161,6 +178,17 @@ fn members_called(name: &str, mut members: Vec<Spectrum>) -> Result<Vec<Spectrum
 }
 
 fn illuminant(name: &str) -> Result<Option<Spectrum>> {
+    let clear_sky = |place| Sun::parse(place).map(ClearSky::usual);
+    let named = |spectrum: Spectrum| Some(spectrum.renamed(|_| name.to_owned()));
+    match name.split_once(':') {
+        Some(("sun", place)) => clear_sky(place)?.direct().map(named),
+        Some(("sky", place)) => clear_sky(place)?.diffuse().map(named),
+        _ => cie_illuminant(name),
+    }
+}
+
+/// One of the tables, or daylight of a colour temperature.
+fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
     let Some(cct_k) = name.strip_prefix("daylight:") else {
         return Ok(cie_illuminants()?.into_iter().find(|cie| same_name(cie.name(), name)));
     };
@@ -172,37 +200,20 @@ fn illuminant(name: &str) -> Result<Option<Spectrum>> {
     daylight::daylight(cct_k).map(Some)
 }
 
-/// The built-in cameras whose EXIF model is like this one, nearest first, at most three.
-///
-/// # Example
-/// ```
-/// use vfold::spectrum::cameras_like;
-/// assert_eq!(cameras_like("Canon EOS 5D Mark III"), ["canon-5d-mark-ii"]);
-/// assert!(cameras_like("iPhone 12").is_empty());
-/// ```
-#[must_use]
-pub fn cameras_like(model: &str) -> Vec<&'static str> {
-    let name = |near| CAMERAS.iter().find(|camera| camera.exif_model == near).map(|camera| camera.name);
-    let near = if model.is_empty() {
-        Vec::new()
-    } else {
-        nearest(model, CAMERAS.iter().map(|camera| camera.exif_model))
-    };
-    near.into_iter().filter_map(name).collect()
-}
-
 /// The built-in camera that writes these EXIF fields Make and Model into its pictures.
 ///
 /// # Example
 /// ```
 /// use vfold::spectrum::camera_by_exif;
-/// assert_eq!(camera_by_exif("Canon", "Canon EOS 5D Mark II"), Some("canon-5d-mark-ii"));
+/// assert_eq!(camera_by_exif("Canon", "Canon EOS 5D Mark II").as_deref(), Some("canon-5d-mark-ii"));
+/// assert_eq!(camera_by_exif("NIKON CORPORATION", "NIKON D70").as_deref(), Some("nikon-d70"));
 /// assert_eq!(camera_by_exif("Canon", "Canon EOS 1000D"), None);
 /// ```
 #[must_use]
-pub fn camera_by_exif(make: &str, model: &str) -> Option<&'static str> {
+pub fn camera_by_exif(make: &str, model: &str) -> Option<String> {
     let found = |camera: &&Camera| same_name(camera.exif_make, make) && same_name(camera.exif_model, model);
-    CAMERAS.iter().find(found).map(|camera| camera.name)
+    let first = CAMERAS.iter().find(found).map(|camera| camera.name.to_owned());
+    first.or_else(|| cameras::by_exif(make, model).map(|camera| camera.name()))
 }
 
 #[cfg(test)]
@@ -211,11 +222,14 @@ mod tests {
 
     #[test]
     fn every_listed_name_is_found() {
-        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 3), (What::Illuminants, 47)] {
+        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 54), (What::Illuminants, 49)] {
             let names = listed(what).unwrap();
             assert_eq!(names.len(), count);
             for (name, _) in names {
-                assert!(find(what, &name.replace("CCT", "5500")).unwrap().is_some(), "{name}");
+                assert!(
+                    find(what, &name.replace("CCT", "5500").replace("WHERE", "40deg")).unwrap().is_some(),
+                    "{name}"
+                );
             }
         }
     }
@@ -233,6 +247,6 @@ mod tests {
 
     #[test]
     fn exif_may_be_padded_or_in_capitals() {
-        assert_eq!(camera_by_exif("SIGMA ", "Sigma SD1 MERRILL"), Some("sigma-sd-merrill"));
+        assert_eq!(camera_by_exif("SIGMA ", "Sigma SD1 MERRILL").as_deref(), Some("sigma-sd-merrill"));
     }
 }

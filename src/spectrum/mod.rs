@@ -3,6 +3,8 @@
 //! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the files are
 //! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
 
+mod cameras;
+mod clear_sky;
 mod daylight;
 pub mod formats;
 mod grid;
@@ -13,14 +15,18 @@ mod munsell;
 mod names;
 mod own;
 pub mod spec;
+mod sun;
 mod tables;
 
+pub use cameras::{MeasuredCamera, measured_cameras, measured_curves};
+pub use clear_sky::ClearSky;
 pub use daylight::{daylight_vectors, daylight_weights};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;
-pub use library::{camera_by_exif, cameras_like};
+pub use library::camera_by_exif;
 pub use spec::{camera, illuminant, reflectances};
+pub use sun::Sun;
 
 use crate::error::{Error, Result};
 use interpolation::sprague;

@@ -1,7 +1,7 @@
 //! SPEC, the way the command line names spectra.
 //!
-//! In this order: a number (flat), a built-in name, `set:member` or `daylight:CCT`, the same in the directory `VFOLD_DATA`, a file, one
-//! column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
+//! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `sun:WHERE` or `sky:WHERE`, the same in the directory
+//! `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
 
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};

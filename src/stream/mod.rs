@@ -57,7 +57,7 @@ pub use history::HistoryRecord;
 pub use materials::Material;
 pub use npy::{ArrayStack, write_matrix};
 pub use npy_reader::{read_matrix, read_rows, read_square};
-pub use optics::{CameraRecord, Optics, SpectrumRecord};
+pub use optics::{CameraRecord, Optics, SpectrumRecord, StandInRecord};
 pub use outline::{FieldOutline, RecordOutline, outline};
 pub use photograph::ImageRecord;
 pub use pipe::{Transform, pipe};

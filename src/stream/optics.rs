@@ -34,6 +34,21 @@ pub struct CameraRecord {
     /// How they were found between samples, where they were: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
+    /// What it stands in for, if another camera took the photograph.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stands_in: Option<StandInRecord>,
+}
+
+/// The camera that took a photograph, if nobody measured its curves and another's stand in for them.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
+pub struct StandInRecord {
+    /// Maker and model as the photograph has them.
+    pub camera: String,
+    /// Why the other one stands in for it.
+    pub why: String,
+    /// How far off the other one's curves are in the mean of such cases, root mean square, green's peak being 1.
+    #[schemars(range(min = 0))]
+    pub curve_error: f64,
 }
 
 /// What looks at a fold and in which light, all on one grid of wavelengths.

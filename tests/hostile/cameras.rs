@@ -98,10 +98,7 @@ fn cameras_that_are_not_known() {
     let setup = format!(
         r#"
         vkernel --facets 1x1 -o scene.json
-        # oiiotool reads and writes a TIFF's Make and Model
-        for model in 'NIKON D5200' 'iPhone 12'; do
-            oiiotool '{PHOTOS}/f_srgb_blue_flower_50.jpg' --attrib Make NIKON --attrib Model "$model" -o "$model.tif"
-        done
+        oiiotool '{PHOTOS}/f_srgb_blue_flower_50.jpg' --attrib Make NIKON --attrib Model '' -o modelless.tif
         cat > extract <<'END'
         vextract "$1" --panel0 '301.7,395.3 289.6,54.6 167.5,60.2 183.6,458.9' --scene scene.json
 END
@@ -109,14 +106,7 @@ END
     );
     assert_refused(
         &setup,
-        &[
-            case(
-                "sh extract 'NIKON D5200.tif'",
-                2,
-                &["'NIKON NIKON D5200'", "nikon-d5100", "--list cameras"],
-            ),
-            case("sh extract 'iPhone 12.tif'", 2, &["'NIKON iPhone 12'", "not known; name one", "rawtoaces"]),
-        ],
+        &[case("sh extract modelless.tif", 2, &["names no camera", "--list cameras", "rawtoaces"])],
     );
 }
 

@@ -5,6 +5,8 @@
 
 mod bent;
 mod calibration;
+mod cameras;
+mod clear_sky;
 mod colorimetry;
 #[path = "../common/mod.rs"]
 mod common;

@@ -4,11 +4,13 @@
 // a test stops at the first surprise, and prints what it measured
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod cameras;
 mod cli;
 mod cluster;
 #[path = "../common/mod.rs"]
 mod common;
 mod cornell;
+mod daylight;
 mod determinism;
 mod estimates;
 mod fit;

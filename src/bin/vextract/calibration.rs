@@ -1,6 +1,6 @@
 //! What the numbers of a photograph are worth.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use vfold::calibrate::Calibration;
@@ -34,6 +34,10 @@ pub struct CalibrationArgs {
         allow_negative_numbers = true
     )]
     chart_cos: f64,
+    /// Write the camera's curves with their standard deviations, by the chart in the one IMAGE and the known --illuminant, and nothing
+    /// else; a --camera from then on
+    #[arg(long, value_name = "FILE.csv", requires = "chart_place")]
+    pub save_camera: Option<PathBuf>,
     /// Reflectance of the white card
     #[arg(long, value_name = "SPEC", default_value = "1", requires = "white_place")]
     white_reflectance: String,
@@ -86,7 +90,7 @@ impl CalibrationArgs {
 /// What can calibrate a photograph.
 pub struct GivenCalibration {
     pub exposure: Option<f64>,
-    chart: Target,
+    pub chart: Target,
     white: Target,
 }
 

@@ -3,6 +3,8 @@
 mod batch;
 mod calibration;
 mod camera;
+mod chart_camera;
+mod light;
 mod list;
 mod panels;
 mod pictures;
@@ -116,10 +118,22 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
+    if let Some(file) = &args.calibration.save_camera {
+        let first = Photograph::open(&images[0], &options);
+        return chart_camera::save(args, file, &images, first, (&regions, &calibration), flat_field);
+    }
     let mut scene = read_scene(&args.scene)?;
     let first = Photograph::open(&images[0], &options);
+    let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        scene.set_optics(&args.optics.resolve(camera, &args.common)?)?;
+        let (optics, assumed) = light::optics(&args.optics, first.as_ref().ok());
+        let mut optics = optics.resolve(&camera.spec, &args.common)?;
+        let stands_in = camera.stands_in.is_some();
+        optics.camera.stands_in = camera.stands_in;
+        scene.set_optics(&optics)?;
+        // another camera's curves are never taken silently
+        said.extend(camera.said.filter(|_| stands_in || !args.common.quiet));
+        said.extend(assumed.filter(|_| !args.common.quiet));
     }
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
@@ -145,9 +159,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;
+        said.iter().for_each(|line| cli::say("vextract", line));
         out.scene(&scene)?;
         return out.sample(&sample);
     }
+    said.iter().for_each(|line| cli::say("vextract", line));
     out.expect(images.len());
     out.scene(&scene)?;
     let kept = out.kept()?;

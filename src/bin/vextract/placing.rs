@@ -39,13 +39,21 @@ impl PlacingArgs {
         }
     }
 
+    /// The lens of a photograph.
+    ///
+    /// # Errors
+    /// As [`Lens::new`].
+    pub fn lens(&self, photograph: &Photograph) -> Result<Lens> {
+        let lens = self.distortion.map(|k| Lens::new(k, photograph.width(), photograph.height()));
+        Ok(lens.transpose()?.unwrap_or(Lens::STRAIGHT))
+    }
+
     /// Panels with the given corners, refined if asked for, behind the lens.
     ///
     /// # Errors
-    /// As [`Lens::new`], [`refine`] and [`MarkedPanels::grids`].
+    /// As [`PlacingArgs::lens`], [`refine`] and [`MarkedPanels::grids`].
     pub fn place(&self, photograph: &Photograph, panels: &MarkedPanels) -> Result<Placed> {
-        let lens = self.distortion.map(|k| Lens::new(k, photograph.width(), photograph.height()));
-        let lens = lens.transpose()?.unwrap_or(Lens::STRAIGHT);
+        let lens = self.lens(photograph)?;
         let refinement = self.refine.map(|px| refine(photograph, &panels.marked, &lens, px)).transpose()?;
         let grids = match &refinement {
             Some(refinement) => panels.grids(lens, refinement.panels.iter().copied()),

@@ -16,7 +16,7 @@ use vfold::{Error, Result};
 )]
 pub struct RegionArgs {
     /// Corners of panel 0; facets of panels without corners are null
-    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "panel", "panel1", "regions", "preview"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "panel", "panel1", "regions", "preview", "save_camera"], allow_hyphen_values = true)]
     panel0: Option<String>,
     /// Corners of panel 1
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]

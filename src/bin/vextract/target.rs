@@ -3,8 +3,11 @@
 use std::path::Path;
 
 use vfold::calibrate::{Calibration, Patch};
+use vfold::camera::{ChartCamera, ChartPatch};
 use vfold::forward::OpenLight;
-use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Photograph, corner_orders, measure_patches};
+use vfold::image::{
+    FacetMeasurement, Grid, Homography, Lens, Photograph, Point, corner_orders, measure_patches,
+};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{CalibrationRecord, Corners};
 use vfold::{Error, Result};
@@ -13,6 +16,8 @@ use vfold::{Error, Result};
 const CLIPPED: f64 = 0.01;
 /// Residuals below this are those of a chart in its right order.
 const GOOD_RESIDUAL: f64 = 0.05;
+/// A chart whose brightest patch has less is too dark to make a camera of.
+const DARK: f64 = 0.02;
 
 /// A chart, or a white card as a chart of one patch.
 pub struct Target {
@@ -69,13 +74,7 @@ impl Target {
             .filter(|(_, other)| *other < residual / 2.0)
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((order, other)) = better else { return given };
-        let problem = format!(
-            "the {} is turned or mirrored: its corners fit in another order, within {:.2} %",
-            self.name,
-            100.0 * other
-        );
-        let corners = order.map(|corner| format!("{},{}", corner.x, corner.y)).join(" ");
-        Err(Error::picture(view.path, problem, format!("give {} \"{corners}\"", self.flag)))
+        Err(self.turned(view.path, order, other))
     }
 
     fn fit(&self, view: &View, corners: Corners) -> Result<(Calibration, CalibrationRecord)> {
@@ -95,22 +94,116 @@ impl Target {
             let problem = format!("the photograph has {seen} channels, the camera {known}");
             return Err(Error::picture(view.path, problem, "give the photograph's --camera"));
         }
-        let measured =
-            measure_patches(view.photograph, self.name, corners, view.lens, [self.rows, self.cols])?;
-        let patch = |(measured, (name, reflectance)): (FacetMeasurement, &(String, Vec<f64>))| {
+        let patch = |(seen, (name, reflectance)): (Seen, &(String, Vec<f64>))| Patch {
+            name: name.clone(),
+            measured: seen.mean,
+            standard_error: seen.standard_error,
+            expected: view.light.flat_rgb(self.cos, reflectance),
+        };
+        let seen = self.seen((view.path, view.photograph), view.lens, corners)?;
+        Ok(seen.into_iter().zip(&self.patches).map(patch).collect())
+    }
+
+    /// What the photograph shows of each patch.
+    fn seen(
+        &self,
+        (path, photograph): (&Path, &Photograph),
+        lens: Lens,
+        corners: Corners,
+    ) -> Result<Vec<Seen>> {
+        let measured = measure_patches(photograph, self.name, corners, lens, [self.rows, self.cols])?;
+        let patch = |(measured, (name, _)): (FacetMeasurement, &(String, Vec<f64>))| {
             let clipped = measured.clipped as f64;
             let wrong = |problem: &str, remedy: String| {
-                Error::picture(view.path, format!("{}: patch '{name}' {problem}", self.name), remedy)
+                Error::picture(path, format!("{}: patch '{name}' {problem}", self.name), remedy)
             };
             if clipped > CLIPPED * (measured.pixels + clipped) {
                 return Err(wrong("is clipped", "expose less, or check --white-level".to_owned()));
             }
-            let (Some(mean), Some(standard_error)) = (measured.mean, measured.standard_error) else {
-                return Err(wrong("has too few pixels", format!("check {}", self.flag)));
-            };
-            let expected = view.light.flat_rgb(self.cos, reflectance);
-            Ok(Patch { name: name.clone(), measured: mean, standard_error, expected })
+            match (measured.mean, measured.standard_error) {
+                (Some(mean), Some(standard_error)) => Ok(Seen { mean, standard_error }),
+                _ => Err(wrong("has too few pixels", format!("check {}", self.flag))),
+            }
         };
         measured.into_iter().zip(&self.patches).map(patch).collect()
     }
+
+    /// The camera that saw this target between `corners` in a light of this power per waveband.
+    pub fn camera(
+        &self,
+        of: (&Path, &Photograph),
+        lens: Lens,
+        corners: Corners,
+        light: (&WavelengthGrid, &[f64]),
+    ) -> Result<ChartCamera> {
+        let found = |corners| self.fit_camera(of, lens, corners, light);
+        let given = found(corners);
+        let residual = given.as_ref().map_or(f64::INFINITY, |camera| camera.residual);
+        if residual < GOOD_RESIDUAL {
+            return given;
+        }
+        let other_orders = corner_orders(corners).into_iter().skip(1);
+        let fits = |order: &[Point; 4]| found(*order).is_ok_and(|camera| camera.residual < residual / 2.0);
+        let Some(order) = other_orders.into_iter().find(fits) else { return given };
+        Err(self.turned(of.0, order, found(order)?.residual))
+    }
+
+    fn fit_camera(
+        &self,
+        of: (&Path, &Photograph),
+        lens: Lens,
+        corners: Corners,
+        (grid, power): (&WavelengthGrid, &[f64]),
+    ) -> Result<ChartCamera> {
+        let (path, photograph) = of;
+        if photograph.channels() != 3 {
+            let problem = format!("the photograph has {} channels", photograph.channels());
+            return Err(Error::picture(path, problem, "a camera is made of R, G and B"));
+        }
+        let seen = self.seen(of, lens, corners)?;
+        let brightest = seen.iter().flat_map(|patch| &patch.mean).copied().fold(0.0, f64::max);
+        if brightest < DARK {
+            let problem = format!(
+                "the chart is too dark: its brightest patch has {brightest:.1e} of what the picture holds"
+            );
+            return Err(Error::picture(
+                path,
+                problem,
+                "expose more, or check --black-level and --white-level",
+            ));
+        }
+        let patch = |(seen, (name, reflectance)): (Seen, &(String, Vec<f64>))| {
+            let (measured, standard_error) = (array(seen.mean), array(seen.standard_error));
+            if measured.iter().any(|value| *value <= 0.0) {
+                let problem = format!("the chart is too dark: no light is left of patch '{name}'");
+                return Err(Error::picture(path, problem, "expose more, or check --black-level"));
+            }
+            Ok(ChartPatch { reflectance: reflectance.clone(), measured, standard_error })
+        };
+        let patches: Vec<_> = seen.into_iter().zip(&self.patches).map(patch).collect::<Result<_>>()?;
+        ChartCamera::new(grid, power, &patches).map_err(|e| {
+            let remedy = format!("check {}, its reference, --illuminant and --transfer", self.flag);
+            Error::picture(path, format!("{}: {e}", self.name), remedy)
+        })
+    }
+
+    fn turned(&self, path: &Path, order: [Point; 4], residual: f64) -> Error {
+        let problem = format!(
+            "the {} is turned or mirrored: its corners fit in another order, within {:.2} %",
+            self.name,
+            100.0 * residual
+        );
+        let corners = order.map(|corner| format!("{},{}", corner.x, corner.y)).join(" ");
+        Error::picture(path, problem, format!("give {} \"{corners}\"", self.flag))
+    }
+}
+
+/// What a photograph shows of a patch, per channel.
+struct Seen {
+    mean: Vec<f64>,
+    standard_error: Vec<f64>,
+}
+
+fn array(channels: Vec<f64>) -> [f64; 3] {
+    std::array::from_fn(|channel| channels[channel])
 }

@@ -3,6 +3,7 @@
 mod fold;
 mod light;
 mod shape;
+mod sky;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -76,8 +77,9 @@ struct Args {
     /// Angle of the sun along the crease, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     slant_deg: f64,
-    /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's
-    #[arg(long, value_name = "F", default_value_t = 0.0, allow_negative_numbers = true)]
+    /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's; sun:40deg or sun:LAT,LON,TIME: as much as a
+    /// cloudless sky gives with the sun there
+    #[arg(long, value_name = "F|sun:WHERE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
     #[arg(long, default_value = "fold")]

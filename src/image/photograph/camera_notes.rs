@@ -1,6 +1,7 @@
 //! What a camera wrote beside the picture.
 
 use super::orientation::Orientation;
+use super::taken::Taken;
 
 /// The few EXIF fields that matter to a measurement.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,6 +16,10 @@ pub struct CameraNotes {
     pub f_number: Option<f64>,
     /// ISO sensitivity.
     pub iso: Option<u32>,
+    /// Rows of the matrix from XYZ to its R, G and B in daylight, as DNG has it.
+    pub xyz_to_camera: Option<[[f64; 3]; 3]>,
+    /// Where, when and in which light it was taken.
+    pub taken: Taken,
     /// How the picture was stored.
     pub orientation: Orientation,
     /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.

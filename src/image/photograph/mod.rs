@@ -9,6 +9,7 @@ mod orientation;
 mod pixel;
 mod pixels;
 mod sites;
+mod taken;
 
 pub use camera_notes::CameraNotes;
 pub use flat_field::FlatField;
@@ -17,6 +18,7 @@ pub(in crate::image) use interleaved::Interleaved;
 pub use mosaic::Mosaic;
 pub use orientation::Orientation;
 pub use pixel::Pixel;
+pub use taken::Taken;
 
 use std::ops::Range;
 use std::path::Path;

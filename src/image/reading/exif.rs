@@ -7,6 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use exif::{Context, Exif, In, Reader, Tag, Value};
 
+use super::exif_taken::taken;
 use crate::image::photograph::{CameraNotes, Orientation};
 
 /// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
@@ -49,6 +50,8 @@ pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
         iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
         orientation: field(Tag::Orientation)
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
+        xyz_to_camera: exif.as_ref().and_then(xyz_to_camera),
+        taken: exif.as_ref().map(taken).unwrap_or_default(),
         is_raw: exif.as_ref().is_some_and(is_raw),
         notes,
     }
@@ -77,6 +80,20 @@ fn is_raw(exif: &Exif) -> bool {
     number(DNG_VERSION).is_some()
         || number(Tag::PhotometricInterpretation) == Some(MOSAIC)
         || number(NEW_SUBFILE_TYPE).is_some_and(|kind| kind & 1 == 1)
+}
+
+/// DNG's matrix for D65, which stands first or second.
+fn xyz_to_camera(exif: &Exif) -> Option<[[f64; 3]; 3]> {
+    const D65: u32 = 21;
+    let field = |number| exif.get_field(Tag(Context::Tiff, number), In::PRIMARY).map(|field| &field.value);
+    let is_daylight = |number| field(number).and_then(|value| value.get_uint(0)) == Some(D65);
+    let matrices = [(0xc622, 0xc65b), (0xc621, 0xc65a)];
+    let (matrix, _) = matrices.into_iter().find(|(_, illuminant)| is_daylight(*illuminant))?;
+    let Value::SRational(numbers) = field(matrix)? else { return None };
+    let numbers: [f64; 9] =
+        numbers.iter().map(exif::SRational::to_f64).collect::<Vec<_>>().try_into().ok()?;
+    let finite = numbers.iter().all(|number| number.is_finite());
+    finite.then(|| std::array::from_fn(|row| std::array::from_fn(|column| numbers[3 * row + column])))
 }
 
 fn orientation(value: &Value, notes: &mut Vec<String>) -> Orientation {

@@ -2,6 +2,7 @@
 
 mod decode;
 mod exif;
+mod exif_taken;
 mod open;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;

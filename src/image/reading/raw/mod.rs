@@ -1,6 +1,7 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
 mod sensor;
+mod taken;
 mod tiff_directories;
 
 use std::any::Any;
@@ -12,6 +13,7 @@ use std::sync::{Arc, Once};
 use rawler::decoders::{FormatHint, RawDecodeParams};
 use rawler::exif::Exif;
 use rawler::formats::tiff::Rational;
+use rawler::imgop::xyz::Illuminant;
 use rawler::rawsource::RawSource;
 use rawler::{RawImage, RawImageData, RawlerError};
 
@@ -109,6 +111,12 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
     text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("the decoder gave up")
 }
 
+/// Rows of three of a matrix that has three.
+fn xyz_to_camera(matrix: &[f32]) -> Option<[[f64; 3]; 3]> {
+    let nine: [f32; 9] = matrix.try_into().ok()?;
+    Some(std::array::from_fn(|row| std::array::from_fn(|column| f64::from(nine[3 * row + column]))))
+}
+
 fn camera_notes(image: &RawImage, exif: &Exif) -> CameraNotes {
     let ratio = |ratio: &Option<Rational>| {
         let value = ratio.as_ref().map(|ratio| f64::from(ratio.n) / f64::from(ratio.d));
@@ -122,6 +130,8 @@ fn camera_notes(image: &RawImage, exif: &Exif) -> CameraNotes {
         f_number: ratio(&exif.fnumber),
         iso: exif.iso_speed_ratings.map(u32::from).or(exif.iso_speed),
         orientation: Orientation::from_exif(exif.orientation.unwrap_or(1).into()).unwrap_or_default(),
+        xyz_to_camera: image.color_matrix.get(&Illuminant::D65).and_then(|matrix| xyz_to_camera(matrix)),
+        taken: taken::taken(exif),
         ..CameraNotes::default()
     }
 }

@@ -1,0 +1,81 @@
+//! `--save-camera`: a camera's curves from the chart in a photograph.
+
+use std::path::{Path, PathBuf};
+
+use vfold::camera::ChartCamera;
+use vfold::image::{FlatField, Photograph};
+use vfold::spectrum::Outside;
+use vfold::spectrum::formats::{Measured, check_ending, write};
+use vfold::{Error, Result, cli};
+
+use super::calibration::GivenCalibration;
+use super::regions::GivenRegions;
+use super::{Args, light};
+
+/// Writes the camera of the one photograph.
+///
+/// # Errors
+/// [`Error::Usage`] if there are several photographs or no chart, [`Error::Picture`] if the chart is too dark, clipped, turned or another one.
+pub fn save(
+    args: &Args,
+    file: &Path,
+    images: &[PathBuf],
+    first: Result<Photograph>,
+    (regions, calibration): (&GivenRegions, &GivenCalibration),
+    flat_field: Option<std::sync::Arc<FlatField>>,
+) -> Result<()> {
+    const FLAG: &str = "--save-camera";
+    if images.len() > 1 {
+        return Err(Error::usage(
+            FLAG,
+            format!("{} photographs", images.len()),
+            "give the one with the chart",
+        ));
+    }
+    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        return Err(Error::usage(FLAG, format!("'{}' names no table", file.display()), "end it in .csv"));
+    }
+    check_ending(file)?;
+    let path = &images[0];
+    let photograph = match flat_field {
+        Some(flat_field) => first?.with_flat_field(flat_field, path)?,
+        None => first?,
+    };
+    let (optics, assumed) = light::optics(&args.optics, Some(&photograph));
+    let illuminant =
+        args.common.illuminant(optics.one_illuminant("give one: a photograph has one light")?)?;
+    let grid = &optics.wavelengths_nm;
+    let power = illuminant.on(grid, Outside::Refuse)?;
+    let lens = args.placing.lens(&photograph)?;
+    let corners = regions.of(path, &photograph)?.chart;
+    let corners = corners
+        .ok_or_else(|| Error::usage(FLAG, "no chart is marked", "give --chart, or 'chart' in --regions"))?;
+    let camera = calibration.chart.camera((path, &photograph), lens, corners, (grid, &power))?;
+    let said = said(file, illuminant.name(), &camera);
+    let channel = |((name, curve), sd): ((&str, Vec<f64>), Vec<f64>)| Measured {
+        name: name.to_owned(),
+        wavelengths_nm: grid.wavelengths_nm().to_vec(),
+        reflectance: curve,
+        reflectance_sd: Some(sd),
+    };
+    let channels: Vec<_> =
+        ["R", "G", "B"].into_iter().zip(camera.curves).zip(camera.curves_sd).map(channel).collect();
+    write(file, &channels)?;
+    assumed
+        .into_iter()
+        .chain([said])
+        .filter(|_| !args.common.quiet)
+        .for_each(|line| cli::say("vextract", &line));
+    Ok(())
+}
+
+fn said(file: &Path, light: &str, camera: &ChartCamera) -> String {
+    let all = camera.curves_sd.iter().flatten();
+    let sd = (all.clone().map(|sd| sd * sd).sum::<f64>() / all.count() as f64).sqrt();
+    format!(
+        "{}: curves by the chart in {light}, patches within {:.1} %, standard deviation {:.1} % of green's peak in the mean; give it as --camera",
+        file.display(),
+        100.0 * camera.residual,
+        100.0 * sd
+    )
+}

@@ -1,0 +1,31 @@
+//! `--sky`: a number, or the sky of a cloudless day.
+
+use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::spectrum::{ClearSky, Outside, Sun, WavelengthGrid};
+use vfold::{Error, Result};
+
+/// Parses how much light the sky gives beside the sun: a number, or `sun:WHERE`, where the sun stands.
+///
+/// # Errors
+/// A message for the command line.
+pub fn share(text: &str) -> std::result::Result<f64, String> {
+    match text.strip_prefix("sun:") {
+        Some(place) => of_clear_sky(place).map_err(|e| e.to_string()),
+        None => text.parse().map_err(|_| "write a number, or sun:40deg or sun:LAT,LON,TIME".to_owned()),
+    }
+}
+
+/// Illuminance of level ground by the sky over that of a plane that faces the sun.
+fn of_clear_sky(place: &str) -> Result<f64> {
+    let (sky, grid) = (ClearSky::usual(Sun::parse(place)?), WavelengthGrid::uniform(380.0, 780.0, 5.0)?);
+    let (direct, diffuse) = (sky.direct()?, sky.diffuse()?);
+    let on_grid = |spectrum: &vfold::spectrum::Spectrum| spectrum.on(&grid, Outside::Refuse);
+    let ratio: Vec<f64> =
+        on_grid(&diffuse)?.iter().zip(on_grid(&direct)?).map(|(sky, sun)| sky / sun).collect();
+    let [_, luminance, _] = Colorimeter::new(&grid, &direct, Observer::Cie1931_2deg)?.xyz(&ratio);
+    let share = luminance / 100.0;
+    if share.is_finite() {
+        return Ok(share);
+    }
+    Err(Error::Numeric("no sunlight is left so near the horizon; give the sky as a number".to_owned()))
+}

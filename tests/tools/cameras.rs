@@ -1,0 +1,175 @@
+//! Cameras known by what they write into their pictures, and by name.
+
+use serde_json::Value;
+
+use crate::common::Workdir;
+
+const CAMERAS: &str = include_str!("../../share/cameras.txt");
+
+/// A small picture with a maker and a model, as `photo.tif`, and `extract`, which measures it.
+const SETUP: &str = r#"
+    vkernel --facets 1x1 -o scene.json
+    cat > picture <<'END'
+    oiiotool --pattern constant:color=0.4,0.5,0.3 40x40 3 --attrib Make "$1" --attrib Model "$2" -d uint16 -o photo.tif
+END
+    cat > extract <<'END'
+    exec vextract photo.tif --scene scene.json --illuminant D65 --panel0 '0,0 40,0 40,40 0,40' "$@"
+END
+"#;
+
+/// Make and Model as the makers write them.
+fn exif(maker: &str, model: &str) -> (String, String) {
+    match maker {
+        "Nikon" => ("NIKON CORPORATION".to_owned(), format!("NIKON {model}")),
+        "Canon" => (maker.to_owned(), format!("Canon {model}")),
+        "Sony" | "Fujifilm" => (maker.to_uppercase(), model.to_owned()),
+        _ => (maker.to_owned(), model.to_owned()),
+    }
+}
+
+fn scene(stdout: &str) -> Value {
+    serde_json::from_str(stdout.lines().next().unwrap()).unwrap()
+}
+
+#[test]
+fn all_of_rawtoaces_data_are_known_by_their_pictures() {
+    let folder = Workdir::new();
+    assert_eq!(folder.sh(SETUP).status, 0);
+    let listed = folder.sh("vextract --list cameras").stdout;
+    for line in CAMERAS.lines() {
+        let [maker, model] = [0, 1].map(|k| line.split('\t').nth(k).unwrap());
+        let (make, model) = exif(maker, model);
+        let run = folder.sh(&format!("sh picture '{make}' '{model}'; sh extract"));
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{make} {model}");
+        let camera = &scene(&run.stdout)["camera"];
+        let name = camera["name"].as_str().unwrap();
+        let plain = |text: &str| text.to_lowercase().replace([' ', '-', '.'], "");
+        let of_model = plain(&model).replace("canon", "").replace("nikon", "").replace("eos", "");
+        assert!(plain(name).ends_with(&of_model), "{make} {model} is {name}");
+        assert!(listed.lines().any(|line| line.split(' ').next() == Some(name)), "{name} is not listed");
+        assert_eq!(camera["sensitivities"].as_array().unwrap().len(), 3);
+    }
+}
+
+#[test]
+fn one_sensor_in_two_models_is_said() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!("{SETUP}\nsh picture Canon 'Canon EOS R8'; sh extract"));
+    assert_eq!(scene(&run.stdout)["camera"]["name"], "canon-eos-r6m2");
+    assert_eq!(
+        run.stderr,
+        "vextract: Canon Canon EOS R8: curves of canon-eos-r6m2, whose sensor is the same\n"
+    );
+    let quiet = folder.sh("sh extract --quiet");
+    assert_eq!((quiet.status, quiet.stderr.as_str()), (0, ""));
+}
+
+#[test]
+fn names_may_be_those_of_other_markets() {
+    let folder = Workdir::new();
+    let run = folder.sh(r"
+        vkernel --facets 1x1 -o scene.json
+        forward() { vforward scene.json --reflectance 0.5 --camera $1 --no-history | sed s/$1/CAMERA/; }
+        forward canon-eos-600d > one
+        forward canon-eos-rebel-t3i > two
+        cmp one two");
+    assert_eq!((run.status, run.stdout.as_str()), (0, ""), "{}", run.stderr);
+}
+
+/// Loudly, also if `--quiet` is asked for, and in the record.
+#[test]
+fn a_camera_that_nobody_measured_has_a_stand_in() {
+    let folder = Workdir::new();
+    let run =
+        folder.sh(&format!("{SETUP}\nsh picture 'NIKON CORPORATION' 'NIKON D5200'; sh extract --quiet"));
+    let camera = &scene(&run.stdout)["camera"];
+    assert!(camera["name"].as_str().unwrap().starts_with("nikon-"), "{camera}");
+    assert_eq!(camera["stands_in"]["camera"], "NIKON CORPORATION NIKON D5200");
+    assert!(camera["stands_in"]["curve_error"].as_f64().unwrap() > 0.03);
+    let warning = "warning: nobody measured the curves of NIKON CORPORATION NIKON D5200: nikon-";
+    assert!(run.stderr.contains(warning) && run.stderr.contains("--save-camera"), "{}", run.stderr);
+    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    let run = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract");
+    assert!(run.stderr.contains("the most usual of all makers"), "{}", run.stderr);
+    let run = folder.sh("sh picture '' ''; sh extract");
+    assert_eq!((run.status, run.stdout.as_str()), (2, ""));
+    assert!(run.stderr.contains("the photograph names no camera"), "{}", run.stderr);
+    let named = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract --camera nikon-d70");
+    assert!(
+        named.stderr.is_empty() && scene(&named.stdout)["camera"]["stands_in"].is_null(),
+        "{}",
+        named.stderr
+    );
+}
+
+/// A picture of the 24 patches as the Canon PowerShot S90 sees them in direct sun, the gains of its channels and the exposure not being told.
+const CHART: &str = r#"
+    vkernel --angle-deg 180 --facets 1x1 |
+        vforward --reflectance cc24 --camera canon-powershot-s90 --illuminant sun:40deg --save facet_rgb=chart.npy > /dev/null
+    fills=$(python3 - <<'END'
+import numpy as np
+for k, rgb in enumerate(np.load("chart.npy")[:, 0]):
+    print("--fill:color={0:.9f},{1:.9f},{2:.9f} 48x48+{3}+{4}".format(*rgb, 10 + 54 * (k % 6), 10 + 54 * (k // 6)))
+END
+    )
+    oiiotool --create 340x230 3 $fills --mulc 0.9,0.5,0.7 --noise:type=gaussian:stddev=0.002:seed=3 -d half -o chart.exr
+    oiiotool chart.exr --mulc 0.01 -d half -o dark.exr
+    oiiotool chart.exr --mulc 4 -d uint16 -o clipped.tif
+    chart="10,10 328,10 328,220 10,220"
+"#;
+
+#[test]
+fn a_chart_makes_a_camera_file() {
+    let folder = Workdir::new();
+    if !folder.can("python3 -c 'import numpy'", "a camera from a picture of a chart") {
+        return;
+    }
+    let run = folder.sh(&format!(
+        r#"{CHART}
+        vextract chart.exr --chart "$chart" --illuminant sun:40deg --save-camera mine.csv
+        head -n 1 mine.csv
+        vkernel --facets 1x1 -o scene.json
+        for camera in canon-powershot-s90 mine.csv; do vforward scene.json --reflectance 0.5 --camera $camera -q; done"#
+    ));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let mut lines = run.stdout.lines();
+    assert_eq!(lines.next(), Some("wavelength_nm,R,R_sd,G,G_sd,B,B_sd"));
+    let scenes = lines.filter(|line| line.contains("\"sensitivities\""));
+    let curves: Vec<Vec<Vec<f64>>> = scenes
+        .map(|line| serde_json::from_value(scene(line)["camera"]["sensitivities"].clone()).unwrap())
+        .collect();
+    // gains of the channels are part of the file: shapes are compared
+    let shape = |curve: &Vec<f64>| {
+        let peak = curve.iter().copied().fold(0.0, f64::max);
+        curve.iter().map(|value| value / peak).collect::<Vec<_>>()
+    };
+    let squares = (0..3).flat_map(|k| {
+        let pairs = shape(&curves[0][k]).into_iter().zip(shape(&curves[1][k]));
+        pairs.map(|(a, b)| (a - b).powi(2)).collect::<Vec<_>>()
+    });
+    let error = (squares.sum::<f64>() / 183.0).sqrt();
+    println!("a camera of a picture of a chart: {error:.4}");
+    assert!(error < 0.03, "{error}");
+}
+
+#[test]
+fn charts_that_make_no_camera() {
+    let folder = Workdir::new();
+    if !folder.can("python3 -c 'import numpy'", "a camera from a picture of a chart") {
+        return;
+    }
+    assert_eq!(folder.sh(&format!("{CHART}\nprintf '%s' \"$chart\" > corners")).status, 0);
+    for (flags, status, says) in [
+        ("dark.exr --chart \"$(cat corners)\"", 1, "the chart is too dark"),
+        ("clipped.tif --chart \"$(cat corners)\"", 1, "is clipped; expose less"),
+        ("chart.exr --chart '328,220 10,220 10,10 328,10'", 1, "the chart is turned or mirrored"),
+        ("chart.exr --chart \"$(cat corners)\" --chart-grid 6x4", 1, "off by"),
+        ("chart.exr chart.exr --chart \"$(cat corners)\"", 2, "give the one with the chart"),
+        ("chart.exr", 2, "--save-camera"),
+    ] {
+        let run = folder.sh(&format!("vextract {flags} --illuminant sun:40deg --save-camera mine.csv"));
+        assert_eq!((run.status, run.stderr.lines().count()), (status, 1), "{flags}: {}", run.stderr);
+        assert!(run.stderr.contains(says), "{flags}: {}", run.stderr);
+        assert!(!folder.path().join("mine.csv").exists());
+    }
+}

@@ -1,0 +1,97 @@
+//! Daylight that is computed: told by the sun's place, or by what a photograph says of place and time.
+
+use serde_json::Value;
+
+use crate::common::{Ended, Workdir};
+
+const SETUP: &str = r#"
+    vkernel --facets 1x1 -o scene.json
+    cat > extract <<'END'
+    exec vextract photo.jpg --scene scene.json --camera nikon-d70 --panel0 '0,0 40,0 40,40 0,40' "$@"
+END
+    cat > picture <<'END'
+    oiiotool --pattern constant:color=0.4,0.5,0.3 40x40 3 "$@" -o photo.jpg
+END
+"#;
+
+/// A photograph from Munich at noon.
+const MUNICH: &str = r"sh picture --attrib:type=float[3] GPS:Latitude 48,8,24 --attrib GPS:LatitudeRef N \
+    --attrib:type=float[3] GPS:Longitude 11,34,48 --attrib GPS:LongitudeRef E";
+const NOON: &str = r"--attrib GPS:DateStamp 2026:06:21 --attrib:type=float[3] GPS:TimeStamp 10,0,0";
+const MIDNIGHT: &str = r"--attrib GPS:DateStamp 2026:06:21 --attrib:type=float[3] GPS:TimeStamp 22,0,0";
+
+fn illuminant(run: &Ended) -> String {
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let scene: Value = serde_json::from_str(run.stdout.lines().next().unwrap()).unwrap();
+    scene["illuminants"][0]["name"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_photograph_tells_its_sun() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!("{SETUP}\n{MUNICH} {NOON}; sh extract"));
+    assert_eq!(illuminant(&run), "sun:48.14,11.58,2026-06-21T10:00:00Z");
+    assert!(
+        run.stderr.contains("by the photograph's place and time: a cloudless sky, the sun 28.9°"),
+        "{}",
+        run.stderr
+    );
+    let run = folder.sh("sh extract --sky-illuminant sky --quiet");
+    assert_eq!(
+        (illuminant(&run).as_str(), run.stderr.as_str()),
+        ("sun:48.14,11.58,2026-06-21T10:00:00Z", "")
+    );
+    assert!(run.stdout.contains(r#""name":"sky:48.14,11.58,2026-06-21T10:00:00Z""#));
+    let run = folder.sh("sh extract --illuminant D55");
+    assert_eq!((illuminant(&run).as_str(), run.stderr.as_str()), ("D55", ""));
+}
+
+#[test]
+fn daylight_is_assumed_aloud() {
+    let folder = Workdir::new();
+    for (picture, why) in [
+        ("sh picture".to_owned(), "does not say where and when"),
+        (MUNICH.to_owned(), "does not say when"),
+        (format!("sh picture {NOON}"), "does not say where"),
+        (format!("{MUNICH} {MIDNIGHT}"), "it was night"),
+        (format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:Flash 1"), "the photograph says flash"),
+        (format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:LightSource 10"), "the photograph says clouds"),
+    ] {
+        let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
+        assert_eq!(illuminant(&run), "D65", "{picture}");
+        assert!(run.stderr.starts_with("vextract: daylight assumed, D65: "), "{}", run.stderr);
+        assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn suns_and_skies_of_the_command_line() {
+    let folder = Workdir::new();
+    let listed = folder.sh("vforward --list illuminants").stdout;
+    assert!(listed.contains("sun:WHERE") && listed.contains("sky:WHERE"), "{listed}");
+    let run = folder.sh(r"
+        vkernel --sky sun:40deg -o scene.json
+        grep -o '\x22sky\x22:[0-9.]*' scene.json
+        vforward scene.json --reflectance cc24:red --illuminant sun:40deg --sky-illuminant sky -o red.ndjson
+        vestimate red.ndjson | vscore --table");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let share: f64 = run.stdout.lines().next().unwrap().split(':').nth(1).unwrap().parse().unwrap();
+    assert!((0.08..0.16).contains(&share), "{share}");
+    for (line, status, says) in [
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:95deg", 1, "below the horizon"),
+        (
+            "vforward scene.json --reflectance 0.5 --illuminant sun:48,11,2026-06-21T23:00Z",
+            1,
+            "below the horizon",
+        ),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:98,11,2026-06-21T12:00Z", 1, "is no place"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:48,11,noon", 1, "'noon' is no time"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:Paris", 1, "no place and time"),
+        ("vforward scene.json --reflectance 0.5 --sky-illuminant sky", 2, "the sky of which sun?"),
+        ("vkernel --sky sun:95deg", 2, "below the horizon"),
+    ] {
+        let run = folder.sh(line);
+        assert_eq!((run.status, run.stdout.as_str()), (status, ""), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(says) && run.stderr.lines().count() == 1, "{line}: {}", run.stderr);
+    }
+}
