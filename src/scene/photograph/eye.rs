@@ -32,12 +32,19 @@ pub fn of(setting: &FoldSetting) -> Result<Eye> {
     let [s0, s1, s2] = vectors;
     let daylight = DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec));
     let white = &sensitivities * &sun;
-    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths);
+    // a camera that stands in for another is off by what such cameras were measured to be
+    let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));
+    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, sd);
     Ok(Eye { wavelengths_nm, sensitivities, errors, sun, sky, daylight, reference: white.imax() })
 }
 
 /// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow filter, and is right.
-fn errors(sensitivities: &[Vec<f64>], wavelengths_nm: &[f64], widths: &[f64]) -> Vec<(usize, DVector<f64>)> {
+fn errors(
+    sensitivities: &[Vec<f64>],
+    wavelengths_nm: &[f64],
+    widths: &[f64],
+    sd: f64,
+) -> Vec<(usize, DVector<f64>)> {
     let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
     let count = ((last - first) / CURVE_STEP_NM).round().max(1.0) as usize;
     let mut all = Vec::new();
@@ -51,7 +58,7 @@ fn errors(sensitivities: &[Vec<f64>], wavelengths_nm: &[f64], widths: &[f64]) ->
             let of = |band: usize| {
                 let off = (wavelengths_nm[band] - middle) / CURVE_STEP_NM;
                 let envelope = (curve[band] / most + CURVE_FLOOR).sqrt().min(1.0);
-                CURVE_SD * most * envelope * (-0.5 * off * off).exp() * widths[band]
+                sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
             };
             all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
         }
