@@ -28,11 +28,13 @@ fn sheets_as_they_are_give_their_spectra() {
     let all: Vec<Outcome> = real.iter().map(|path| of_real(path)).collect();
     let every: Vec<&Outcome> = all.iter().filter(|one| one.name.starts_with("all_")).collect();
     print_table(&all);
-    assert!(mean(&every, |one| one.rmse) < 0.045, "all effects: {}", mean(&every, |one| one.rmse));
+    assert!(mean(&every, |one| one.rmse) < 0.03, "all effects: {}", mean(&every, |one| one.rmse));
+    let delta_e = mean(&every, |one| one.delta_e.unwrap());
+    assert!(delta_e < 2.0, "all effects: {delta_e}");
     assert!(mean(&every, |one| one.within_two_sd) > 0.85);
     assert!(mean(&every, |one| one.bar) < 0.2, "all effects: bars of {}", mean(&every, |one| one.bar));
     for one in all.iter().filter(|one| one.name.starts_with("one_")) {
-        assert!(one.rmse < 0.045 && one.within_two_sd > 0.85, "{}: {}", one.name, one.rmse);
+        assert!(one.rmse < 0.04 && one.within_two_sd > 0.85, "{}: {}", one.name, one.rmse);
     }
 }
 
@@ -40,13 +42,78 @@ fn sheets_as_they_are_give_their_spectra() {
 #[test]
 fn measured_materials_give_their_reflectance() {
     let Some(materials) = sidecars("materials") else { return };
-    for (exposure, most) in [("--exposure 1", 0.05), ("--exposure free", 0.12)] {
+    for (exposure, most) in [("--exposure 1", 0.035), ("--exposure free", 0.06)] {
         let all: Vec<Outcome> = materials.iter().map(|path| of_material(path, exposure)).collect();
         println!("{exposure}");
         print_table(&all);
         let error = mean(&all.iter().collect::<Vec<_>>(), |one| one.mean_error);
         assert!(error < most, "{exposure}: {error}");
+        let within = mean(&all.iter().collect::<Vec<_>>(), |one| one.within_two_sd);
+        assert!(within > 0.85, "{exposure}: {within}");
     }
+}
+
+/// What vforward makes of a sheet of which the renderer was told the same: facets away from the crease within 0.5 % of its photograph's.
+#[test]
+fn simulated_sheets_look_as_the_renderers_do() {
+    for (name, flags) in
+        [("one_gloss", "--gloss 0.5 --gloss-roughness 0.4"), ("one_rough", "--body-roughness-deg 20")]
+    {
+        let path = Path::new(SHARED).join("real").join(name).with_extension("json");
+        if !path.exists() {
+            left_out(&format!("{}, which is not there", path.display()));
+            return;
+        }
+        let sidecar: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        let told = &sidecar["told"];
+        let wavelengths = numbers(&sidecar["wavelengths_nm"]);
+        let columns = |columns: &[Vec<f64>]| table(&wavelengths, columns);
+        let camera: Vec<_> =
+            told["camera_sensitivities_rgb"].as_array().unwrap().iter().map(numbers).collect();
+        let run = Workdir::new().sh(&format!(
+            r#"
+cat > camera.csv <<END
+{camera}END
+cat > light.csv <<END
+{light}END
+cat > truth.csv <<END
+{truth}END
+vkernel --angle-deg {angle} > scene.json
+vextract -q scene.json "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}' | tail -n 1
+vforward scene.json --camera camera.csv --illuminant light.csv --reflectance truth.csv {flags} --eye=0.96547,1.10338,8.36309 | tail -n 1
+"#,
+            camera = columns(&camera),
+            light = columns(&[numbers(&told["illuminant_spd"])]),
+            truth = columns(&[numbers(&sidecar["reflectance"])]),
+            angle = told["angle_deg"],
+            photo = path.with_extension("tif").display(),
+            panel0 = corners(&told["panel0"]),
+            panel1 = corners(&told["panel1"]),
+        ));
+        assert!(run.status == 0, "{name}: {}", run.stderr);
+        let [seen, made] =
+            [0, 1].map(|n| rows(&serde_json::from_str(run.stdout.lines().nth(n).unwrap()).unwrap()));
+        // the photograph's exposure is its own
+        let scale = seen[1..].iter().flatten().sum::<f64>() / made[1..].iter().flatten().sum::<f64>();
+        for (row, (seen, made)) in seen.iter().zip(&made).enumerate().skip(1) {
+            for (seen, made) in seen.iter().zip(made) {
+                assert!(
+                    (seen / (scale * made) - 1.0).abs() < 5e-3,
+                    "{name}, row {row}: {seen} {}",
+                    scale * made
+                );
+            }
+        }
+    }
+}
+
+/// Means of the rows of both panels, crease first: row by panel and channel.
+fn rows(sample: &Value) -> Vec<Vec<f64>> {
+    let facets: Vec<Vec<f64>> = sample["facet_rgb"].as_array().unwrap().iter().map(numbers).collect();
+    let mean = |panel: usize, row: usize, channel: usize| {
+        (0..10).map(|column| facets[100 * panel + 10 * row + column][channel]).sum::<f64>() / 10.0
+    };
+    (0..10).map(|row| (0..6).map(|n| mean(n / 3, row, n % 3)).collect()).collect()
 }
 
 fn print_table(all: &[Outcome]) {
