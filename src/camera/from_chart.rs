@@ -51,6 +51,25 @@ impl ChartCamera {
     ///
     /// # Errors
     /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter from what any camera makes of them.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::camera::{CameraResponse, ChartCamera, ChartPatch, curve_error, known_curves};
+    /// use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
+    /// let grid = WavelengthGrid::default();
+    /// let light = illuminant("D55")?.on(&grid, Outside::Refuse)?;
+    /// let truth = known_curves(&grid)?.swap_remove(30).curves;
+    /// let response = CameraResponse::new(&grid, &truth, &light)?;
+    /// let patch = |patch: &Spectrum| {
+    ///     let reflectance = patch.on(&grid, Outside::Refuse)?;
+    ///     let measured = response.of_flat(&reflectance).try_into().unwrap();
+    ///     Ok(ChartPatch { reflectance, measured, standard_error: [1e-4; 3] })
+    /// };
+    /// let patches = reflectances("cc24")?.iter().map(patch).collect::<vfold::Result<Vec<_>>>()?;
+    /// let camera = ChartCamera::new(&grid, &light, &patches)?;
+    /// assert!(curve_error(&camera.curves, &truth) < 0.02);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
     pub fn new(grid: &WavelengthGrid, light: &[f64], patches: &[ChartPatch]) -> Result<Self> {
         Self::by_prior_of(&known_curves(grid)?, grid, light, patches)
     }

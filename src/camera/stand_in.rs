@@ -11,7 +11,7 @@ use crate::colorimetry::{Colorimeter, Observer};
 use crate::error::{Error, Result};
 use crate::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 
-/// Rows of a matrix from XYZ to a camera's R, G and B, as the tag ColorMatrix of DNG has it for D65.
+/// Rows of a matrix from XYZ to a camera's R, G and B, as the tag `ColorMatrix` of DNG has it for D65.
 pub type ColourMatrix = [[f64; 3]; 3];
 
 /// A camera in the place of another.

@@ -102,7 +102,7 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     );
 }
 
-/// A picture of the 24 patches as the Canon PowerShot S90 sees them in direct sun, the gains of its channels and the exposure not being told.
+/// A picture of the 24 patches as a compact camera sees them in direct sun, the gains of its channels and the exposure not being told.
 const CHART: &str = r#"
     vkernel --angle-deg 180 --facets 1x1 |
         vforward --reflectance cc24 --camera canon-powershot-s90 --illuminant sun:40deg --save facet_rgb=chart.npy > /dev/null
@@ -165,7 +165,7 @@ fn charts_that_make_no_camera() {
         ("chart.exr --chart '328,220 10,220 10,10 328,10'", 1, "the chart is turned or mirrored"),
         ("chart.exr --chart \"$(cat corners)\" --chart-grid 6x4", 1, "off by"),
         ("chart.exr chart.exr --chart \"$(cat corners)\"", 2, "give the one with the chart"),
-        ("chart.exr", 2, "--save-camera"),
+        ("chart.exr", 2, "--chart"),
     ] {
         let run = folder.sh(&format!("vextract {flags} --illuminant sun:40deg --save-camera mine.csv"));
         assert_eq!((run.status, run.stderr.lines().count()), (status, 1), "{flags}: {}", run.stderr);

@@ -13,7 +13,7 @@ use crate::{Error, Result};
 
 /// What a file turned out to hold.
 pub(super) enum Decoded {
-    Picture(Picture),
+    Picture(Box<Picture>),
     /// A camera's RAW file, which was not decoded.
     Raw,
 }
@@ -60,7 +60,8 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
         if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
             return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
         }
-        return Ok(Decoded::Picture(Picture { format, pixels, camera: exif::read(block) }));
+        let camera = exif::read(block);
+        return Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera })));
     }
     let camera = exif::read(Some(exif::tiff_tags(&mut file).map_err(failed)?));
     if camera.is_raw {
@@ -68,7 +69,7 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     }
     file.rewind().map_err(failed)?;
     let (pixels, _) = decode_as(path, &mut file, length, format)?;
-    Ok(Decoded::Picture(Picture { format, pixels, camera }))
+    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera })))
 }
 
 /// First bytes of the RAW files that are not, or not only, laid out as TIFF: where they stand, and what they are.

@@ -44,7 +44,7 @@ impl Photograph {
             Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
                 Err(no_colours("a grey picture"))
             }
-            Decoded::Picture(picture) => Self::from_picture(picture, options),
+            Decoded::Picture(picture) => Self::from_picture(*picture, options),
         }
     }
 
