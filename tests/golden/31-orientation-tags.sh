@@ -3,7 +3,7 @@ vkernel --angle-deg 50 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24:orange --exposure 2 --render photo.exr -o sample.ndjson 2>/dev/null
 crease="358.28,441.60 346.13,100.03"
 measure() {
-    vextract $1 --scene scene.json --camera canon-5d-mark-ii --panel0 "$crease 155.42,55.00 166.27,426.90" \
+    vextract $1 --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$crease 155.42,55.00 166.27,426.90" \
         --panel1 "$crease 469.63,38.40 484.58,413.42" --save facet_rgb=$1.npy
 }
 measure photo.exr >upright.ndjson

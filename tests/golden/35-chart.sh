@@ -4,7 +4,7 @@
 vkernel --angle-deg 45 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24:orange --render fold.exr -o truth.ndjson 2> corners
 crease=$(sed 's/.*--panel0 "\([^ ]* [^ ]*\) .*/\1/' corners)
-eval "panels() { vextract \"\$@\" --scene scene.json --camera canon-5d-mark-ii $(grep -o -- '--panel0.*"' corners); }"
+eval "panels() { vextract \"\$@\" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 $(grep -o -- '--panel0.*"' corners); }"
 test -n "$crease"
 vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance cc24 --save facet_rgb=chart.npy >/dev/null
 

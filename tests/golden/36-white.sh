@@ -2,7 +2,7 @@
 # Uneven light is undone with a photograph of a white sheet, and a white card in the picture says what the numbers are worth.
 vkernel --angle-deg 45 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24:orange --exposure 0.5 --render fold.exr -o truth.ndjson 2> corners
-eval "panels() { vextract \"\$@\" --scene scene.json --camera canon-5d-mark-ii $(grep -o -- '--panel0.*"' corners) --save facet_rgb=got.npy; }"
+eval "panels() { vextract \"\$@\" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 $(grep -o -- '--panel0.*"' corners) --save facet_rgb=got.npy; }"
 compare() {
     python3 - "$@" <<'END'
 import json, sys

@@ -2,7 +2,7 @@
 vkernel --angle-deg 45 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24:orange --exposure 0.5 --render fold.exr >/dev/null 2> corners
 eval "set -- $(grep -o -- '--panel0.*"' corners)"
-photo() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii --no-history --save facet_rgb=got.npy; }
+photo() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --no-history --save facet_rgb=got.npy; }
 photo fold.exr --panel0 "$2" --panel1 "$4" >/dev/null
 cp got.npy flags.npy
 json() { echo "$1" | sed 's/ /],[/g; s/.*/[[&]]/'; }
@@ -31,7 +31,7 @@ same "a flag wins over the file"
 oiiotool fold.exr --resize 640x400 -o squeezed.exr
 cp fold.exr unknown.exr
 status=0
-vextract fold.exr squeezed.exr unknown.exr fold.exr --regions list.json --scene scene.json --camera canon-5d-mark-ii \
+vextract fold.exr squeezed.exr unknown.exr fold.exr --regions list.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
     -o batch.ndjson || status=$?
 echo "exit status $status"
 sed 's/.*"id":"\([^"]*\)".*\("error":.*\)/\1 \2/; s/.*"id":"\([^"]*\)".*/\1/' batch.ndjson

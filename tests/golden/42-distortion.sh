@@ -36,7 +36,7 @@ oiiotool photo.exr st.pfm --st_warp:filter=triangle -d half -o bent.exr
 extract() {
     photo=$1 corners=$2 name=$3
     shift 3
-    vextract $photo --scene scene.json --camera canon-5d-mark-ii --panel0 "$(cat ${corners}0)" --panel1 "$(cat ${corners}1)" --margin 1 \
+    vextract $photo --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$(cat ${corners}0)" --panel1 "$(cat ${corners}1)" --margin 1 \
         --save facet_rgb=$name.npy "$@" | tail -1 > $name.json
 }
 extract photo.exr straight straight

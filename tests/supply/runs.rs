@@ -10,7 +10,7 @@ export HOME=$PWD/home TMPDIR=$PWD/tmp XDG_CONFIG_HOME=$PWD/home/c XDG_CACHE_HOME
 cd work
 vkernel --angle-deg 50 --facets 4x4 --save kernel=k.npy -o scene.json
 vforward scene.json --reflectance cc24:red cc24:green --noise-sd 1e-3 --render fold.png -o samples.ndjson
-vextract \"$PHOTO\" --scene scene.json --camera canon-5d-mark-ii --overlay overlay.png -o sample.ndjson \\
+vextract \"$PHOTO\" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --overlay overlay.png -o sample.ndjson \\
     --panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'
 vestimate samples.ndjson --plot spectra.svg --resume estimates.ndjson
 vestimate sample.ndjson --trace trace.ndjson -o estimate.ndjson

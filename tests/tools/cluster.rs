@@ -12,7 +12,7 @@ const SETUP: &str = concat!(
     export LC_ALL=C
     "$cluster/photos" . 48x36 6
     find photos -name '*.tif' | sort > photos.txt
-    extract() { vextract --files-from - --scene scene.json --regions corners.json --camera canon-5d-mark-ii "$@" < photos.txt; }
+    extract() { vextract --files-from - --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 "$@" < photos.txt; }
     dies_once() {
         mkdir -p bin
         printf '#!/bin/sh\nmkdir %s 2>/dev/null && kill -9 $$\nexec %s "$@"\n' "$PWD/$1-died" "$(command -v $1)" > bin/$1
@@ -40,7 +40,7 @@ fn gnu_parallel_on_this_machine() {
     }
     assert_prints(
         r#"
-        vextract --files-from photos.txt --scene scene.json --regions corners.json --camera canon-5d-mark-ii \
+        vextract --files-from photos.txt --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 \
             --no-history > samples.one
         vestimate < samples.one > estimates.one
         dies_once vextract

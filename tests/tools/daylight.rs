@@ -69,11 +69,11 @@ fn suns_and_skies_of_the_command_line() {
     let folder = Workdir::new();
     let listed = folder.sh("vforward --list illuminants").stdout;
     assert!(listed.contains("sun:WHERE") && listed.contains("sky:WHERE"), "{listed}");
-    let run = folder.sh(r"
+    let run = folder.sh(r#"
         vkernel --sky sun:40deg -o scene.json
-        grep -o '\x22sky\x22:[0-9.]*' scene.json
+        grep -o '"sky":[0-9.]*' scene.json
         vforward scene.json --reflectance cc24:red --illuminant sun:40deg --sky-illuminant sky -o red.ndjson
-        vestimate red.ndjson | vscore --table");
+        vestimate red.ndjson | vscore --table"#);
     assert_eq!(run.status, 0, "{}", run.stderr);
     let share: f64 = run.stdout.lines().next().unwrap().split(':').nth(1).unwrap().parse().unwrap();
     assert!((0.08..0.16).contains(&share), "{share}");

@@ -31,7 +31,7 @@ const RUNS: [&str; 24] = [
     "vforward scene.json --reflectance cc24 --bounces 3 --panel-reflectance 0=cc24:red",
     "vforward scene.json --reflectance 0.5 --render file.exr --render-size 80x60",
     "vforward shape.json --reflectance cc24",
-    "vextract 1.exr 2.exr 3.exr --scene scene.json --camera canon-5d-mark-ii --refine --overlay file-{}.png \
+    "vextract 1.exr 2.exr 3.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --refine --overlay file-{}.png \
         --panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'",
     "vestimate samples.ndjson --save covariance=file",
     "vestimate samples.ndjson --exposure free --plot file.svg",

@@ -92,7 +92,7 @@ fn is_read(folder: &Workdir, mut regions: Value) {
         folder,
         &format!(
             "echo '{regions}' > regions.json
-            vkernel --angle-deg 50 | vextract photo.exr --regions regions.json --refine=30 --camera canon-5d-mark-ii"
+            vkernel --angle-deg 50 | vextract photo.exr --regions regions.json --refine=30 --camera canon-5d-mark-ii --illuminant D65"
         ),
     );
 }

@@ -186,7 +186,7 @@ fn a_photograph_needs_no_truth() {
     let folder = Workdir::new();
     let photo = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
     let page = report(&folder, &format!(
-        "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii \
+        "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii --illuminant D65 \
             --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' |
             vestimate --quiet | vscore"));
     let page = Document::parse(body(&page)).unwrap();

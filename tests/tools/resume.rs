@@ -102,7 +102,7 @@ fn photographs_are_measured_once() {
         for n in 1 2 4; do ln -s '{photo}' $n.exr; done
         echo 'no picture' > 3.exr
         extract() {{
-            vextract 1.exr 2.exr 3.exr 4.exr --scene scene.json --camera canon-5d-mark-ii "$@" \
+            vextract 1.exr 2.exr 3.exr 4.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 "$@" \
                 --panel0 "332,462 345,77 122,12 104,442" --panel1 "332,462 345,77 485,17 472,446" || [ $? = 3 ]
         }}
         extract > whole.ndjson

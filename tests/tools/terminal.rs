@@ -49,7 +49,7 @@ fn a_batch_says_how_far_it_is() {
         "/tests/data/photos/a_ideal_magenta_50.exr' 1.exr; for n in $(seq 2 60); do ln -s 1.exr $n.exr; done\n",
         "vkernel --angle-deg 50 -o scene.json"
     );
-    let extract = "vextract *.exr --scene scene.json --camera canon-5d-mark-ii -j 1 -o out.ndjson \
+    let extract = "vextract *.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -j 1 -o out.ndjson \
         --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\"";
     let shown = plain(&on_terminal(pictures, extract).stdout);
     let drawn = shown.split("vextract: ").find(|line| line.contains(" of 60 samples, "));
