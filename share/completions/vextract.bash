@@ -23,7 +23,7 @@ _vextract() {
 
     case "${cmd}" in
         vextract)
-            opts="-o -j -q -v -h -V --files-from --scene --camera --illuminant --sky-illuminant --wavelengths-nm --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-reference --chart-grid --chart-cos --white-reflectance --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --files-from --scene --camera --illuminant --sky-illuminant --wavelengths-nm --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-reference --chart-grid --chart-cos --save-camera --white-reflectance --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -130,6 +130,10 @@ _vextract() {
                     return 0
                     ;;
                 --chart-cos)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --save-camera)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,8 +1,8 @@
 complete -c vextract -l files-from -d 'More photographs: a file with one name per line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
 complete -c vextract -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph\'s EXIF]' -r
-complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside' -r
-complete -c vextract -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
+complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r
+complete -c vextract -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]' -r
 complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null' -r
 complete -c vextract -l panel1 -d 'Corners of panel 1' -r
@@ -24,6 +24,7 @@ complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing th
 complete -c vextract -l chart-reference -d 'Reflectances of the chart\'s patches, row by row' -r
 complete -c vextract -l chart-grid -d 'Patches of the chart' -r
 complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and the chart\'s normal; 1: the chart faces the sun, unlike the panels' -r
+complete -c vextract -l save-camera -d 'Write the camera\'s curves with their standard deviations, by the chart in the one IMAGE and the known --illuminant, and nothing else; a --camera from then on' -r -F
 complete -c vextract -l white-reflectance -d 'Reflectance of the white card' -r
 complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and the white card\'s normal' -r
 complete -c vextract -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F

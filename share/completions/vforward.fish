@@ -2,8 +2,8 @@ complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, o
 complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
 complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per facet, no truth in the samples' -r -F
 complete -c vforward -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)' -r
-complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside' -r
-complete -c vforward -l sky-illuminant -d 'Illuminant of the sky [default: that of the sun]' -r
+complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r
+complete -c vforward -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]' -r
 complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vforward -l reference-panel -d 'Panel 1 is a card of this reflectance: --panel-reflectance 1=SPEC' -r
 complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene\'s tolerance asks for' -r
