@@ -1,7 +1,7 @@
 //! What stands in for a camera that nobody measured, each of the 52 left out in turn: by its colour matrix, by its maker, by neither, and the
 //! mean of all others. Errors are root mean squares of the curves over 400 to 700 nm, green's peak being 1.
 //!
-//! `cargo bench --bench cameras > benches/results/cameras.md`
+//! `cargo bench --bench cameras` prints the table of `benches/results/cameras.md`.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 
