@@ -47,7 +47,7 @@ impl FoldSetting<'_> {
         }
         let fold = match finer {
             Some(grid) => self.fold().with_facets(grid)?.with_spacing(Spacing::Uniform),
-            None => self.fold().clone(),
+            None => *self.fold(),
         };
         Ok(FoldedSheet::new(&fold, &self.light()?, self.lighting()?.sun, family, eye))
     }
