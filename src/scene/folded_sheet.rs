@@ -9,10 +9,10 @@ use crate::error::{Error, Result};
 use crate::estimate::photograph::model::{NODES, nodes};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::quadrature::Lagrange;
-use crate::sheet::{Family, Shape};
+use crate::sheet::Shape;
 use crate::transport::departures;
 
-/// What a sheet of a family shows beyond a Lambertian one.
+/// What a sheet shows beyond a Lambertian one.
 pub struct FoldedSheet {
     shape: Shape,
     nodes: Lagrange,
@@ -22,13 +22,14 @@ pub struct FoldedSheet {
 }
 
 impl FoldSetting<'_> {
-    /// A sheet of a family in this fold, seen from `eye` in the fold's unit, on the facets of the scene or on others that are `finer`.
+    /// A sheet that reflects like this in this fold, seen from `eye` in the fold's unit, on the facets of the scene or on others that are
+    /// `finer`.
     ///
     /// # Errors
     /// [`Error::Field`] if the scene has a card, panels of different depth, or more than one light.
     pub fn folded_sheet(
         &self,
-        family: Family,
+        shape: Shape,
         eye: Vector3<f64>,
         finer: Option<FacetGrid>,
     ) -> Result<FoldedSheet> {
@@ -39,13 +40,13 @@ impl FoldSetting<'_> {
             Some(grid) => self.fold().with_facets(grid)?.with_spacing(Spacing::Uniform),
             None => *self.fold(),
         };
-        Ok(FoldedSheet::new(&fold, &self.light()?, self.lighting()?.sun, family, eye))
+        Ok(FoldedSheet::new(&fold, &self.light()?, self.lighting()?.sun, shape, eye))
     }
 }
 
 impl FoldedSheet {
-    fn new(fold: &Fold, light: &Light, camera: CameraResponse, family: Family, eye: Vector3<f64>) -> Self {
-        let (shape, nodes) = (Shape::from(family), nodes(NODES));
+    fn new(fold: &Fold, light: &Light, camera: CameraResponse, shape: Shape, eye: Vector3<f64>) -> Self {
+        let nodes = nodes(NODES);
         let all =
             departures(fold, &light.towards(), &Point3::from(eye), std::slice::from_ref(&shape), &nodes);
         let beyond = all.index_axis(Axis(0), 0).to_owned();

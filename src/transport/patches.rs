@@ -31,9 +31,9 @@ const PLACES: usize = 4;
 /// Most reflections that are followed one by one.
 const REFLECTIONS: usize = 40;
 /// Light that is let go, relative to what the sun sends.
-const NEGLIGIBLE: f64 = 2e-4;
-/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little, and smooth in the albedo.
-const NODES: usize = 5;
+const NEGLIGIBLE: f64 = 5e-5;
+/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little and smooth, but matters in dark sheets too.
+const NODES: usize = 7;
 
 /// The patches of both panels, with all directions between them.
 pub struct Patches {

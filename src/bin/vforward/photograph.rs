@@ -52,14 +52,14 @@ impl Setup<'_> {
             fold.lighting()?
         };
         let model = fold.fine_model(view.grid(), &lighting)?;
-        let light = match self.args.sheet.family()? {
+        let light = match self.args.sheet.shape()? {
             None => self.light(&model, reflectance),
             Some(_) if for_screen => {
                 let problem = "a sheet that is not perfectly matt is rendered as the camera sees it";
                 return Err(Error::usage("--render", problem, "give a name in .exr or .tif"));
             }
-            Some(family) => {
-                let sheet = fold.folded_sheet(family, view.eye(), Some(view.grid()))?;
+            Some(shape) => {
+                let sheet = fold.folded_sheet(shape, view.eye(), Some(view.grid()))?;
                 let albedo = sheet.albedo(reflectance)?;
                 self.light(&model, &albedo) + self.args.exposure * sheet.beyond(&albedo)
             }

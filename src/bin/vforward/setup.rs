@@ -41,10 +41,10 @@ impl<'a> Setup<'a> {
     ) -> Result<Self> {
         let setting = Setting::of(scene)?;
         let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
-        let sheet = args.sheet.family()?.map(|family| match &setting {
+        let sheet = args.sheet.shape()?.map(|shape| match &setting {
             Setting::Fold(fold) => {
                 let view = FoldView::new(fold.fold(), &args.render.viewpoint(), args.render.frame()?)?;
-                fold.folded_sheet(family, view.eye(), None)
+                fold.folded_sheet(shape, view.eye(), None)
             }
             Setting::Surface(_) => Err(Error::field(
                 "geometry",

@@ -1,7 +1,7 @@
 //! How the sheet reflects, beside its reflectance.
 
 use clap::Args;
-use vfold::sheet::Family;
+use vfold::sheet::{Family, Shape};
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -11,7 +11,7 @@ pub struct SheetArgs {
     /// Strength of the surface's reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye
     #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     gloss: f64,
-    /// Roughness of the surface: alpha of its microfacets (GGX), above 0 to 1
+    /// Roughness of the surface: alpha of its microfacets (GGX), 0.25 to 1
     #[arg(long, value_name = "X", default_value_t = 0.42, allow_negative_numbers = true, requires = "gloss")]
     gloss_roughness: f64,
     /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)
@@ -23,11 +23,11 @@ pub struct SheetArgs {
 }
 
 impl SheetArgs {
-    /// The family; none if the sheet is perfectly matt.
+    /// How the sheet reflects; none if it is perfectly matt.
     ///
     /// # Errors
     /// [`Error::Usage`] if a number is out of its range.
-    pub fn family(&self) -> Result<Option<Family>> {
+    pub fn shape(&self) -> Result<Option<Shape>> {
         let Self { gloss, gloss_roughness, body_roughness_deg, fuzz } = *self;
         let within = |flag, value: f64, most: f64| {
             if (0.0..=most).contains(&value) {
@@ -44,9 +44,11 @@ impl SheetArgs {
             return Err(Error::usage("--gloss-roughness", problem, format!("give {LEAST_ROUGHNESS} to 1")));
         }
         let is_matt = [gloss, body_roughness_deg, fuzz].iter().all(|effect| *effect <= 0.0);
-        Ok((!is_matt).then_some(Family { body_roughness_deg, gloss, roughness: gloss_roughness, fuzz }))
+        let family = Family { body_roughness_deg, gloss, roughness: gloss_roughness, fuzz };
+        Ok((!is_matt).then(|| Shape::from(family)))
     }
 }
 
-/// Narrower reflections than those of this roughness are not seen by the patches that light is exchanged between.
-const LEAST_ROUGHNESS: f64 = 0.15;
+/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged between. Of a closed surface, facets
+/// away from the crease agree with another program's transport between patches within 2 % at 0.25, and within 7 % at 0.15.
+const LEAST_ROUGHNESS: f64 = 0.25;

@@ -57,7 +57,9 @@ pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
 
 /// Sizes of fuzz at which it is known, on the family in the middle of [`FAMILY_NODES`].
 pub const FUZZ: [f64; 2] = [0.4, 1.0];
-/// How far sheets of a family vary beyond its numbers, and matt ones from being that, relative to how far measured sheets differ.
+/// How far a sheet is from the mean of those that were measured, in standard deviations of these: more than one, as they are few.
+const MEASURED_VARIATION: f64 = 1.4;
+/// How far sheets of a family vary beyond its numbers, and matt ones from being that, in the same unit.
 const FAMILY_VARIATION: f64 = 0.4;
 const MATT_VARIATION: f64 = 0.2;
 
@@ -112,7 +114,7 @@ impl Sheets {
             Kind::Measured => {
                 let mut mean = self.measured.clone();
                 mean.reflectance[0] += self.instrument.shared * variations.last().copied().unwrap_or(0.0);
-                (mean, 1.0)
+                (mean, MEASURED_VARIATION)
             }
             // of these two the formula tells it
             Kind::Matt => (Departure::none(&self.measured.radiance), MATT_VARIATION),
