@@ -90,8 +90,10 @@ fn light_and_camera() {
             case(
                 "vforward scene.json --reflectance 0.5 --gloss 1 --gloss-roughness 0",
                 2,
-                &["mirror", "0.15"],
+                &["mirror", "0.25"],
             ),
+            case("vforward scene.json --reflectance 0.5 --gloss-roughness 0.3", 2, &["--gloss"]),
+            case("vforward scene.json --reflectance 0.5 --gloss 1 --bounces 2", 2, &["--gloss", "--bounces"]),
             case(
                 "vforward scene.json --reflectance 0.5 --body-roughness-deg 90",
                 2,
