@@ -17,8 +17,8 @@ use crate::estimate::prior::{Class, Prior};
 use crate::estimate::unknowns::EXPOSURE;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
-use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+use crate::solve::{Eigen, Termination};
 
 /// Maxima are told apart this near to them, and counted as found, in standard deviations.
 const SORTING_TOLERANCE: f64 = 0.3;
@@ -32,6 +32,8 @@ const CLASSES: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -5.0;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
+/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
+const NEGLIGIBLE: f64 = 1e-3;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
 
@@ -70,8 +72,9 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     for (_, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
         let about = About::new(&all, solution).ok_or_else(not_finite)?;
-        let likely = prior.classes().iter().filter_map(|class| about.linear(class));
-        for (_, class, start) in most_evident(likely.collect(), CLASSES, |one| one.0) {
+        let likely = prior.classes().iter().filter_map(|class| Some((about.ln_evidence(class)?, class)));
+        for (_, class) in most_evident(likely.collect(), CLASSES, |one| one.0) {
+            let start = about.maximum(class).ok_or_else(not_finite)?;
             let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
             let found = search(&model, start, TOLERANCE, LIMIT);
             tried += 1;
@@ -125,24 +128,59 @@ struct About {
     by_logit: DMatrix<f64>,
     by_others: DMatrix<f64>,
     residuals: DVector<f64>,
+    /// What the facets tell of logits whatever the others are, as few values of standard deviation 1: value by waveband, and how far the
+    /// values are off at the maximum.
+    told: DMatrix<f64>,
+    off: DVector<f64>,
 }
 
 impl About {
     fn new(all: &PhotographModel, solution: &Solution<()>) -> Option<Self> {
         let [scene, ..] = all.layout();
-        let (broad, others) = (all.gaussian(), solution.w.len() - scene);
+        let (broad, count) = (all.gaussian(), solution.w.len() - scene);
         let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
+        let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
+        let others = solution.w.rows(scene, count).into_owned();
+        let by_logit = solution.at.jacobian.columns(0, scene) * coordinates_of;
+        let by_others = solution.at.jacobian.columns(scene, count).into_owned();
+        let residuals = solution.at.residuals.clone();
+        let mut information = by_others.tr_mul(&by_others);
+        (0..count).for_each(|n| information[(n, n)] += 1.0);
+        let both = by_others.tr_mul(&by_logit);
+        let left = Cholesky::new(information)?.solve(&both);
+        let at_prior = &residuals + &by_others * &others;
+        let told = by_logit.tr_mul(&by_logit) - both.tr_mul(&left);
+        let off = by_logit.tr_mul(&at_prior) - left.tr_mul(&by_others.tr_mul(&at_prior));
+        let Eigen { values, vectors } = Eigen::of_symmetric(told);
+        let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
+        let row = |n: &usize| values[*n].sqrt() * vectors.column(*n).transpose();
         Some(Self {
-            logit: broad.logit_at(&solution.w.rows(0, scene).into_owned()),
-            others: solution.w.rows(scene, others).into_owned(),
-            by_logit: solution.at.jacobian.columns(0, scene) * coordinates_of,
-            by_others: solution.at.jacobian.columns(scene, others).into_owned(),
-            residuals: solution.at.residuals.clone(),
+            told: DMatrix::from_rows(&kept.iter().map(row).collect::<Vec<_>>()),
+            off: DVector::from_iterator(
+                kept.len(),
+                kept.iter().map(|n| vectors.column(*n).dot(&off) / values[*n].sqrt()),
+            ),
+            logit,
+            others,
+            by_logit,
+            by_others,
+            residuals,
         })
     }
 
-    /// The evidence for a class of spectra, and where its maximum is.
-    fn linear<'a>(&self, class: &'a Class) -> Option<(f64, &'a Class, DVector<f64>)> {
+    /// The evidence for a class of spectra.
+    fn ln_evidence(&self, class: &Class) -> Option<f64> {
+        let spread = &self.told * class.gaussian.basis();
+        let mut covariance = &spread * spread.transpose();
+        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
+        let off = &self.off + &self.told * (&self.logit - class.gaussian.mean());
+        let factor = Cholesky::new(covariance)?;
+        let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
+        Some(class.ln_share - 0.5 * (cost + factor.ln_determinant()))
+    }
+
+    /// Where the maximum under a class of spectra is.
+    fn maximum(&self, class: &Class) -> Option<DVector<f64>> {
         let own = &class.gaussian;
         let coordinates = own.basis().ncols();
         let mut jacobian = DMatrix::zeros(self.by_logit.nrows(), coordinates + self.others.len());
@@ -152,11 +190,7 @@ impl About {
             &self.residuals + &self.by_logit * (&self.logit - own.mean()) + &self.by_others * &self.others;
         let mut information = jacobian.tr_mul(&jacobian);
         (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
-        let factor = Cholesky::new(information)?;
-        let w = factor.solve(&jacobian.tr_mul(&residuals));
-        let cost = (residuals - jacobian * &w).norm_squared() + w.norm_squared();
-        let ln_evidence = class.ln_share - 0.5 * (cost + factor.ln_determinant());
-        Some((ln_evidence, class, w))
+        Some(Cholesky::new(information)?.solve(&jacobian.tr_mul(&residuals)))
     }
 }
 
