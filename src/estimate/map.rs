@@ -1,9 +1,9 @@
-//! The default: the most probable spectrum, given the facets and what is known of reflectances.
+//! The default: the expected spectrum, given the facets and what is known of reflectances.
 //!
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Newton's method finds the maximum in whitened z under each class that the facets may belong to (`starts`), the
-//! evidence there chooses, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or facets
-//! are further from the model than their noise.
+//! Newton's method finds the maximum in whitened z under each class and width that the facets may belong to (`starts`). The estimate is
+//! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
+//! facets are further from the model than their noise.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -65,15 +65,15 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
     let found = if near.is_empty() || is_truer(&far, &near) { far } else { near };
-    let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
+    let best = mean(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
 }
 
 /// The maximum under a class, the noise `inflation` times its size at first.
 fn under(data: &FacetData, start: Start, inflation: f64) -> Found {
-    let facets = Facets { data, gaussian: &start.class.gaussian };
+    let facets = Facets { data, gaussian: &start.gaussian };
     let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-    let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
+    let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
     Found::new(&facets, &solution, evidence)
 }
 
@@ -102,21 +102,27 @@ struct Found {
     termination: Termination,
 }
 
-/// That of most evidence, its error bars widened by how far the others are from it.
-fn most_evident(mut found: Vec<Found>) -> Option<Found> {
+/// The mean of the maxima by their evidence, its error bars widened by how far they are from it; the rest is that of most evidence.
+fn mean(mut found: Vec<Found>) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
     let odds = |other: &Found| (other.ln_evidence - most.ln_evidence).exp();
     let total: f64 = found.iter().map(odds).sum();
+    let share =
+        |other: &Found| if total.is_finite() { odds(other) / total } else { 1.0 / found.len() as f64 };
+    let mut point = vec![0.0; most.point.len()];
+    for other in &found {
+        point.iter_mut().zip(&other.point).for_each(|(mean, value)| *mean += share(other) * value);
+    }
     let rows = found.iter().map(|other| {
-        let share = (odds(other) / total).sqrt();
-        let apart = other.point.iter().zip(&most.point).map(|(other, best)| share * (other - best));
+        let share = share(other).sqrt();
+        let apart = other.point.iter().zip(&point).map(|(other, mean)| share * (other - mean));
         let apart = RowDVector::from_iterator(other.point.len(), apart);
         let own = share * other.spread.as_ref()?;
         Some(own.row_iter().map(nalgebra::Matrix::into_owned).chain([apart]).collect::<Vec<_>>())
     });
     let spread = rows.collect::<Option<Vec<_>>>().map(|rows| DMatrix::from_rows(&rows.concat()));
-    Some(Found { spread, ..found.swap_remove(0) })
+    Some(Found { spread, point, ..found.swap_remove(0) })
 }
 
 impl Found {
