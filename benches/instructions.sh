@@ -7,14 +7,14 @@
 #
 # Tools in the folder TOOLS are counted as they are.
 #
-# They are those of the profile `counted`, a release without optimisation across crates: that would take longer than all the rest.
+# They are those of benches/counted.toml, a release without optimisation across crates: that would take longer than all the rest.
 # A change, however large, is the reader's to judge; what cannot be built or counted is an error.
 set -eu
 cd "$(dirname "$0")/.."
 kept=$PWD/benches/instructions.csv
 if [ -z "${TOOLS:-}" ]; then
-    cargo build --quiet --profile counted --bins
-    TOOLS=${CARGO_TARGET_DIR:-target}/counted
+    cargo build --quiet --config benches/counted.toml --bins
+    TOOLS=${CARGO_TARGET_DIR:-target}/debug
 fi
 bin=$(cd "$TOOLS" && pwd)
 work=$(mktemp -d)
@@ -65,7 +65,7 @@ case ${1:-} in
         beside once <again
         awk -F, 'NR == FNR { once[$1] = $2; next } ($2 / once[$1] - 1) ^ 2 > 25e-6 { print "not the same twice: " $1; apart = 1 }
             END { exit apart }' once again
-        { echo "# profile counted, $(rustc --version), $(valgrind --version)"; cat again; } >"$kept"
+        { echo "# benches/counted.toml, $(rustc --version), $(valgrind --version)"; cat again; } >"$kept"
         ;;
     *)
         counts >now

@@ -23,7 +23,7 @@ _vforward() {
 
     case "${cmd}" in
         vforward)
-            opts="-o -j -q -v -h -V --reflectance --panel-reflectance --facet-reflectance --camera --illuminant --sky-illuminant --wavelengths-nm --reference-panel --bounces --exposure --noise-sd --photon-noise --seed --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --reflectance --panel-reflectance --facet-reflectance --camera --illuminant --sky-illuminant --wavelengths-nm --reference-panel --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -78,6 +78,22 @@ _vforward() {
                     return 0
                     ;;
                 --seed)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --gloss)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --gloss-roughness)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --body-roughness-deg)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --fuzz)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -11,9 +11,13 @@ complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing th
 complete -c vforward -l noise-sd -d 'Standard deviation of noise on every facet (with --render: on every pixel of the picture only)' -r
 complete -c vforward -l photon-noise -d 'Standard deviation of photon noise at value 1; it grows with the root of the signal' -r
 complete -c vforward -l seed -d 'Seed of the noise' -r
+complete -c vforward -l gloss -d 'Strength of the surface\'s reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye' -r
+complete -c vforward -l gloss-roughness -d 'Roughness of the surface: alpha of its microfacets (GGX), above 0 to 1' -r
+complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar\'s sigma)' -r
+complete -c vforward -l fuzz -d 'By how much the body is brighter where light grazes it, or the eye, as that of felt' -r
 complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
 complete -c vforward -l render-size -d 'Size of the photograph' -r
-complete -c vforward -l eye -d 'Where the camera stands, in the unit of the panels [default: off by a few degrees from where the sun is]' -r
+complete -c vforward -l eye -d 'Where the camera stands, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: off by a few degrees from where the sun is]' -r
 complete -c vforward -l look-at -d 'What it looks at [default: the middle]' -r
 complete -c vforward -l up -d 'What points upwards in the photograph [default: the crease]' -r
 complete -c vforward -l field-of-view-deg -d 'Angle over the photograph\'s width [default: it is cut to what it shows]' -r

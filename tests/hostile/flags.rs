@@ -85,6 +85,25 @@ fn light_and_camera() {
             case("vforward scene.json --reflectance 0.5 --photon-noise inf", 2, &["--photon-noise"]),
             case("vforward scene.json --reflectance 0.5 --exposure 0", 2, &["--exposure", "above 0"]),
             case("vforward scene.json --reflectance 0.5 --seed=-1", 2, &["--seed"]),
+            case("vforward scene.json --reflectance 0.5 --gloss -1", 2, &["--gloss", "0 to 2"]),
+            case("vforward scene.json --reflectance 0.5 --gloss NaN", 2, &["--gloss", "NaN"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --gloss 1 --gloss-roughness 0",
+                2,
+                &["mirror", "0.15"],
+            ),
+            case(
+                "vforward scene.json --reflectance 0.5 --body-roughness-deg 90",
+                2,
+                &["--body-roughness-deg", "45"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --fuzz inf", 2, &["--fuzz", "0 to 2"]),
+            case("vforward scene.json --reflectance 1 --fuzz 1", 2, &["--reflectance", "45:0"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --gloss 1 --reference-panel 0.9",
+                1,
+                &["reference_panel"],
+            ),
             case(
                 "vforward scene.json --reflectance 0.5 --camera cannon-5d-mark-ii",
                 1,

@@ -125,7 +125,7 @@ fn photographs_of_a_batch() {
     let run = folder.sh(&format!(
         "echo no picture > text.png
         vkernel --angle-deg 50 --facets 2x2 | vextract '{PHOTO}' text.png missing.tif '{PHOTO}' \
-            --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442'"
+            --camera canon-5d-mark-ii --illuminant D65 --panel0 '332,462 345,77 122,12 104,442'"
     ));
     assert_eq!((run.status, run.stderr.as_str()), (3, ""));
     let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();

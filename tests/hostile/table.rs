@@ -266,7 +266,7 @@ const SETUP: &str = concat!(
     vforward scene.json --reflectance cc24:red --wavelengths-nm 400:700:10 --no-history -o samples.ndjson
     vestimate samples.ndjson --no-history -o estimates.ndjson
     cat > extract <<'END'
-    vextract "$@" --panel0 '332,462 345,77 122,12 104,442' --camera canon-5d-mark-ii $([ "$2" = --scene ] || echo --scene scene.json)
+    vextract -q "$@" --panel0 '332,462 345,77 122,12 104,442' --camera canon-5d-mark-ii $([ "$2" = --scene ] || echo --scene scene.json)
 END
     cat > full <<'END'
     trap '' XFSZ

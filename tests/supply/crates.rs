@@ -62,7 +62,9 @@ fn nothing_talks_to_a_network() {
 fn every_crate_is_used() {
     let metadata = metadata();
     let vfold = list(&metadata["packages"]).iter().find(|package| package["name"] == "vfold").unwrap();
-    for dependency in list(&vfold["dependencies"]) {
+    // one of a build without a script is not used, but sets features
+    let called = list(&vfold["dependencies"]).iter().filter(|dependency| dependency["kind"] != "build");
+    for dependency in called {
         let folders: &[&str] =
             if dependency["kind"] == "dev" { &["tests", "benches", "src"] } else { &["src"] };
         let name =

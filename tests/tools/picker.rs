@@ -81,7 +81,7 @@ fn nudged_by_twelve_pixels(said: &Value) {
 fn measures(folder: &Workdir, command: &str) {
     let command = command.replace("photo.png", "photo.exr").replace("-deg 45", "-deg 50");
     let command: Vec<_> = command.lines().filter(|line| !line.contains("--chart")).collect();
-    let command = command.join("\n").replace(" | vestimate", " --camera canon-5d-mark-ii");
+    let command = command.join("\n").replace(" | vestimate", " --camera canon-5d-mark-ii --illuminant D65");
     finds_the_panel(folder, &command);
 }
 

@@ -5,9 +5,15 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
+use serde_json::{Value, json};
+use vfold::estimate::photograph::error::ModelError;
+use vfold::estimate::prior::Prior;
+use vfold::estimate::{classes, photograph};
+use vfold::scene::{FoldSetting, PhotographedFold};
+use vfold::spectrum::Outside;
+use vfold::stream::{Reader, Record};
 
-use crate::common::{Workdir, left_out};
+use crate::common::{Ended, Workdir, left_out};
 
 const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared");
 
@@ -53,7 +59,76 @@ fn measured_materials_give_their_reflectance() {
     }
 }
 
-/// What vforward makes of a sheet of which the renderer was told the same: facets away from the crease within 0.5 % of its photograph's.
+/// Each material left out of the sheets that are known, as one is that nobody measured.
+#[test]
+fn measured_materials_left_out_in_turn() {
+    let Some(materials) = sidecars("materials") else { return };
+    for (exposure, most) in [(Some(1.0), 0.035), (None, 0.07)] {
+        let all: Vec<Outcome> =
+            materials.iter().map(|path| left_out_of_what_is_known(path, exposure)).collect();
+        println!("left out, exposure {exposure:?}");
+        print_table(&all);
+        let error = mean(&all.iter().collect::<Vec<_>>(), |one| one.mean_error);
+        assert!(error < most, "{exposure:?}: {error}");
+    }
+}
+
+fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
+    let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+    let known: Vec<&str> = vfold::sheet::measured_names().filter(|known| known.ends_with(&name)).collect();
+    let [known] = known[..] else { panic!("{name}: {known:?}") };
+    let folder = Workdir::new();
+    let records = folder.path().join("records.ndjson");
+    let run = folder.sh(&format!("{} > records.ndjson", material_records(path)));
+    assert!(run.status == 0, "{name}: {}", run.stderr);
+    let mut reader = Reader::open(&records.to_string_lossy()).unwrap();
+    let mut records = std::iter::from_fn(|| reader.read().unwrap());
+    let (Some(Record::Scene(scene)), Some(Record::Sample(sample))) = (records.next(), records.next()) else {
+        panic!("{name}: no scene and sample")
+    };
+    let setting = FoldSetting::of(&scene).unwrap();
+    let parts = PhotographedFold::of(&setting).leaving_out(known).parts(&sample, exposure).unwrap().unwrap();
+    let grid = scene.grid().unwrap();
+    let chips = vfold::spectrum::reflectances("munsell").unwrap();
+    let chips: Vec<_> = chips.iter().map(|chip| chip.on(&grid, Outside::Refuse).unwrap()).collect();
+    let prior = Prior::from_spectra(grid.wavelengths_nm(), &chips, Some(&classes::of_munsell())).unwrap();
+    let estimate = photograph::estimate(&parts, &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
+    let sample = json!({"estimate": {"reflectance": estimate.reflectance, "reflectance_sd": estimate.reflectance_sd()}});
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let bands = numbers(&sidecar["bands_nm"]);
+    let place = |band: &f64| grid.wavelengths_nm().iter().position(|nm| (nm - band).abs() < 0.1).unwrap();
+    let places: Vec<usize> = bands.iter().map(place).collect();
+    outcome(path, &sample, &numbers(&sidecar["reflectance_45_0"]), |all| {
+        places.iter().map(|n| all[*n]).collect()
+    })
+}
+
+/// The command that makes the records of a material's photograph.
+fn material_records(path: &Path) -> String {
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let bands = numbers(&sidecar["bands_nm"]);
+    let wavelengths: Vec<f64> = (0..61).map(|n| 400.0 + 5.0 * f64::from(n)).collect();
+    let channel = |band: &f64| wavelengths.iter().map(|nm| f64::from((nm - band).abs() < 0.1)).collect();
+    let camera = table(&wavelengths, &bands.iter().map(channel).collect::<Vec<_>>());
+    let light = table(&wavelengths, &[vec![1.0; 61]]);
+    format!(
+        r#"
+cat > camera.csv <<END
+{camera}END
+cat > light.csv <<END
+{light}END
+vkernel --angle-deg {angle} --tilt-deg {tilt} |
+vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}'"#,
+        angle = sidecar["angle_deg"],
+        tilt = sidecar["tilt_deg"],
+        photo = path.with_extension("exr").display(),
+        panel0 = corners(&sidecar["panel0"]),
+        panel1 = corners(&sidecar["panel1"]),
+    )
+}
+
+/// What vforward makes of a sheet of which the renderer was told the same: facets away from the crease within 0.6 % of its photograph's, the
+/// noise of which is 0.1 %.
 #[test]
 fn simulated_sheets_look_as_the_renderers_do() {
     for (name, flags) in
@@ -79,7 +154,7 @@ cat > light.csv <<END
 cat > truth.csv <<END
 {truth}END
 vkernel --angle-deg {angle} > scene.json
-vextract -q scene.json "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}' | tail -n 1
+vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}' < scene.json | tail -n 1
 vforward scene.json --camera camera.csv --illuminant light.csv --reflectance truth.csv {flags} --eye=0.96547,1.10338,8.36309 | tail -n 1
 "#,
             camera = columns(&camera),
@@ -98,7 +173,7 @@ vforward scene.json --camera camera.csv --illuminant light.csv --reflectance tru
         for (row, (seen, made)) in seen.iter().zip(&made).enumerate().skip(1) {
             for (seen, made) in seen.iter().zip(made) {
                 assert!(
-                    (seen / (scale * made) - 1.0).abs() < 5e-3,
+                    (seen / (scale * made) - 1.0).abs() < 6e-3,
                     "{name}, row {row}: {seen} {}",
                     scale * made
                 );
@@ -174,7 +249,6 @@ fn of_real(path: &Path) -> Outcome {
         &scene,
         &photo,
         &format!("{panels} {calibration}"),
-        "",
     );
     outcome(path, &sample, &truth, <[f64]>::to_vec)
 }
@@ -182,34 +256,23 @@ fn of_real(path: &Path) -> Outcome {
 fn of_material(path: &Path, exposure: &str) -> Outcome {
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let bands = numbers(&sidecar["bands_nm"]);
+    let run = Workdir::new().sh(&format!("{} | vestimate -q {exposure}", material_records(path)));
+    let sample = sample(path, &run);
+    let place = |band: &f64| ((band - 400.0) / 5.0).round() as usize;
+    let places: Vec<usize> = bands.iter().map(place).collect();
     let truth = numbers(&sidecar["reflectance_45_0"]);
-    let wavelengths: Vec<f64> = (0..61).map(|n| 400.0 + 5.0 * f64::from(n)).collect();
-    let channel = |band: &f64| wavelengths.iter().map(|nm| f64::from((nm - band).abs() < 0.1)).collect();
-    let camera = table(&wavelengths, &bands.iter().map(channel).collect::<Vec<_>>());
-    let light = table(&wavelengths, &[vec![1.0; 61]]);
-    let scene = format!("--angle-deg {} --tilt-deg {}", sidecar["angle_deg"], sidecar["tilt_deg"]);
-    let panels =
-        format!("--panel0 '{}' --panel1 '{}'", corners(&sidecar["panel0"]), corners(&sidecar["panel1"]));
-    let photo = path.with_extension("exr");
-    let sample = run(&camera, &light, "", &scene, &photo, &panels, exposure);
-    let places: Vec<usize> = bands
-        .iter()
-        .map(|band| wavelengths.iter().position(|nm| (nm - *band).abs() < 0.1).unwrap())
-        .collect();
     outcome(path, &sample, &truth, |estimate| places.iter().map(|place| estimate[*place]).collect())
 }
 
+/// The sample among what a pipeline printed.
+fn sample(path: &Path, run: &Ended) -> Value {
+    assert!(run.status == 0, "{}: {}", path.display(), run.stderr);
+    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    records.into_iter().find(|record| record["kind"] == "sample").unwrap()
+}
+
 /// The sample that the tools make of a photograph.
-fn run(
-    camera: &str,
-    light: &str,
-    truth: &str,
-    scene: &str,
-    photo: &Path,
-    extract: &str,
-    estimate: &str,
-) -> Value {
-    let score = if truth.is_empty() { "" } else { "| vscore --truth truth.csv" };
+fn run(camera: &str, light: &str, truth: &str, scene: &str, photo: &Path, extract: &str) -> Value {
     let run = Workdir::new().sh(&format!(
         r#"
 cat > camera.csv <<END
@@ -220,13 +283,11 @@ cat > truth.csv <<END
 {truth}END
 vkernel {scene} |
 vextract -q "{photo}" --camera camera.csv --illuminant light.csv {extract} |
-vestimate -q {estimate} {score}
+vestimate -q | vscore --truth truth.csv
 "#,
         photo = photo.display(),
     ));
-    assert!(run.status == 0, "{}: {}", photo.display(), run.stderr);
-    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
-    records.into_iter().find(|record| record["kind"] == "sample").unwrap()
+    sample(photo, &run)
 }
 
 fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -> Vec<f64>) -> Outcome {

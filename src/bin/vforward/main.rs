@@ -102,6 +102,7 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
+    args.render.check(args.sheet.family()?.is_some())?;
     let optics = args.optics.resolve(&args.camera, &args.common)?;
     let subject = Subject::of(args, &optics.grid)?;
     let materials = args.materials.on(&optics.grid, &args.common)?;

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use nalgebra::Vector3;
-use vfold::Result;
 use vfold::cli;
 use vfold::forward::render::{Frame, Viewpoint};
 use vfold::stream::Corners;
+use vfold::{Error, Result};
 
 #[derive(Args)]
 #[command(next_help_heading = "Photograph")]
@@ -34,6 +34,16 @@ pub struct RenderArgs {
 }
 
 impl RenderArgs {
+    /// # Errors
+    /// [`Error::Usage`] for a camera that looks at nothing: a perfectly matt sheet sends facets the same light from everywhere.
+    pub fn check(&self, is_seen: bool) -> Result<()> {
+        if self.eye.is_none() || self.render.is_some() || is_seen {
+            return Ok(());
+        }
+        let problem = "where the camera stands makes no difference to the facets of a perfectly matt sheet";
+        Err(Error::usage("--eye", problem, "give --render, or --gloss, --body-roughness-deg or --fuzz"))
+    }
+
     /// # Errors
     /// As [`Frame::new`].
     pub fn frame(&self) -> Result<Frame> {

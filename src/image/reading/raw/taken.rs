@@ -43,6 +43,6 @@ fn universal(gps: &ExifGPS) -> Option<String> {
 }
 
 fn three(parts: &Option<[Rational; 3]>) -> Option<[f64; 3]> {
-    let numbers = parts.as_ref()?.clone().map(|part| f64::from(part.n) / f64::from(part.d));
+    let numbers = (*parts)?.map(|part| f64::from(part.n) / f64::from(part.d));
     numbers.iter().all(|part| (0.0..=180.0).contains(part)).then_some(numbers)
 }
