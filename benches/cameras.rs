@@ -9,7 +9,7 @@ use vfold::Result;
 use vfold::camera::{LeftOut, StandIns};
 
 fn main() -> Result<()> {
-    let rows = StandIns::new()?.left_out();
+    let rows = StandIns::new()?.left_out()?;
     println!("| camera left out | by matrix | error | by maker | error | by neither | error | mean of all |");
     println!("|---|---|---|---|---|---|---|---|");
     for LeftOut { camera, stand_ins, mean_error } in &rows {

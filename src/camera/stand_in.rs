@@ -75,68 +75,59 @@ pub struct StandIns {
     known: Vec<KnownCurves>,
     /// Distances between their curves.
     distances: Vec<Vec<f64>>,
+}
+
+/// Colour matrices of the cameras that can stand in.
+struct Matrices {
     /// From white-balanced XYZ to white-balanced RGB.
-    matrices: Vec<Matrix3<f64>>,
+    all: Vec<Matrix3<f64>>,
     white_xyz: Vector3<f64>,
 }
 
 impl StandIns {
-    /// The measured cameras; their matrices are those of the Munsell chips under D65.
+    /// The measured cameras.
     ///
     /// # Errors
     /// Only if the embedded tables are damaged.
     pub fn new() -> Result<Self> {
-        let grid = WavelengthGrid::default();
-        let known = known_curves(&grid)?;
-        let daylight = illuminant("D65")?;
-        let power = daylight.on(&grid, Outside::Refuse)?;
-        let eye = Colorimeter::new(&grid, &daylight, Observer::Cie1931_2deg)?;
-        let white_xyz = Vector3::from(eye.xyz(&vec![1.0; grid.len()]));
-        let chips = reflectances("munsell")?;
-        let chips = chips.iter().map(|chip| chip.on(&grid, Outside::Refuse)).collect::<Result<Vec<_>>>()?;
-        let xyz = chips.iter().map(|chip| Vector3::from(eye.xyz(chip)).component_div(&white_xyz));
-        let xyz = Matrix3xX::from_columns(&xyz.collect::<Vec<_>>());
-        let matrix = |known: &KnownCurves| {
-            let response = CameraResponse::new(&grid, &known.curves, &power)?;
-            let white = Vector3::from_vec(response.white());
-            let rgb =
-                chips.iter().map(|chip| Vector3::from_vec(response.of_flat(chip)).component_div(&white));
-            let rgb = Matrix3xX::from_columns(&rgb.collect::<Vec<_>>());
-            let squares = (&xyz * xyz.transpose()).try_inverse();
-            let squares =
-                squares.ok_or_else(|| Error::Fault("the chips' colours lie in a plane".to_owned()))?;
-            Ok(white_to_white(rgb * xyz.transpose() * squares))
-        };
-        let matrices = known.iter().map(matrix).collect::<Result<_>>()?;
+        let known = known_curves(&WavelengthGrid::default())?;
         let row = |a: &KnownCurves| known.iter().map(|b| curve_error(&a.curves, &b.curves)).collect();
-        Ok(Self { distances: known.iter().map(row).collect(), matrices, white_xyz, known })
+        Ok(Self { distances: known.iter().map(row).collect(), known })
     }
 
     /// The camera that stands in for one by `make`, as it writes that into its pictures, with this colour matrix if its pictures have one.
     ///
+    /// # Errors
+    /// Only if the embedded tables are damaged.
+    ///
     /// # Example
     /// ```
     /// use vfold::camera::{StandIns, Why};
-    /// let stand_in = StandIns::new()?.for_camera("NIKON CORPORATION", None);
+    /// let stand_in = StandIns::new()?.for_camera("NIKON CORPORATION", None)?;
     /// assert!(stand_in.name.starts_with("nikon-") && stand_in.why == Why::Maker);
     /// # Ok::<(), vfold::Error>(())
     /// ```
-    #[must_use]
-    pub fn for_camera(&self, make: &str, matrix: Option<&ColourMatrix>) -> StandIn {
+    pub fn for_camera(&self, make: &str, matrix: Option<&ColourMatrix>) -> Result<StandIn> {
         let all: Vec<usize> = (0..self.known.len()).collect();
-        match matrix.and_then(|matrix| self.white_balanced(matrix)) {
-            Some(matrix) => self.by_matrix(&matrix, &all),
-            None => self.by_maker(make, &all),
+        if let Some(matrix) = matrix {
+            let matrices = Matrices::of(&self.known)?;
+            if let Some(matrix) = matrices.white_balanced(matrix) {
+                return Ok(self.by_matrix(&matrices.all, &matrix, &all));
+            }
         }
+        Ok(self.by_maker(make, &all))
     }
 
     /// Each camera left out in turn.
-    #[must_use]
-    pub fn left_out(&self) -> Vec<LeftOut> {
+    ///
+    /// # Errors
+    /// Only if the embedded tables are damaged.
+    pub fn left_out(&self) -> Result<Vec<LeftOut>> {
+        let matrices = Matrices::of(&self.known)?.all;
         let left_out = |at: usize| {
             let others: Vec<usize> = (0..self.known.len()).filter(|other| *other != at).collect();
             let stand_ins = [
-                self.by_matrix(&self.matrices[at], &others),
+                self.by_matrix(&matrices, &matrices[at], &others),
                 self.by_maker(self.known[at].camera.maker, &others),
                 self.by_maker("", &others),
             ];
@@ -149,11 +140,11 @@ impl StandIns {
                 mean_error: curve_error(&self.known[at].curves, &self.mean(&others)),
             }
         };
-        (0..self.known.len()).map(left_out).collect()
+        Ok((0..self.known.len()).map(left_out).collect())
     }
 
-    fn by_matrix(&self, matrix: &Matrix3<f64>, among: &[usize]) -> StandIn {
-        self.least(among, Why::Matrix, |at| (self.matrices[at] - matrix).norm())
+    fn by_matrix(&self, matrices: &[Matrix3<f64>], matrix: &Matrix3<f64>, among: &[usize]) -> StandIn {
+        self.least(among, Why::Matrix, |at| (matrices[at] - matrix).norm())
     }
 
     fn by_maker(&self, make: &str, among: &[usize]) -> StandIn {
@@ -174,6 +165,33 @@ impl StandIns {
             among.iter().map(|at| self.known[*at].curves[channel][band]).sum::<f64>() / among.len() as f64
         };
         [0, 1, 2].map(|channel| (0..bands).map(|band| mean(channel, band)).collect())
+    }
+}
+
+impl Matrices {
+    /// As the Munsell chips under D65 have them.
+    fn of(known: &[KnownCurves]) -> Result<Self> {
+        let grid = WavelengthGrid::default();
+        let daylight = illuminant("D65")?;
+        let power = daylight.on(&grid, Outside::Refuse)?;
+        let eye = Colorimeter::new(&grid, &daylight, Observer::Cie1931_2deg)?;
+        let white_xyz = Vector3::from(eye.xyz(&vec![1.0; grid.len()]));
+        let chips = reflectances("munsell")?;
+        let chips = chips.iter().map(|chip| chip.on(&grid, Outside::Refuse)).collect::<Result<Vec<_>>>()?;
+        let xyz = chips.iter().map(|chip| Vector3::from(eye.xyz(chip)).component_div(&white_xyz));
+        let xyz = Matrix3xX::from_columns(&xyz.collect::<Vec<_>>());
+        let matrix = |known: &KnownCurves| {
+            let response = CameraResponse::new(&grid, &known.curves, &power)?;
+            let white = Vector3::from_vec(response.white());
+            let rgb =
+                chips.iter().map(|chip| Vector3::from_vec(response.of_flat(chip)).component_div(&white));
+            let rgb = Matrix3xX::from_columns(&rgb.collect::<Vec<_>>());
+            let squares = (&xyz * xyz.transpose()).try_inverse();
+            let squares =
+                squares.ok_or_else(|| Error::Fault("the chips' colours lie in a plane".to_owned()))?;
+            Ok(white_to_white(rgb * xyz.transpose() * squares))
+        };
+        Ok(Self { all: known.iter().map(matrix).collect::<Result<_>>()?, white_xyz })
     }
 
     /// A matrix that takes the white of D65 to white; none if it takes that to nothing.

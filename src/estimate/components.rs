@@ -146,6 +146,8 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
         spread: None,
         exposure: exposure / scale,
         fitted: Vec::new(),
+        findings: Vec::new(),
+        skipped: Vec::new(),
         residual_rms: residuals.norm() / (residuals.len() as f64).sqrt(),
         unexplained: residuals.norm() / DVector::from_column_slice(&sheet.values).norm(),
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),

@@ -189,6 +189,8 @@ impl Found {
             total: None,
             reflectance: self.point[..bands].to_vec(),
             fitted: of_exposure.into_iter().chain(unknowns).collect(),
+            findings: Vec::new(),
+            skipped: Vec::new(),
             spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
             exposure,
             residual_rms: self.residual_rms,

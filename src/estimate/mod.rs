@@ -23,6 +23,7 @@ pub mod unknowns;
 use nalgebra::DMatrix;
 use unknowns::Unknown;
 
+use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
 use crate::solve::posterior::Iteration;
 
@@ -54,6 +55,10 @@ pub struct Estimate {
     pub exposure: f64,
     /// Numbers of the scene that were found along with the spectrum.
     pub fitted: Vec<Fitted>,
+    /// What of a photograph is not ideal, what the facets are surest of first.
+    pub findings: Vec<photograph::Finding>,
+    /// What was not looked at, or not told by the facets of a photograph.
+    pub skipped: Vec<Skipped>,
     /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
     pub residual_rms: f64,
     /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.

@@ -42,6 +42,8 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         total: None,
         spread: None,
         fitted: Vec::new(),
+        findings: Vec::new(),
+        skipped: Vec::new(),
         trace: Vec::new(),
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),

@@ -4,7 +4,7 @@ use super::html::Html;
 use super::{Shown, View, overlay};
 use crate::colorimetry::Observer;
 use crate::error::Result;
-use crate::stream::Sample;
+use crate::stream::{EstimateRecord, Sample};
 
 /// Fields that have a table or a drawing of their own, or are what all records have.
 const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
@@ -13,14 +13,23 @@ const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 pub(super) fn section(number: usize, shown: &Shown, view: &View) -> Result<Html> {
     let sample = &shown.sample;
     let mut parts = vec![Html::element("h2", &[], sample.id())];
-    let doubts = sample.estimate()?.map(|estimate| estimate.doubts()).unwrap_or_default();
+    let estimate = sample.estimate()?;
+    let doubts = estimate.as_ref().map(EstimateRecord::doubts).unwrap_or_default();
     parts.extend(doubts.into_iter().map(|doubt| Html::element("p", &[("class", "doubt")], doubt)));
+    parts.extend(estimate.and_then(|estimate| findings(&estimate)));
     parts.extend(drawings(shown, view)?);
     parts.extend(overlay::figure(shown, view)?);
     parts.extend(tables(sample));
     parts.extend(numbers(sample)?);
     let id = format!("sample-{number}");
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
+}
+
+/// What of the photograph is not ideal.
+fn findings(estimate: &EstimateRecord) -> Option<Html> {
+    let rows = estimate.findings.iter().map(|one| vec![one.what.as_str().into(), one.remedy.as_str().into()]);
+    let headings = ["not ideal about the photograph, and allowed for", "what to do"];
+    (!estimate.findings.is_empty()).then(|| Html::table("What the facets show", &headings, rows))
 }
 
 fn drawings(shown: &Shown, view: &View) -> Result<Vec<Html>> {
@@ -51,6 +60,7 @@ fn tables(sample: &Sample) -> Vec<Html> {
     let rest = leaves("")
         .into_iter()
         .filter(|(name, _)| !TOLD.contains(&name.split('.').next().unwrap_or_default()));
+    let estimate = estimate.into_iter().filter(|(name, _)| !name.starts_with("findings")).collect();
     let tables = [
         ("Scores", leaves("metrics")),
         ("Fitted along with the spectrum", fit),

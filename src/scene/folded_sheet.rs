@@ -6,14 +6,11 @@ use ndarray::{Array2, Axis};
 use super::FoldSetting;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::estimate::photograph::model::nodes;
+use crate::estimate::photograph::model::{NODES, nodes};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::quadrature::Lagrange;
 use crate::sheet::{Family, Shape};
 use crate::transport::departures;
-
-/// Nodes of albedo.
-const NODES: usize = 10;
 
 /// What a sheet of a family shows beyond a Lambertian one.
 pub struct FoldedSheet {
@@ -35,15 +32,8 @@ impl FoldSetting<'_> {
         eye: Vector3<f64>,
         finer: Option<FacetGrid>,
     ) -> Result<FoldedSheet> {
-        let refuse = |field, problem: &str| Err(Error::field(field, problem.to_owned()));
-        if self.card()?.is_some() {
-            return refuse("reference_panel", "a sheet that is not perfectly matt is folded alone");
-        }
-        if !self.fold().is_symmetric() {
-            return refuse("geometry", "a sheet that is not perfectly matt needs two panels of one depth");
-        }
-        if self.pictures()? != 1 {
-            return refuse("illuminants", "a sheet that is not perfectly matt is seen under one light");
+        if let Some(why) = self.unmodelled()? {
+            return Err(why.refused());
         }
         let fold = match finer {
             Some(grid) => self.fold().with_facets(grid)?.with_spacing(Spacing::Uniform),

@@ -13,6 +13,7 @@ mod given_kernel;
 mod photograph;
 mod residuals;
 mod surface;
+mod unmodelled;
 
 use std::collections::BTreeMap;
 
@@ -21,9 +22,10 @@ pub use expected::ExpectedError;
 pub use fold::FoldSetting;
 pub use folded_sheet::FoldedSheet;
 pub use given_kernel::GivenKernel;
-pub use photograph::{Beyond, PhotographedFold};
+pub use photograph::PhotographedFold;
 pub use residuals::residuals;
 pub use surface::SurfaceSetting;
+pub use unmodelled::Unmodelled;
 
 use crate::camera::CameraResponse;
 use crate::error::Result;

@@ -7,24 +7,20 @@ mod eye;
 mod framing;
 mod sheets;
 
-use std::fmt;
-
 use bins::Bins;
 use framing::Pose;
 use nalgebra::Vector3;
 use ndarray::Array2;
 
-use super::FoldSetting;
+use super::{FoldSetting, Unmodelled};
 use crate::error::{Error, Result};
 use crate::estimate::photograph::Told;
-use crate::estimate::photograph::model::nodes;
+use crate::estimate::photograph::model::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
 use crate::stream::Sample;
 
-/// Nodes of albedo.
-const NODES: usize = 10;
 /// Sizes at which changes of the fold are known: more degrees between the panels, radii of the crease, degrees of bow.
 const ANGLES_DEG: [f64; 2] = [-2.0, 2.0];
 const CREASE_RADII: [f64; 2] = [0.012, 0.03];
@@ -33,33 +29,6 @@ const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 const SUN_HEIGHT: f64 = 0.67;
 /// What a sheet of which nothing is known reflects in its strongest channel.
 const REFLECTANCE: f64 = 0.5;
-
-/// Why a photograph is not taken to be of a real sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Beyond {
-    /// A panel is a card.
-    Card,
-    /// One panel is deeper than the other.
-    UnequalPanels,
-    /// There is more than one picture of the sheet.
-    SeveralLights,
-    /// The corners are not given, or no camera sees the panels so.
-    NoPose,
-    /// No facet has any light.
-    NoFacets,
-}
-
-impl fmt::Display for Beyond {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Card => "one panel is a card",
-            Self::UnequalPanels => "one panel is deeper than the other",
-            Self::SeveralLights => "there are pictures under several lights",
-            Self::NoPose => "the corners do not tell where the camera stood",
-            Self::NoFacets => "no facet has any light",
-        })
-    }
-}
 
 /// A fold of which photographs are taken.
 pub struct PhotographedFold<'a> {
@@ -90,17 +59,12 @@ impl<'a> PhotographedFold<'a> {
         &self,
         sample: &Sample,
         exposure: Option<f64>,
-    ) -> Result<std::result::Result<Parts, Beyond>> {
+    ) -> Result<std::result::Result<Parts, Unmodelled>> {
         let (setting, fold) = (self.setting, self.setting.fold());
-        let beyond = [
-            (setting.card()?.is_some(), Beyond::Card),
-            (!fold.is_symmetric(), Beyond::UnequalPanels),
-            (setting.pictures()? != 1, Beyond::SeveralLights),
-        ];
-        if let Some((_, why)) = beyond.into_iter().find(|(is_so, _)| *is_so) {
+        if let Some(why) = setting.unmodelled()? {
             return Ok(Err(why));
         }
-        let Some(pose) = Pose::of(sample, fold)? else { return Ok(Err(Beyond::NoPose)) };
+        let Some(pose) = Pose::of(sample, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
         let (light, facets) = (setting.light()?, fold.facets());
         let (rgb, sd) = (sample.facet_rgb()?, sample.facet_sd()?);
         if rgb.len() != 2 * facets.len() {
@@ -108,7 +72,7 @@ impl<'a> PhotographedFold<'a> {
             return Err(Error::field("facet_rgb", problem));
         }
         let bins = Bins::new(fold, &rgb, sd.as_ref(), &pose);
-        let Some(values) = bins.values() else { return Ok(Err(Beyond::NoFacets)) };
+        let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
         let eye = eye::of(setting)?;
         let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);
@@ -122,9 +86,8 @@ impl<'a> PhotographedFold<'a> {
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),
-            daylight_mired: eye::daylight_mired(&eye),
+            daylight: eye::daylight(&eye),
             has_sky_illuminant: setting.has_sky_illuminant()?,
-            is_outdoors: eye::daylight_mired(&eye).is_some(),
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;

@@ -1,5 +1,7 @@
 //! What a sample says of its estimate.
 
+use std::fmt;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -7,8 +9,10 @@ use super::fields::finite;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
 use super::sample::{Sample, checked};
+use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
+use crate::estimate::photograph::Finding;
 use crate::estimate::unknowns::Unknown;
 use crate::estimate::{Estimate, Fitted, MISFIT};
 use crate::plot::spectra::Curve;
@@ -54,6 +58,12 @@ pub struct EstimateRecord {
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
+    /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<FindingRecord>,
+    /// What was not tried, or not told by the facets of a photograph.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", skip_deserializing)]
+    skipped: Vec<SkippedRecord>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
@@ -110,6 +120,27 @@ pub(super) struct FittedRecord {
     sd: f64,
     /// Whether the facets say more of it than was known before.
     supported: bool,
+}
+
+/// Something that is not ideal about a photograph.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FindingRecord {
+    /// What is wrong.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: String,
+}
+
+impl From<&Finding> for FindingRecord {
+    fn from(Finding { what, remedy }: &Finding) -> Self {
+        Self { what: what.clone(), remedy: (*remedy).to_owned() }
+    }
+}
+
+impl fmt::Display for FindingRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.what, self.remedy)
+    }
 }
 
 impl From<&Termination> for TerminationRecord {
@@ -193,6 +224,8 @@ impl Sample {
                 reflectance_sd,
                 total_reflectance: estimate.total.clone(),
                 fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
+                findings: estimate.findings.iter().map(FindingRecord::from).collect(),
+                skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
                 covariance: covariance.map(rows),
                 noise: noise.map(NoiseRecord::of).transpose()?,
             },

@@ -50,7 +50,7 @@ mod writer;
 pub use calibration::CalibrationRecord;
 pub use colours::Colours;
 pub use development::read_development;
-pub use estimate::{EstimateRecord, NewEstimate};
+pub use estimate::{EstimateRecord, FindingRecord, NewEstimate};
 pub use fields::{Fields, finite};
 pub use geometry::needs_fold;
 pub use history::HistoryRecord;

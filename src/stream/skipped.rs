@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::Scene;
 use crate::error::Result;
+use crate::kernel::skipped::Skipped;
 
 /// What need not be computed.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -16,6 +17,12 @@ pub struct SkippedRecord {
     pub count: usize,
     /// Why none is missed.
     pub why: String,
+}
+
+impl From<&Skipped> for SkippedRecord {
+    fn from(Skipped { what, count, why }: &Skipped) -> Self {
+        Self { what: (*what).to_owned(), count: *count, why: (*why).to_owned() }
+    }
 }
 
 impl Scene {

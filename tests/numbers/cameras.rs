@@ -9,7 +9,7 @@ use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 /// `benches/cameras.rs` prints the table of which these are the means.
 #[test]
 fn stand_ins_are_as_far_off_as_is_said() {
-    let left_out = StandIns::new().unwrap().left_out();
+    let left_out = StandIns::new().unwrap().left_out().unwrap();
     assert_eq!(left_out.len(), 52);
     let mean = |pick: &dyn Fn(&vfold::camera::LeftOut) -> f64| left_out.iter().map(pick).sum::<f64>() / 52.0;
     let [matrix, maker, any] = [0, 1, 2].map(|k: usize| mean(&|row| row.stand_ins[k].1));

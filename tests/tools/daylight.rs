@@ -32,7 +32,8 @@ fn a_photograph_tells_its_sun() {
     let run = folder.sh(&format!("{SETUP}\n{MUNICH} {NOON}; sh extract"));
     assert_eq!(illuminant(&run), "sun:48.14,11.58,2026-06-21T10:00:00Z");
     assert!(
-        run.stderr.contains("by the photograph's place and time: a cloudless sky, the sun 28.9°"),
+        run.stderr.contains("by place and time of ")
+            && run.stderr.contains(": a cloudless sky, the sun 28.9°"),
         "{}",
         run.stderr
     );

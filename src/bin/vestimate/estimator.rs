@@ -240,7 +240,8 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
-    /// The estimate from a photograph of a real sheet, if the sample is one that an ideal fold does not explain.
+    /// The estimate from a photograph of a real sheet, if the sample is one that an ideal fold does not explain, or that a camera took of
+    /// which the curves are another's.
     fn of_photograph(
         &self,
         context: &Context,
@@ -255,18 +256,26 @@ impl<'a> Estimator<'a> {
             Exposure::Sum => return Ok(None),
         };
         let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
-        if !is_auto || !sample.is_photograph() || ideal.residual_rms < IDEAL {
+        let Some(record) = context.record.as_ref().filter(|_| is_auto && sample.is_photograph()) else {
+            return Ok(None);
+        };
+        let (is_ideal, stands_in) =
+            (ideal.residual_rms < IDEAL, record.camera()?.stands_in.as_ref().map(|one| one.camera.clone()));
+        if is_ideal && stands_in.is_none() {
             return Ok(None);
         }
-        let Some(record) = &context.record else { return Ok(None) };
         let setting = FoldSetting::of(record)?;
         let parts = match PhotographedFold::of(&setting).parts(sample, known)? {
             Ok(parts) => parts,
             Err(why) => {
                 if !self.args.common.quiet {
-                    let (id, misfit) = (sample.id(), ideal.residual_rms);
+                    let what = match stands_in {
+                        Some(camera) if is_ideal => format!("the curves of {camera} are another camera's"),
+                        _ => format!("misfit {:.1}: this is no ideal fold", ideal.residual_rms),
+                    };
                     let text = format!(
-                        "{id}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what sets it apart is not estimated; expect errors beyond the bars"
+                        "{}: {what}, and as {why}, what that changes is not estimated; expect errors beyond the bars",
+                        sample.id()
                     );
                     cli::say("vestimate", &text);
                 }

@@ -141,13 +141,17 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
 }
 
-/// Says when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing, and when they say nothing
-/// of what was to be fitted.
+/// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,
+/// and when they say nothing of what was to be fitted.
 fn warn(args: &Args, sample: &Sample) -> Result<()> {
     if args.common.quiet || !args.has_prior() {
         return Ok(());
     }
     let Some(estimate) = sample.estimate()? else { return Ok(()) };
+    if !estimate.findings.is_empty() {
+        let all: Vec<_> = estimate.findings.iter().map(ToString::to_string).collect();
+        cli::say("vestimate", &format!("{}: allowed for: {}", sample.id(), all.join("; ")));
+    }
     for doubt in estimate.doubts() {
         cli::say("vestimate", &format!("{}: {doubt}", sample.id()));
     }

@@ -32,7 +32,7 @@ pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<
             "name one (--list cameras), or give a CSV file or rawtoaces JSON of its sensitivities";
         return Err(Error::usage("--camera", "the photograph names no camera", REMEDY));
     }
-    let stand_in = StandIns::new()?.for_camera(make, info.camera.xyz_to_camera.as_ref());
+    let stand_in = StandIns::new()?.for_camera(make, info.camera.xyz_to_camera.as_ref())?;
     let of = format!("{make} {model}").trim().to_owned();
     let said = Some(warning(&of, &stand_in));
     let StandIn { name, why, .. } = stand_in;

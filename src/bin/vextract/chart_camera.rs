@@ -41,7 +41,7 @@ pub fn save(
         Some(flat_field) => first?.with_flat_field(flat_field, path)?,
         None => first?,
     };
-    let (optics, assumed) = light::optics(&args.optics, Some(&photograph));
+    let (optics, assumed) = light::optics(&args.optics, path, Some(&photograph));
     let illuminant =
         args.common.illuminant(optics.one_illuminant("give one: a photograph has one light")?)?;
     let grid = &optics.wavelengths_nm;

@@ -1,18 +1,21 @@
 //! Which light a photograph was taken in.
 
+use std::path::Path;
+
 use vfold::cli::OpticsArgs;
 use vfold::image::{Photograph, Taken};
 use vfold::spectrum::Sun;
 
-/// What was given, with the sun of the first photograph's place and time if no illuminant was; and what is to be said of that.
-pub fn optics(given: &OpticsArgs, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
+/// What was given, with the sun of the `first` photograph's place and time if no illuminant was; and what is to be said of that.
+pub fn optics(given: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
     let mut optics = given.clone();
     let (true, Some(photograph)) = (optics.illuminant.is_empty(), first) else { return (optics, None) };
     let said = match sun(&photograph.info().camera.taken) {
         Ok((spec, sun)) => {
             let said = format!(
-                "{spec} by the photograph's place and time: a cloudless sky, the sun {:.1}° from the zenith; \
+                "{spec} by place and time of {}: a cloudless sky, the sun {:.1}° from the zenith; \
                  --illuminant says otherwise",
+                path.display(),
                 sun.zenith_deg()
             );
             optics.illuminant = vec![spec];

@@ -126,7 +126,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let first = Photograph::open(&images[0], &options);
     let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        let (optics, assumed) = light::optics(&args.optics, first.as_ref().ok());
+        let (optics, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
         let mut optics = optics.resolve(&camera.spec, &args.common)?;
         let stands_in = camera.stands_in.is_some();
         optics.camera.stands_in = camera.stands_in;

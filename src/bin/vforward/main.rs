@@ -45,7 +45,7 @@ struct Args {
     /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per
     /// facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
-        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "gloss", "body_roughness_deg", "fuzz"])]
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
@@ -56,7 +56,7 @@ struct Args {
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
     /// Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene's tolerance asks for
-    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with = "material")]
+    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with_all = ["material", "sheet"])]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]

@@ -6,12 +6,13 @@ use vfold::{Error, Result};
 
 #[derive(Args)]
 #[command(next_help_heading = "Sheet")]
+#[group(id = "sheet")]
 pub struct SheetArgs {
     /// Strength of the surface's reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye
     #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     gloss: f64,
     /// Roughness of the surface: alpha of its microfacets (GGX), above 0 to 1
-    #[arg(long, value_name = "X", default_value_t = 0.42, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 0.42, allow_negative_numbers = true, requires = "gloss")]
     gloss_roughness: f64,
     /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]

@@ -56,10 +56,33 @@ pub struct Told {
     pub angle_deg: f64,
     /// Angle of the sun off the bisecting plane, degrees.
     pub tilt_deg: f64,
-    /// Reciprocal colour temperature of the illuminant, 1e-6/K, if it is CIE daylight.
-    pub daylight_mired: Option<f64>,
+    /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground are.
+    pub daylight: Option<Daylight>,
     /// Whether the sky's colour is given.
     pub has_sky_illuminant: bool,
-    /// Whether up and down are known, so that sky and ground are.
-    pub is_outdoors: bool,
+}
+
+/// Daylight of a reciprocal colour temperature, 1e-6/K.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Daylight {
+    /// As CIE 15 has it, which people say of any.
+    Cie {
+        /// Of the one that was said.
+        mired: f64,
+    },
+    /// As a sun has it that was measured or computed.
+    OfSun {
+        /// Of the CIE daylight that is nearest to it.
+        mired: f64,
+    },
+}
+
+impl Daylight {
+    /// Its reciprocal colour temperature, 1e-6/K.
+    #[must_use]
+    pub fn mired(self) -> f64 {
+        match self {
+            Self::Cie { mired } | Self::OfSun { mired } => mired,
+        }
+    }
 }

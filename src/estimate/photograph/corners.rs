@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::findings::Finding;
 use super::parts::Place;
 
 /// How the values of all facets change, facet by facet and in each channel by channel, for each corner that is off by one depth of a
@@ -36,6 +37,34 @@ pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
         }
     }
     all
+}
+
+/// Corners that are off by that much, in depths of a panel, are named.
+const LEAST: f64 = 0.015;
+
+/// Corners that what is left of the facets says to be elsewhere than they are marked.
+///
+/// # Arguments
+/// - `shifts`: of [`shifts`], whitened like `residuals`; `sd`: how far a corner is off before a picture is taken, in depths of a panel.
+#[must_use]
+pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> Vec<Finding> {
+    const NAMES: [&str; 3] =
+        ["of the crease", "of the outer side of panel 0", "of the outer side of panel 1"];
+    let found = |(n, shift): (usize, &DVector<f64>)| {
+        let off = (sd * sd * shift.dot(residuals)).abs();
+        // residuals hold what corners do among all that the model lacks: this is the part that is still open
+        let open = (1.0 - sd * sd * shift.norm_squared()).max(0.0);
+        (off > LEAST && off > 2.0 * sd * open.sqrt()).then(|| Finding {
+            what: format!(
+                "end {} {} is not where it is marked, by about {:.1} % of a panel's depth",
+                n / NAMES.len(),
+                NAMES[n % NAMES.len()],
+                100.0 * off
+            ),
+            remedy: "look at it in vextract --overlay and mark it again; --refine finds edges",
+        })
+    };
+    shifts.iter().enumerate().filter_map(found).collect()
 }
 
 /// Change of each facet's values for a depth of the panel outwards, from the next facets on either side in its column.

@@ -9,11 +9,13 @@
 pub mod conditions;
 pub mod corners;
 pub mod error;
+pub mod findings;
 pub mod model;
 pub mod parts;
 pub mod search;
 pub mod sheets;
 
 pub use conditions::{Conditions, Told};
+pub use findings::Finding;
 pub use parts::Parts;
 pub use search::estimate;

@@ -26,6 +26,9 @@ struct Terms {
     slopes: DMatrix<f64>,
 }
 
+/// Nodes of albedo that are enough for every bounce.
+pub const NODES: usize = 10;
+
 /// Chebyshev nodes of [0, 1], from the first kind.
 #[must_use]
 pub fn nodes(count: usize) -> Vec<f64> {
@@ -172,8 +175,14 @@ impl<'a> PhotographModel<'a> {
     /// that channel and for a reflectance of the ground of 1.
     fn powers(&self, conditions: &Conditions) -> [DVector<f64>; 3] {
         let eye = &self.parts.eye;
-        let sun =
-            conditions.sun_mired.map_or_else(|| eye.sun.clone(), |mired| daylight(&eye.daylight, mired));
+        let sun = conditions.sun_mired.zip(self.parts.told.daylight).map_or_else(
+            || eye.sun.clone(),
+            |(mired, said)| {
+                let ratio =
+                    daylight(&eye.daylight, mired).component_div(&daylight(&eye.daylight, said.mired()));
+                eye.sun.component_mul(&ratio)
+            },
+        );
         let sky =
             conditions.sky_mired.map_or_else(|| eye.sky.clone(), |mired| daylight(&eye.daylight, mired));
         let white = |power: &DVector<f64>| eye.sensitivities.row(eye.reference).transpose().dot(power);
@@ -226,7 +235,7 @@ impl<'a> PhotographModel<'a> {
         let amounts = self.ambient(&conditions);
         let ambient = |light: &Ambient, amount: f64, power| (amount * &light.radiance, weighted(power));
         let mut lights = vec![(self.sunlit(&conditions, &variations), weighted(&sun))];
-        if parts.told.is_outdoors {
+        if parts.told.daylight.is_some() {
             lights.push(ambient(&parts.sky, amounts[0], &sky));
             lights.push(ambient(&parts.ground, amounts[1], &ground));
         }
@@ -320,9 +329,12 @@ fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
     (values, slopes)
 }
 
+/// The reddest daylight that CIE 15 has, 4000 K.
+pub const MOST_MIRED: f64 = 250.0;
+
 /// Daylight of a reciprocal colour temperature, from its mean and characteristic vectors (CIE 15:2018, section 4.1.2, not rounded).
 fn daylight(basis: &DMatrix<f64>, mired: f64) -> DVector<f64> {
-    let [m1, m2] = crate::spectrum::daylight_weights(1e6 / mired.clamp(40.0, 250.0));
+    let [m1, m2] = crate::spectrum::daylight_weights(1e6 / mired.clamp(40.0, MOST_MIRED));
     basis * DVector::from_column_slice(&[1.0, m1, m2])
 }
 

@@ -6,7 +6,9 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::corners;
 use super::error::ModelError;
+use super::findings::findings;
 use super::model::{PhotographModel, Point};
 use super::parts::Parts;
 use super::sheets::Kind;
@@ -14,6 +16,7 @@ use crate::error::{Error, Result};
 use crate::estimate::prior::{Class, Prior};
 use crate::estimate::unknowns::EXPOSURE;
 use crate::estimate::{Estimate, Fitted};
+use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
 
@@ -40,7 +43,8 @@ struct Maximum {
     /// The product of its transpose with it is the covariance of the reflectance.
     spread: DMatrix<f64>,
     fitted: Vec<Fitted>,
-    residual_rms: f64,
+    /// What is left of the facets, whitened.
+    residuals: DVector<f64>,
     unexplained: f64,
     trace: Vec<Iteration>,
     termination: Termination,
@@ -62,19 +66,38 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     });
     let sorted = most_evident(sorted.collect(), kinds.len(), |one| one.0);
     let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
-    let mut maxima = Vec::new();
+    let (mut maxima, mut tried) = (Vec::new(), 0);
     for (_, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
         let likely = prior.classes().iter().filter_map(|class| linear(&all, solution, class));
         for (_, class, start) in most_evident(likely.collect(), CLASSES, |one| one.0) {
             let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
             let found = search(&model, start, TOLERANCE, LIMIT);
+            tried += 1;
             maxima.extend(Maximum::of(&model, &found, class.ln_share));
         }
     }
     let maxima = most_evident(maxima, kinds.len() * CLASSES, |one| one.ln_evidence);
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
-    mean(maxima, trace).ok_or_else(not_finite)
+    let shifts: Vec<_> =
+        corners::shifts(&parts.places, &parts.values).iter().map(|shift| &whitening * shift).collect();
+    let best = maxima.first().ok_or_else(not_finite)?;
+    let mut found = findings(&best.fitted, &parts.told);
+    found.extend(corners::findings(&shifts, &best.residuals, error.corner));
+    let skipped = skipped(&best.fitted, kinds.len() * prior.classes().len() - tried);
+    let mean = mean(maxima, trace).ok_or_else(not_finite)?;
+    Ok(Estimate { findings: found, skipped, ..mean })
+}
+
+/// What the facets do not speak of.
+fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
+    let untold = fitted.iter().filter(|one| !one.supported).count();
+    let all = [
+        ("searches under a kind of sheets and a class of spectra", searches, "the evidence is against them"),
+        ("unknowns of the scene", untold, "the facets do not tell them: they stay at what is usual"),
+    ];
+    let of = |(what, count, why)| Skipped { what, count, why };
+    all.map(of).into_iter().filter(|one| one.count > 0).collect()
 }
 
 fn search(model: &PhotographModel, start: DVector<f64>, tolerance: f64, limit: usize) -> Solution<()> {
@@ -146,13 +169,14 @@ impl Maximum {
             }
         }
         let lower = found.information()?.l();
-        let residual_rms = (found.at.residuals.norm_squared() / found.at.residuals.len() as f64).sqrt();
-        let widened = residual_rms.max(1.0);
+        let widened = rms(&found.at.residuals).max(1.0);
         let of_facets = widened * lower.solve_lower_triangular(&slopes.transpose())?;
-        let spread = model.instrument_errors(&point.albedo).map_or_else(
-            || of_facets.clone(),
-            |errors| DMatrix::from_rows(&of_facets.row_iter().chain(errors.row_iter()).collect::<Vec<_>>()),
-        );
+        let spread = match model.instrument_errors(&point.albedo) {
+            Some(errors) => {
+                DMatrix::from_rows(&of_facets.row_iter().chain(errors.row_iter()).collect::<Vec<_>>())
+            }
+            None => of_facets,
+        };
         let own = lower.solve_lower_triangular(&DMatrix::identity(end, end))?;
         let sd = |n: usize| widened * own.column(n).norm();
         let fitted = model.scene_unknowns().iter().zip(scene..sheet).map(|(expected, n)| {
@@ -166,14 +190,18 @@ impl Maximum {
             ln_evidence,
             fitted: fitted.collect(),
             unexplained: left.norm() / model.values().norm().max(f64::MIN_POSITIVE),
+            residuals: found.at.residuals.clone(),
             point,
             reflectance,
             spread,
-            residual_rms,
             trace: found.trace.clone(),
             termination: found.termination,
         })
     }
+}
+
+fn rms(residuals: &DVector<f64>) -> f64 {
+    (residuals.norm_squared() / residuals.len() as f64).sqrt()
 }
 
 /// 45:0 reflectance.
@@ -206,7 +234,9 @@ fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<Estimate> {
         spread: Some(DMatrix::from_rows(&rows)),
         exposure: best.point.exposure,
         fitted: best.fitted,
-        residual_rms: best.residual_rms,
+        findings: Vec::new(),
+        skipped: Vec::new(),
+        residual_rms: rms(&best.residuals),
         unexplained: best.unexplained,
         iterations: trace.iter().map(|run| run.len() as u32).sum(),
         trace,

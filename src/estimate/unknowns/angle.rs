@@ -1,6 +1,6 @@
 //! How far the fold is open.
 
-use super::{Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Told, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown};
 use crate::error::{Error, Result};
 use crate::kernel::mesh::{Mesh, respond};
 
@@ -13,7 +13,16 @@ pub static ANGLE: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
-    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.angle_deg = value }),
+    photograph: Some(Effect {
+        prior: of_photograph,
+        set: |conditions, value| conditions.angle_deg = value,
+        symptom: Some(Symptom {
+            ideal: |told| told.angle_deg,
+            least: 1.0,
+            words: "the fold is not as open as it was told",
+            remedy: "measure the angle again",
+        }),
+    }),
 };
 
 /// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet that springs back

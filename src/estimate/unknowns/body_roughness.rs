@@ -1,6 +1,6 @@
 //! How rough the sheet is under its surface.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     range: 0.0..=90.0,
     scale: Scale::Positive { unit: 8.0 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.body_roughness_deg = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.body_roughness_deg = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 10.0,
+            words: "the sheet is rough",
+            remedy: "a chart or a card makes the exposure known, which helps most",
+        }),
+    }),
 };
 
 /// Paper and paint have 0 to 20 degrees.

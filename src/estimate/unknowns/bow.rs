@@ -1,6 +1,6 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static BOW: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.bow_deg = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.bow_deg = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 1.0,
+            words: "the panels bow",
+            remedy: "hold them flat, by stiff card behind them",
+        }),
+    }),
 };
 
 /// Sheets that are held at their edges turn by a few degrees.

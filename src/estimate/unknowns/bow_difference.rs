@@ -1,6 +1,6 @@
 //! Panels that do not bow alike.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.bow_difference_deg = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.bow_difference_deg = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 1.0,
+            words: "the panels bow",
+            remedy: "hold them flat, by stiff card behind them",
+        }),
+    }),
 };
 
 /// The panels of one sheet bow much alike.

@@ -1,6 +1,6 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static CREASE: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Positive { unit: 0.01 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.crease_radius = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.crease_radius = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.008,
+            words: "the crease is rounded",
+            remedy: "fold the sheet over a sharp edge",
+        }),
+    }),
 };
 
 /// Folded sheets have radii of 0 to 3 % of their depth.

@@ -11,7 +11,11 @@ pub static EXPOSURE: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Logarithm,
     role: Role::Exposure,
-    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.exposure = value }),
+    photograph: Some(Effect {
+        prior: of_photograph,
+        set: |conditions, value| conditions.exposure = value,
+        symptom: None,
+    }),
 };
 
 /// Standard deviations of the logarithm of an exposure: one that was given; one by a chart or a card, which is uneven, not quite where

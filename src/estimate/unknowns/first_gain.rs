@@ -1,6 +1,6 @@
 //! How much more the first channel amplifies than it should.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static FIRST_GAIN: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Logarithm,
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.gains[0] = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.gains[0] = value,
+        symptom: Some(Symptom {
+            ideal: |_| 1.0,
+            least: 0.02,
+            words: "the channels are not balanced as they were told",
+            remedy: "photograph a grey card with the sheet",
+        }),
+    }),
 };
 
 /// Cameras of one model differ by 2 %.

@@ -1,6 +1,6 @@
 //! Fibres that stand up from the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
 pub static FUZZ: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static FUZZ: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Positive { unit: 0.15 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.fuzz = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.fuzz = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.15,
+            words: "fibres stand up from the sheet",
+            remedy: "a chart or a card makes the exposure known, which helps most",
+        }),
+    }),
 };
 
 /// Paper and paint have next to none, cloth some, felt up to 1.

@@ -1,6 +1,6 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Share of the picture's light that the lens spreads over all of it.
 pub static GLARE: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static GLARE: Unknown = Unknown {
     range: 0.0..=1.0,
     scale: Scale::Positive { unit: 0.006 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.glare = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.glare = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.01,
+            words: "stray light lies over the picture",
+            remedy: "shade the lens",
+        }),
+    }),
 };
 
 /// Lenses spread 0 to 2 %.

@@ -1,6 +1,6 @@
 //! What the surface of the sheet reflects before light enters it.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
 pub static GLOSS: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static GLOSS: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Positive { unit: 0.3 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.gloss = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.gloss = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.15,
+            words: "the sheet is glossy",
+            remedy: "turn fold and camera so that no light is mirrored into the picture",
+        }),
+    }),
 };
 
 /// Matte papers and paints have up to a bare surface of it.

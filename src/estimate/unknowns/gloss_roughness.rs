@@ -11,7 +11,11 @@ pub static GLOSS_ROUGHNESS: Unknown = Unknown {
     range: 0.05..=1.0,
     scale: Scale::Logarithm,
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.gloss_roughness = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.gloss_roughness = value,
+        symptom: None,
+    }),
 };
 
 /// Matte surfaces have 0.3 to 0.6.

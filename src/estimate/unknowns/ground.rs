@@ -1,6 +1,6 @@
 //! Light from what lies below the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {
@@ -11,12 +11,21 @@ pub static GROUND: Unknown = Unknown {
     range: 0.0..=1.0,
     scale: Scale::Positive { unit: 0.15 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.ground = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.ground = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.2,
+            words: "the ground throws light into the fold",
+            remedy: "lay a black cloth around it",
+        }),
+    }),
 };
 
 /// A table, grass, sand: 0.1 to 0.4.
 const PRIOR: Normal = Normal { mean: 0.8, sd: 0.8 };
 
 fn prior(told: &Told) -> Option<Normal> {
-    told.is_outdoors.then_some(PRIOR)
+    told.daylight.map(|_| PRIOR)
 }

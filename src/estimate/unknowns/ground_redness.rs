@@ -11,12 +11,16 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     range: -1.0..=2.0,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.ground_redness = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.ground_redness = value,
+        symptom: None,
+    }),
 };
 
 /// Earth and wood are brown: they reflect half as much again in the red.
 const PRIOR: Normal = Normal { mean: 0.4, sd: 0.3 };
 
 fn prior(told: &Told) -> Option<Normal> {
-    told.is_outdoors.then_some(PRIOR)
+    told.daylight.map(|_| PRIOR)
 }

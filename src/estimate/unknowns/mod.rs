@@ -116,6 +116,21 @@ pub struct Effect {
     pub prior: fn(&Told) -> Option<Normal>,
     /// Makes it one of the conditions.
     pub set: fn(&mut Conditions, f64),
+    /// What the user is told of it; none of what every photograph has.
+    pub symptom: Option<Symptom>,
+}
+
+/// What is not ideal about a photograph, in the words of who took it.
+#[derive(Debug)]
+pub struct Symptom {
+    /// Value where nothing is wrong.
+    pub ideal: fn(&Told) -> f64,
+    /// Least difference from it that is worth a word.
+    pub least: f64,
+    /// What is wrong.
+    pub words: &'static str,
+    /// What to do about it.
+    pub remedy: &'static str,
 }
 
 /// A value of `vestimate --fit`; unknowns that share it are fitted together.

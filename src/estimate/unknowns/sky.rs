@@ -16,7 +16,11 @@ pub static SKY: Unknown = Unknown {
     range: 0.0..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
-    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.sky = value }),
+    photograph: Some(Effect {
+        prior: of_photograph,
+        set: |conditions, value| conditions.sky = value,
+        symptom: None,
+    }),
 };
 
 /// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of it, of which
@@ -42,5 +46,5 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
 const OF_PHOTOGRAPH: Normal = Normal { mean: 0.12, sd: 0.06 };
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    told.is_outdoors.then_some(OF_PHOTOGRAPH)
+    told.daylight.map(|_| OF_PHOTOGRAPH)
 }

@@ -17,6 +17,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     photograph: Some(Effect {
         prior: of_photograph,
         set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
+        symptom: None,
     }),
 };
 
@@ -56,5 +57,5 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
 const OF_PHOTOGRAPH: Normal = Normal { mean: 95.0, sd: 15.0 };
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    (told.is_outdoors && !told.has_sky_illuminant).then_some(OF_PHOTOGRAPH)
+    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| OF_PHOTOGRAPH)
 }

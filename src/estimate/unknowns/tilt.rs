@@ -1,6 +1,6 @@
 //! Where the sun stands across the crease.
 
-use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown};
 use crate::error::Result;
 
 /// Angle of the sun off the bisecting plane, degrees.
@@ -12,7 +12,16 @@ pub static TILT: Unknown = Unknown {
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
-    photograph: Some(Effect { prior: of_photograph, set: |conditions, value| conditions.tilt_deg = value }),
+    photograph: Some(Effect {
+        prior: of_photograph,
+        set: |conditions, value| conditions.tilt_deg = value,
+        symptom: Some(Symptom {
+            ideal: |told| told.tilt_deg,
+            least: 1.0,
+            words: "the sun stood elsewhere than it was told",
+            remedy: "turn the fold until both panels are equally bright, or tell --tilt-deg",
+        }),
+    }),
 };
 
 /// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to the sun by eye errs

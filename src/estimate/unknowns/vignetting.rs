@@ -1,6 +1,6 @@
 //! A lens that darkens the corners of the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
@@ -11,7 +11,16 @@ pub static VIGNETTING: Unknown = Unknown {
     range: 0.0..=1.0,
     scale: Scale::Positive { unit: 0.1 },
     role: Role::Photograph,
-    photograph: Some(Effect { prior, set: |conditions, value| conditions.vignetting = value }),
+    photograph: Some(Effect {
+        prior,
+        set: |conditions, value| conditions.vignetting = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.1,
+            words: "the lens darkens the corners of the picture",
+            remedy: "give --flat-field, or close the aperture",
+        }),
+    }),
 };
 
 /// Lenses lose 0 to 30 %.

@@ -2,9 +2,9 @@
 //!
 //! The pixels around the side are looked at in pieces along it. For each place where an edge may cross a piece, its pixels are
 //! explained as two planes of light with the edge between them, mixed by area in the pixels that it crosses; the residuals of all
-//! pieces and all channels together tell how likely each line is: a sheet may be as bright as the table, but not of its colour. A step and a kink are both found so, to a fraction of a pixel, in noise that
-//! hides them in any one row of pixels. What smooth light explains as well is no edge. Behind a sheet its shadow may end, too: up to
-//! the edge the sheet goes on as it is further inwards.
+//! pieces and all channels together tell how likely each line is: a sheet may be as bright as the table, but not of its colour. A
+//! step and a kink are both found so, to a fraction of a pixel, in noise that hides them in any one row of pixels. What smooth light
+//! explains as well is no edge. Behind a sheet its shadow may end, too: up to the edge the sheet goes on as it is further inwards.
 
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector3};
 

@@ -2,49 +2,32 @@
 
 use exif::{DateTime, Exif, In, Rational, Tag, Value};
 
+use super::taken::{degrees, other_light, universal};
 use crate::image::photograph::Taken;
 
 /// What is missing or makes no sense is left out.
 pub(super) fn taken(exif: &Exif) -> Taken {
     let field = |tag| exif.get_field(tag, In::PRIMARY).map(|field| &field.value);
-    let place = |tag, side, negative: u8| {
-        let degrees = degrees(field(tag)?)?;
-        Some(if ascii(field(side)?)?.first()?.eq_ignore_ascii_case(&negative) { -degrees } else { degrees })
-    };
-    let latitude = place(Tag::GPSLatitude, Tag::GPSLatitudeRef, b'S');
-    let longitude = place(Tag::GPSLongitude, Tag::GPSLongitudeRef, b'W');
+    let text = |tag| ascii(field(tag)?).map(|text| String::from_utf8_lossy(text).trim().to_owned());
+    let number = |tag| field(tag).and_then(|value| value.get_uint(0));
+    let place = |tag, side, negative| degrees(three(field(tag)?)?, &text(side)?, negative);
+    let latitude = place(Tag::GPSLatitude, Tag::GPSLatitudeRef, "S");
+    let longitude = place(Tag::GPSLongitude, Tag::GPSLongitudeRef, "W");
     let local = || {
-        let text = |tag| ascii(field(tag)?).map(|text| String::from_utf8_lossy(text).trim().to_owned());
         let offset = text(Tag::OffsetTimeOriginal).filter(|text| !text.is_empty())?;
         Some(format!(
             "{}{offset}",
             date_and_time(&DateTime::from_ascii(ascii(field(Tag::DateTimeOriginal)?)?).ok()?)
         ))
     };
-    let universal = || {
-        let day = ascii(field(Tag::GPSDateStamp)?)?;
-        let [hour, minute, second] = three(field(Tag::GPSTimeStamp)?)?.map(|part| part.floor() as u64);
-        let day = String::from_utf8_lossy(day).trim().replace(':', "-");
-        Some(format!("{day}T{hour:02}:{minute:02}:{second:02}Z"))
-    };
-    let fired = field(Tag::Flash).and_then(|value| value.get_uint(0)).is_some_and(|flash| flash & 1 == 1);
-    let source = field(Tag::LightSource).and_then(|value| value.get_uint(0));
+    let of_gps = || Some(universal(&text(Tag::GPSDateStamp)?, three(field(Tag::GPSTimeStamp)?)?));
     Taken {
         place_deg: latitude.zip(longitude).map(|(latitude, longitude)| [latitude, longitude]),
-        time: local().or_else(universal),
-        other_light: if fired { Some("flash") } else { source.and_then(other_light) },
-    }
-}
-
-/// The name of a light that is not the sun's, by its number in EXIF.
-pub(super) fn other_light(source: u32) -> Option<&'static str> {
-    match source {
-        2 | 12..=16 => Some("fluorescent lamps"),
-        3 | 17 | 24 => Some("light bulbs"),
-        4 => Some("flash"),
-        10 => Some("clouds"),
-        11 => Some("shade"),
-        _ => None,
+        time: local().or_else(of_gps),
+        other_light: other_light(
+            number(Tag::Flash).is_some_and(|flash| flash & 1 == 1),
+            number(Tag::LightSource),
+        ),
     }
 }
 
@@ -56,12 +39,6 @@ fn date_and_time(at: &DateTime) -> String {
 fn ascii(value: &Value) -> Option<&[u8]> {
     let Value::Ascii(lines) = value else { return None };
     lines.first().map(Vec::as_slice)
-}
-
-/// Degrees, minutes and seconds.
-fn degrees(value: &Value) -> Option<f64> {
-    let [degrees, minutes, seconds] = three(value)?;
-    Some(degrees + minutes / 60.0 + seconds / 3600.0).filter(|degrees| *degrees <= 180.0)
 }
 
 fn three(value: &Value) -> Option<[f64; 3]> {

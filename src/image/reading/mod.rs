@@ -6,3 +6,4 @@ mod exif_taken;
 mod open;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;
+mod taken;

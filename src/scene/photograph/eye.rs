@@ -3,6 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Result;
+use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::model::MOST_MIRED;
 use crate::estimate::photograph::parts::Eye;
 use crate::scene::FoldSetting;
 use crate::spectrum::{Outside, daylight_vectors, daylight_weights};
@@ -13,8 +15,12 @@ const CURVE_SD: f64 = 0.02;
 const CURVE_STEP_NM: f64 = 40.0;
 /// Share of the error that does not fall with the sensitivity.
 const CURVE_FLOOR: f64 = 0.03;
-/// A light is daylight if that is all that daylight of its temperature is off, relative to its mean.
-const DAYLIGHT: f64 = 0.03;
+/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the sun's if that is: computed suns
+/// are off by 0.025, and by 0.05 where they stand 10° high; of lamps the nearest is off by 0.27.
+const CIE: f64 = 0.005;
+const DAYLIGHT: f64 = 0.06;
+/// The bluest daylight that people take the sun's for, 8000 K.
+const LEAST_MIRED: f64 = 125.0;
 
 /// The camera of a scene.
 pub fn of(setting: &FoldSetting) -> Result<Eye> {
@@ -66,8 +72,8 @@ fn errors(
     all
 }
 
-/// Reciprocal colour temperature of the sun as it was said to be, 1e-6/K, if it is daylight.
-pub fn daylight_mired(eye: &Eye) -> Option<f64> {
+/// The daylight that the sun was said to be, if it is any.
+pub fn daylight(eye: &Eye) -> Option<Daylight> {
     let sun = &eye.sun / eye.sun.mean();
     let off = |mired: f64| {
         let [m1, m2] = daylight_weights(1e6 / mired);
@@ -75,8 +81,11 @@ pub fn daylight_mired(eye: &Eye) -> Option<f64> {
         let daylight = &daylight / daylight.mean();
         ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
     };
-    // 4500 K to 8000 K: what people call daylight, in steps of 1e-6/K
-    let best =
-        (125..=222).map(f64::from).map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 < DAYLIGHT).then_some(best.1)
+    let range = (LEAST_MIRED as u32..=MOST_MIRED as u32).map(f64::from);
+    let (off, mired) = range.map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    match off {
+        CIE..DAYLIGHT => Some(Daylight::OfSun { mired }),
+        ..CIE => Some(Daylight::Cie { mired }),
+        _ => None,
+    }
 }

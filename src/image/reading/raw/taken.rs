@@ -4,7 +4,7 @@ use rawler::exif::{Exif, ExifGPS};
 use rawler::formats::tiff::Rational;
 
 use crate::image::photograph::Taken;
-use crate::image::reading::exif_taken::other_light;
+use crate::image::reading::taken::{degrees, other_light, universal};
 
 /// What is missing or makes no sense is left out.
 pub(super) fn taken(exif: &Exif) -> Taken {
@@ -14,32 +14,24 @@ pub(super) fn taken(exif: &Exif) -> Taken {
         Some(format!("{}T{hour}{}", day.replace(':', "-"), offset.trim()))
     };
     let gps = exif.gps.as_ref();
-    let fired = exif.flash.is_some_and(|flash| flash & 1 == 1);
+    let of_gps = || {
+        let gps = gps?;
+        Some(universal(gps.gps_date_stamp.as_deref()?, three(&gps.gps_timestamp)?))
+    };
     Taken {
         place_deg: gps.and_then(place_deg),
-        time: local().or_else(|| universal(gps?)),
-        other_light: if fired {
-            Some("flash")
-        } else {
-            exif.light_source.and_then(|source| other_light(source.into()))
-        },
+        time: local().or_else(of_gps),
+        other_light: other_light(
+            exif.flash.is_some_and(|flash| flash & 1 == 1),
+            exif.light_source.map(u32::from),
+        ),
     }
 }
 
 fn place_deg(gps: &ExifGPS) -> Option<[f64; 2]> {
-    let degrees = |parts: &Option<[Rational; 3]>, side: &Option<String>, negative: &str| {
-        let [degrees, minutes, seconds] = three(parts)?;
-        let degrees = degrees + minutes / 60.0 + seconds / 3600.0;
-        Some(if side.as_deref()?.trim().eq_ignore_ascii_case(negative) { -degrees } else { degrees })
-    };
-    let latitude = degrees(&gps.gps_latitude, &gps.gps_latitude_ref, "S")?;
-    Some([latitude, degrees(&gps.gps_longitude, &gps.gps_longitude_ref, "W")?])
-}
-
-fn universal(gps: &ExifGPS) -> Option<String> {
-    let [hour, minute, second] = three(&gps.gps_timestamp)?.map(|part| part.floor() as u64);
-    let day = gps.gps_date_stamp.as_deref()?.trim().replace(':', "-");
-    Some(format!("{day}T{hour:02}:{minute:02}:{second:02}Z"))
+    let latitude = degrees(three(&gps.gps_latitude)?, gps.gps_latitude_ref.as_deref()?, "S")?;
+    let longitude = degrees(three(&gps.gps_longitude)?, gps.gps_longitude_ref.as_deref()?, "W")?;
+    Some([latitude, longitude])
 }
 
 fn three(parts: &Option<[Rational; 3]>) -> Option<[f64; 3]> {
