@@ -25,21 +25,6 @@ impl Gaussian {
     /// Pivoted Cholesky decomposition: Higham, *Accuracy and Stability of Numerical Algorithms* (2002), section 10.3.
     #[must_use]
     pub fn new(mean: DVector<f64>, covariance: &DMatrix<f64>) -> Self {
-        Self { mean, basis: Self::factors_of(covariance) }
-    }
-
-    /// A Gaussian whose covariance is the sum of the products of `factors` with their transposes, coordinates one after the other.
-    #[must_use]
-    pub fn of_factors(mean: DVector<f64>, factors: &[&DMatrix<f64>]) -> Self {
-        let columns: Vec<_> = factors.iter().flat_map(|factors| factors.column_iter()).collect();
-        let basis =
-            if columns.is_empty() { DMatrix::zeros(mean.len(), 0) } else { DMatrix::from_columns(&columns) };
-        Self { mean, basis }
-    }
-
-    /// The factor of a covariance that [`Gaussian::new`] takes for coordinates: waveband by coordinate.
-    #[must_use]
-    pub fn factors_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
         let mut columns: Vec<DVector<f64>> = Vec::new();
         let mut left = covariance.diagonal();
         while columns.len() < left.len() && left.max() > LEFT_OUT {
@@ -50,7 +35,9 @@ impl Gaussian {
             left -= column.component_mul(&column);
             columns.push(column);
         }
-        if columns.is_empty() { DMatrix::zeros(left.len(), 0) } else { DMatrix::from_columns(&columns) }
+        let basis =
+            if columns.is_empty() { DMatrix::zeros(left.len(), 0) } else { DMatrix::from_columns(&columns) };
+        Self { mean, basis }
     }
 
     /// The same Gaussian, `scale` times as wide.

@@ -16,13 +16,13 @@ use crate::solve::posterior::{Model, first_inflation, maximise};
 pub const SORTING_TOLERANCE: f64 = 0.01;
 /// Maxima from the means of classes are told apart this near to them.
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
-/// Most iterations of a search.
+/// Most iterations of a search that sorts.
 pub const ITERATION_LIMIT: usize = 500;
 /// Channels, those of every light counted, that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
 /// Most classes and scales that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
-const TRIED: usize = 4;
-const LN_EVIDENCE_LEAST: f64 = -4.0;
+const TRIED: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -2.0;
 
 /// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
 /// with a scale for each of them its tails are heavy.
@@ -30,6 +30,10 @@ const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 0.05
 
 /// A class that the facets may belong to, and where to set out under it.
 pub struct Start {
+    /// The class and its width, by their places in their tables.
+    pub which: (usize, usize),
+    /// Factor by which the noise was inflated where it was found.
+    pub inflation: f64,
     /// Logarithm of its share of all spectra.
     pub ln_share: f64,
     /// Its spectra.
@@ -46,28 +50,30 @@ pub fn likely(all: &Facets, sorted: &DVector<f64>, prior: &Prior, inflation: f64
     let about = all.by_logit(sorted);
     let classes: Vec<_> =
         prior.classes().iter().map(|class| LinearClass::new(class, &about, inflation)).collect();
-    let found = classes.iter().flat_map(|linear| {
-        SCALES.iter().filter_map(move |scale| {
-            let ln_evidence = linear.ln_evidence(*scale)?;
-            ln_evidence.is_finite().then_some((ln_evidence, (linear, *scale)))
+    let found = classes.iter().enumerate().flat_map(|(class, linear)| {
+        (0..SCALES.len()).filter_map(move |scale| {
+            let ln_evidence = linear.ln_evidence(SCALES[scale])?;
+            ln_evidence.is_finite().then_some((ln_evidence, (class, scale)))
         })
     });
-    of_most_evidence(found).into_iter().filter_map(|(linear, scale)| linear.start(scale)).collect()
+    let found = of_most_evidence(found).into_iter();
+    found.filter_map(|which| classes[which.0].start(which, inflation)).collect()
 }
 
 /// The classes of most evidence at the maximum that each class's mean leads to, the noise `inflation` times its size; all of them if so
 /// few channels do not tell classes apart.
 pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start> {
-    let from_mean = |class: &Class| {
+    let from_mean = |(n, class): (usize, &Class)| {
         let facets = Facets { data, gaussian: &class.gaussian };
         let mean = DVector::zeros(facets.unknowns());
         let first = first_inflation(&facets, &mean, inflation);
         let found = maximise(&facets, mean, (first, inflation), TOLERANCE_FROM_MEANS, ITERATION_LIMIT);
         let ln_evidence = class.ln_share + found.ln_evidence(inflation)?;
-        let start = Start { ln_share: class.ln_share, gaussian: class.gaussian.clone(), w: found.w };
+        let (ln_share, gaussian) = (class.ln_share, class.gaussian.clone());
+        let start = Start { which: (n, SCALES.len()), inflation, ln_share, gaussian, w: found.w };
         ln_evidence.is_finite().then_some((ln_evidence, start))
     };
-    let found = prior.classes().iter().filter_map(from_mean);
+    let found = prior.classes().iter().enumerate().filter_map(from_mean);
     if tell_classes(data) { of_most_evidence(found) } else { found.map(|(_, start)| start).collect() }
 }
 
@@ -122,11 +128,12 @@ impl<'a> LinearClass<'a> {
         Some(self.class.ln_share + share.ln() - 0.5 * (cost + factor.ln_determinant()))
     }
 
-    /// The mean of the linear posterior at a scale.
-    fn start(&self, (scale, share): (f64, f64)) -> Option<Start> {
+    /// The mean of the linear posterior under the class at its scale.
+    fn start(&self, which: (usize, usize), inflation: f64) -> Option<Start> {
+        let (scale, share) = SCALES[which.1];
         let mut w = self.jacobian.tr_mul(&self.covariance(scale)?.solve(&self.residuals));
         let gaussian = self.class.gaussian.scaled(scale);
         w.rows_mut(0, gaussian.basis().ncols()).scale_mut(scale);
-        Some(Start { ln_share: self.class.ln_share + share.ln(), gaussian, w })
+        Some(Start { which, inflation, ln_share: self.class.ln_share + share.ln(), gaussian, w })
     }
 }
