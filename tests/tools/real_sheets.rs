@@ -215,7 +215,7 @@ fn rows(sample: &Value) -> Vec<Vec<f64>> {
 
 fn print_table(all: &[Outcome]) {
     println!("picture                RMSE   mean error  CIEDE2000  within two sd  width of the bars");
-    for Outcome { name, rmse, mean_error, delta_e, within_two_sd, bar } in all {
+    for Outcome { name, rmse, mean_error, delta_e, within_two_sd, bar, findings: _ } in all {
         let delta_e = delta_e.map_or_else(String::new, |delta_e| format!("{delta_e:.2}"));
         println!("{name:<20}{rmse:>8.4}{mean_error:>12.4}{delta_e:>10}{within_two_sd:>14.2}{bar:>15.3}");
     }
