@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::family::fresnel;
 use super::table::Place;
 
 /// Least cosine of incidence and exit: below it fits and lobes grow without bounds.
@@ -18,6 +19,8 @@ pub struct Angles {
     pub cos_between: f64,
     /// Where a table has them.
     pub(super) place: Place,
+    /// What a smooth surface reflects of light that comes in, that leaves, and of light that its facets mirror from one to the other.
+    pub(super) fresnel: [f64; 3],
 }
 
 impl Angles {
@@ -34,7 +37,14 @@ impl Angles {
     pub fn new(to_light: &Vector3<f64>, to_eye: &Vector3<f64>) -> Self {
         let [cos_in, cos_out] = [to_light, to_eye].map(|direction| direction.z.clamp(COS_MIN, 1.0));
         let cos_between = to_light.dot(to_eye).clamp(-1.0, 1.0);
-        Self { cos_in, cos_out, cos_between, place: Place::of(cos_in, cos_out, cos_between) }
+        let cos_apart = (0.5 * (1.0 + cos_between)).sqrt();
+        Self {
+            cos_in,
+            cos_out,
+            cos_between,
+            place: Place::of(cos_in, cos_out, cos_between),
+            fresnel: [cos_in, cos_out, cos_apart].map(fresnel),
+        }
     }
 
     /// Light from 45 degrees, seen from above, as spectrophotometers have it.

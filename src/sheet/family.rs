@@ -48,7 +48,7 @@ impl Terms {
     /// # Source
     /// M. Oren, S. Nayar, SIGGRAPH 1994, eq. (30); B. Walter et al., EGSR 2007, for GGX and its shadowing.
     pub(super) fn at(&self, angles: &Angles) -> [f64; 2] {
-        let Angles { cos_in, cos_out, cos_between, .. } = *angles;
+        let Angles { cos_in, cos_out, cos_between, fresnel: [of_in, of_out, of_facets], .. } = *angles;
         let Family { gloss, fuzz, .. } = self.family;
         let towards = angles.along_sheet().max(0.0) / cos_in.max(cos_out);
         let mut body = FRAC_1_PI * (self.even + self.towards_light * towards);
@@ -58,21 +58,19 @@ impl Terms {
         if gloss == 0.0 {
             return [body, 0.0];
         }
-        let passes = |cos: f64| 1.0 - gloss * fresnel(cos);
-        body *= passes(cos_in) * passes(cos_out) / (1.0 - gloss * FRESNEL_MEAN);
+        body *= (1.0 - gloss * of_in) * (1.0 - gloss * of_out) / (1.0 - gloss * FRESNEL_MEAN);
         let square = self.family.roughness * self.family.roughness;
-        // of the half vector: to the normal and to either direction
+        // of the half vector to the normal
         let cos_half = 0.5_f64.sqrt() * (cos_in + cos_out) / (1.0 + cos_between).max(1e-12).sqrt();
-        let cos_apart = (0.5 * (1.0 + cos_between)).sqrt();
         let slopes = square / (PI * (cos_half * cos_half * (square - 1.0) + 1.0).powi(2));
         // 2 cos / (1 + Λ) of Smith's shadowing: the cosines cancel those of the reflection's 4 cos cos
         let shadow = |cos: f64| 1.0 / (cos + (square + (1.0 - square) * cos * cos).sqrt());
-        [body, gloss * slopes * fresnel(cos_apart) * shadow(cos_in) * shadow(cos_out)]
+        [body, gloss * slopes * of_facets * shadow(cos_in) * shadow(cos_out)]
     }
 }
 
 /// Reflectance of a smooth surface of index 1.5 in unpolarised light.
-fn fresnel(cos: f64) -> f64 {
+pub(super) fn fresnel(cos: f64) -> f64 {
     let g = (INDEX * INDEX - 1.0 + cos * cos).sqrt();
     let (minus, plus) = (g - cos, g + cos);
     let ratio = minus / plus;

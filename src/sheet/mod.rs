@@ -9,6 +9,7 @@ mod family;
 mod table;
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 
@@ -124,6 +125,17 @@ impl Parts {
 
 /// Albedos of two reflections: averages over cosine-weighted incidence and exit.
 fn bihemispherical(reflections: impl Fn(&Angles) -> [f64; 2]) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (angles, weight) in HEMISPHERES.iter() {
+        let values = reflections(angles);
+        sums[0] += weight * values[0];
+        sums[1] += weight * values[1];
+    }
+    sums
+}
+
+/// All directions of incidence and exit, with their shares of the albedo.
+static HEMISPHERES: LazyLock<Vec<(Angles, f64)>> = LazyLock::new(|| {
     let rule = Rule::gauss_legendre(COSINES);
     // in the square of the cosine the weight is even
     let cosines: Vec<(f64, f64)> =
@@ -133,22 +145,19 @@ fn bihemispherical(reflections: impl Fn(&Angles) -> [f64; 2]) -> [f64; 2] {
         let sin = (1.0 - cos * cos).sqrt();
         Vector3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos)
     };
-    let mut sums = [0.0; 2];
+    let mut all = Vec::with_capacity(COSINES * (COSINES + 1) / 2 * AZIMUTHS);
     for (n, &(cos_in, weight_in)) in cosines.iter().enumerate() {
         let from = direction(cos_in, 0.0);
         // reciprocity: half of the pairs are enough
         for (m, &(cos_out, weight_out)) in cosines[..=n].iter().enumerate() {
             let pairs = if m == n { 1.0 } else { 2.0 };
             let weight = pairs * weight_in * weight_out * PI / AZIMUTHS as f64;
-            for azimuth in &azimuths {
-                let values = reflections(&Angles::new(&from, &direction(cos_out, *azimuth)));
-                sums[0] += weight * values[0];
-                sums[1] += weight * values[1];
-            }
+            let pair = |azimuth: &f64| (Angles::new(&from, &direction(cos_out, *azimuth)), weight);
+            all.extend(azimuths.iter().map(pair));
         }
     }
-    sums
-}
+    all
+});
 
 #[cfg(test)]
 mod tests {

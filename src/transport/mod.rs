@@ -58,11 +58,12 @@ pub fn departures(
     let frames = [0, 1].map(|panel| Frame::new(fold, panel, sun, eye));
     let points = Points::new(fold, &frames);
     let patches = (!fold.is_flat()).then(|| Patches::new(fold, &frames));
-    let lambertian = patches.as_ref().map(|patches| patches.radiances(&Shape::lambertian(), albedos));
+    let lambertian = patches.as_ref().map(|patches| patches.radiances(&Shape::lambertian()));
+    let shares = patches::shares(albedos);
     let departure = |shape: &Shape| {
         let mut beyond = points.departures(shape, albedos);
         if let (Some(patches), Some(lambertian)) = (&patches, &lambertian) {
-            beyond += &patches.pooled(&(patches.radiances(shape, albedos) - lambertian));
+            beyond += &patches.pooled(&(patches.radiances(shape) - lambertian)).dot(&shares);
         }
         beyond
     };

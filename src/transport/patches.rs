@@ -13,7 +13,7 @@ use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::exact::Wedge;
-use crate::kernel::quadrature::Rule;
+use crate::kernel::quadrature::{Lagrange, Rule};
 use crate::sheet::{Angles, Shape};
 
 /// Where rows of patches begin and end, as shares of the panel's depth.
@@ -31,7 +31,9 @@ const PLACES: usize = 4;
 /// Most reflections that are followed one by one.
 const REFLECTIONS: usize = 40;
 /// Light that is let go, relative to what the sun sends.
-const NEGLIGIBLE: f64 = 2e-5;
+const NEGLIGIBLE: f64 = 2e-4;
+/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little, and smooth in the albedo.
+const NODES: usize = 5;
 
 /// The patches of both panels, with all directions between them.
 pub struct Patches {
@@ -75,9 +77,11 @@ impl Patches {
         }
     }
 
-    /// What the eye sees of light that was reflected three times or more: patches of both panels by albedos.
+    /// What the eye sees of light that was reflected three times or more: patches of both panels by nodes of albedo, between which
+    /// [`shares`] interpolates.
     #[must_use]
-    pub fn radiances(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
+    pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
+        let albedos = nodes();
         let at = |angles: &[Angles]| {
             angles.iter().map(|angles| shape.at(angles).map(|value| value as f32)).collect::<Parts>()
         };
@@ -87,7 +91,7 @@ impl Patches {
         let between_1 =
             self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
-        for (n, &albedo) in albedos.iter().enumerate() {
+        for (n, albedo) in albedos.into_iter().enumerate() {
             let r = shape.reflectance_45_0(albedo) as f32;
             let mixed = |parts: &[[f32; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f32>>();
             let matrix = mixed(&between);
@@ -137,6 +141,22 @@ impl Patches {
         add(&mut sent, &light, (ratio / (1.0 - ratio)) as f32);
         sent
     }
+}
+
+/// The nodes of albedo.
+fn nodes() -> Vec<f64> {
+    Rule::gauss_legendre(NODES).on(0.0, 1.0).map(|(albedo, _)| albedo).collect()
+}
+
+/// Shares of the nodes' values at these albedos: node by albedo.
+#[must_use]
+pub fn shares(albedos: &[f64]) -> Array2<f64> {
+    let nodes = Lagrange::new(&nodes());
+    let mut shares = Array2::zeros((albedos.len(), NODES));
+    for (albedo, mut row) in albedos.iter().zip(shares.rows_mut()) {
+        nodes.at(*albedo, row.as_slice_mut().unwrap_or_default());
+    }
+    shares.reversed_axes()
 }
 
 fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {

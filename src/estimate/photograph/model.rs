@@ -275,7 +275,7 @@ impl<'a> PhotographModel<'a> {
         let wavelengths_nm = &self.parts.eye.wavelengths_nm;
         let own = match self.kind {
             Kind::Measured => self.parts.sheets.instrument.own,
-            Kind::Family => return None,
+            Kind::Matt | Kind::Family => return None,
         };
         let (first, last) = (wavelengths_nm.first()?, wavelengths_nm.last()?);
         let count = ((last - first) / INSTRUMENT_NM).ceil() as usize + 1;

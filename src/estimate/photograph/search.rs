@@ -1,6 +1,6 @@
 //! The most probable spectrum under all kinds of sheets and all classes of spectra.
 //!
-//! Either kind of sheet is tried under all spectra as one Gaussian; those of evidence are tried again under the classes that the
+//! Every kind of sheet is tried under all spectra as one Gaussian; those of evidence are tried again under the classes that the
 //! model, linearised there, leaves possible. What is reported is the mean over all of these, weighed by their evidence, and the error
 //! bars hold how far they are apart.
 
@@ -57,7 +57,7 @@ struct Maximum {
 pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
-    let kinds = [Kind::Family, Kind::Measured];
+    let kinds = [Kind::Matt, Kind::Family, Kind::Measured];
     let sorted = kinds.into_iter().filter_map(|kind| {
         let model = PhotographModel::new(parts, kind, prior.broad(), &whitening);
         let solution = search(&model, DVector::zeros(model.unknowns()), SORTING_TOLERANCE, SORTING_LIMIT);
@@ -69,7 +69,8 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     let (mut maxima, mut tried) = (Vec::new(), 0);
     for (_, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
-        let likely = prior.classes().iter().filter_map(|class| linear(&all, solution, class));
+        let about = About::new(&all, solution).ok_or_else(not_finite)?;
+        let likely = prior.classes().iter().filter_map(|class| about.linear(class));
         for (_, class, start) in most_evident(likely.collect(), CLASSES, |one| one.0) {
             let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
             let found = search(&model, start, TOLERANCE, LIMIT);
@@ -115,33 +116,48 @@ fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f6
     all
 }
 
-/// The evidence for a class of spectra, and where its maximum is, the model taken to be linear about a maximum under all of them.
-fn linear<'a>(
-    all: &PhotographModel,
-    solution: &Solution<()>,
-    class: &'a Class,
-) -> Option<(f64, &'a Class, DVector<f64>)> {
-    let (broad, own) = (all.gaussian(), &class.gaussian);
-    let [scene, ..] = all.layout();
-    let others = solution.w.len() - scene;
-    // derivatives by logit, as far as the coordinates of all spectra tell them
-    let by_coordinate = solution.at.jacobian.columns(0, scene);
-    let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
-    let by_logit = by_coordinate * coordinates_of;
-    let rest = solution.at.jacobian.columns(scene, others);
-    let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
-    let mut jacobian = DMatrix::zeros(by_logit.nrows(), own.basis().ncols() + others);
-    jacobian.columns_mut(0, own.basis().ncols()).gemm(1.0, &by_logit, own.basis(), 0.0);
-    jacobian.columns_mut(own.basis().ncols(), others).copy_from(&rest);
-    let residuals =
-        &solution.at.residuals + &by_logit * (&logit - own.mean()) + rest * solution.w.rows(scene, others);
-    let mut information = jacobian.tr_mul(&jacobian);
-    (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
-    let factor = Cholesky::new(information)?;
-    let w = factor.solve(&jacobian.tr_mul(&residuals));
-    let cost = (residuals - jacobian * &w).norm_squared() + w.norm_squared();
-    let ln_evidence = class.ln_share - 0.5 * (cost + factor.ln_determinant());
-    Some((ln_evidence, class, w))
+/// The model, taken to be linear about a maximum under all spectra.
+struct About {
+    /// Logits of the albedo there, and the numbers that are not of the spectrum.
+    logit: DVector<f64>,
+    others: DVector<f64>,
+    /// Derivatives by logit, as far as the coordinates of all spectra tell them, and by the others.
+    by_logit: DMatrix<f64>,
+    by_others: DMatrix<f64>,
+    residuals: DVector<f64>,
+}
+
+impl About {
+    fn new(all: &PhotographModel, solution: &Solution<()>) -> Option<Self> {
+        let [scene, ..] = all.layout();
+        let (broad, others) = (all.gaussian(), solution.w.len() - scene);
+        let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
+        Some(Self {
+            logit: broad.logit_at(&solution.w.rows(0, scene).into_owned()),
+            others: solution.w.rows(scene, others).into_owned(),
+            by_logit: solution.at.jacobian.columns(0, scene) * coordinates_of,
+            by_others: solution.at.jacobian.columns(scene, others).into_owned(),
+            residuals: solution.at.residuals.clone(),
+        })
+    }
+
+    /// The evidence for a class of spectra, and where its maximum is.
+    fn linear<'a>(&self, class: &'a Class) -> Option<(f64, &'a Class, DVector<f64>)> {
+        let own = &class.gaussian;
+        let coordinates = own.basis().ncols();
+        let mut jacobian = DMatrix::zeros(self.by_logit.nrows(), coordinates + self.others.len());
+        jacobian.columns_mut(0, coordinates).gemm(1.0, &self.by_logit, own.basis(), 0.0);
+        jacobian.columns_mut(coordinates, self.others.len()).copy_from(&self.by_others);
+        let residuals =
+            &self.residuals + &self.by_logit * (&self.logit - own.mean()) + &self.by_others * &self.others;
+        let mut information = jacobian.tr_mul(&jacobian);
+        (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
+        let factor = Cholesky::new(information)?;
+        let w = factor.solve(&jacobian.tr_mul(&residuals));
+        let cost = (residuals - jacobian * &w).norm_squared() + w.norm_squared();
+        let ln_evidence = class.ln_share - 0.5 * (cost + factor.ln_determinant());
+        Some((ln_evidence, class, w))
+    }
 }
 
 impl Maximum {

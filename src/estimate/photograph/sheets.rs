@@ -57,8 +57,9 @@ pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
 
 /// Sizes of fuzz at which it is known, on the family in the middle of [`FAMILY_NODES`].
 pub const FUZZ: [f64; 2] = [0.4, 1.0];
-/// How far sheets of a family vary beyond its numbers, relative to how far measured sheets differ.
+/// How far sheets of a family vary beyond its numbers, and matt ones from being that, relative to how far measured sheets differ.
 const FAMILY_VARIATION: f64 = 0.4;
+const MATT_VARIATION: f64 = 0.2;
 
 /// What is known of how sheets reflect.
 #[derive(Clone, Debug)]
@@ -89,6 +90,8 @@ pub struct Instrument {
 /// The kind that a sheet is taken to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// Perfectly matt, or nearly so.
+    Matt,
     /// A family: its numbers are among the conditions.
     Family,
     /// Like those that were measured.
@@ -111,7 +114,8 @@ impl Sheets {
                 mean.reflectance[0] += self.instrument.shared * variations.last().copied().unwrap_or(0.0);
                 (mean, 1.0)
             }
-            // of a family the formula tells it
+            // of these two the formula tells it
+            Kind::Matt => (Departure::none(&self.measured.radiance), MATT_VARIATION),
             Kind::Family => (self.family(conditions), FAMILY_VARIATION),
         };
         for (own, size) in self.variations.iter().zip(variations) {
