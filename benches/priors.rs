@@ -1,5 +1,5 @@
-//! How many classes the prior needs: mean RMSE of the samples on standard input, which carry their true reflectance, with the
-//! Munsell chips in 1, 2, 4 and 8 classes. `benches/priors.sh` makes the table of `docs/priors.md` of it.
+//! What the prior is worth: mean RMSE of the samples on standard input, which carry their true reflectance, with the Munsell chips alone and
+//! with all kinds of the built-in prior. `benches/priors.sh` makes a table of it.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 
@@ -15,15 +15,10 @@ use vfold::score::rmse;
 
 fn main() -> Result<()> {
     let batch = Batch::read("-")?;
-    let chips = batch.chips()?;
-    // The built-in classes, and those joined again that were halved last.
-    let means = [3, 2, 1, 0].map(|joins| {
-        let classes: Vec<usize> = classes::of_munsell().iter().map(|class| class >> joins).collect();
-        let prior = Prior::from_spectra(batch.grid.wavelengths_nm(), &chips, Some(&classes))?;
-        mean_rmse(&batch, &prior)
-    });
-    let means = means.into_iter().collect::<Result<Vec<f64>>>()?;
-    println!("{}", means.iter().map(|mean| format!("{mean:.4}")).collect::<Vec<_>>().join(" | "));
+    let nm = batch.grid.wavelengths_nm();
+    let chips = Prior::from_spectra(nm, &batch.chips()?, Some(&classes::of_munsell()))?;
+    let means = [mean_rmse(&batch, &chips)?, mean_rmse(&batch, &Prior::built_in(nm)?)?];
+    println!("{}", means.map(|mean| format!("{mean:.4}")).join(" | "));
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-complete -c vestimate -l prior -d 'What is known of reflectances beforehand: spectra (set or file), smooth (the paper\'s estimator) or none [default: munsell]' -r
+complete -c vestimate -l prior -d 'What is known of reflectances beforehand: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper\'s estimator) or none [default: sheets]' -r
 complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
 complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r

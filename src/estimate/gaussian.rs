@@ -40,6 +40,12 @@ impl Gaussian {
         Self { mean, basis }
     }
 
+    /// The same Gaussian, `scale` times as wide.
+    #[must_use]
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self { mean: self.mean.clone(), basis: scale * &self.basis }
+    }
+
     /// Mean logit in every waveband.
     #[must_use]
     pub fn mean(&self) -> &DVector<f64> {

@@ -1,9 +1,9 @@
-//! The default: the most probable spectrum, given the facets and what is known of reflectances.
+//! The default: the expected spectrum, given the facets and what is known of reflectances.
 //!
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Newton's method finds the maximum in whitened z under each class that the facets may belong to (`starts`), the
-//! evidence there chooses, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or facets
-//! are further from the model than their noise.
+//! Newton's method finds the maximum in whitened z under each class and width that the facets may belong to (`starts`). The estimate is
+//! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
+//! facets are further from the model than their noise.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -18,8 +18,15 @@ use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maxim
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
-/// Classes are told apart at this noise, relative to the brightest facet, or at the true one if that is larger.
+/// Classes are told apart at these noises, relative to the brightest facet, or at the true one if that is larger. Far off the spectrum the
+/// coarse one leads to where the model is nearly linear; near it the fine one knows the class.
 const SORTING_NOISE: f64 = 1e-3;
+const FINE_NOISE: f64 = 1e-5;
+/// Most iterations from the coarse noise to the fine one, and most classes that are tried because of it.
+const FINE_LIMIT: usize = 60;
+const FINE_TRIED: usize = 2;
+/// Most iterations of the searches under all classes that are tried.
+const CLASSES_LIMIT: usize = 600;
 /// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
 /// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
 const SURPRISE: f64 = 3.0;
@@ -52,29 +59,42 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
 
 /// The maximum, whether or not all unknowns of the scene can be so.
 fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Found {
-    let inflation = (SORTING_NOISE * data.peak()).max(1.0);
     let all = Facets { data, gaussian: prior.broad() };
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
-    let first = first_inflation(&all, &start, inflation);
-    let sorted = maximise(&all, start, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let under = |start: Start| under(data, start, inflation);
-    let near: Vec<_> = likely(&all, &sorted.w, prior, inflation).into_iter().map(under).collect();
-    let far =
-        if near.iter().all(Found::is_surprising) { from_means(data, prior, inflation) } else { Vec::new() };
-    let far: Vec<_> = far.into_iter().map(under).collect();
+    let [coarse, fine] = [SORTING_NOISE, FINE_NOISE].map(|noise| (noise * data.peak()).max(1.0));
+    let first = first_inflation(&all, &start, coarse);
+    let mut sorted = maximise(&all, start, (first, coarse), SORTING_TOLERANCE, ITERATION_LIMIT);
+    let mut starts = likely(&all, &sorted.w, prior, coarse);
+    if fine < coarse && !starts.is_empty() {
+        let finer = maximise(&all, sorted.w.clone(), (coarse, fine), SORTING_TOLERANCE, FINE_LIMIT);
+        sorted.trace.extend(finer.trace);
+        let more = likely(&all, &finer.w, prior, fine).into_iter().take(FINE_TRIED);
+        let more: Vec<_> = more.filter(|new| starts.iter().all(|known| known.which != new.which)).collect();
+        starts.extend(more);
+    }
+    let near = maxima(data, starts);
+    let far = if near.iter().all(Found::is_surprising) {
+        maxima(data, from_means(data, prior, coarse))
+    } else {
+        Vec::new()
+    };
     let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
     let found = if near.is_empty() || is_truer(&far, &near) { far } else { near };
-    let best = most_evident(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
+    let best = mean(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
 }
 
-/// The maximum under a class, the noise `inflation` times its size at first.
-fn under(data: &FacetData, start: Start, inflation: f64) -> Found {
-    let facets = Facets { data, gaussian: &start.class.gaussian };
-    let solution = maximise(&facets, start.w, (inflation, 1.0), TOLERANCE, ITERATION_LIMIT);
-    let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.class.ln_share);
-    Found::new(&facets, &solution, evidence)
+/// The maxima under classes.
+fn maxima(data: &FacetData, starts: Vec<Start>) -> Vec<Found> {
+    let limit = CLASSES_LIMIT / starts.len().max(1);
+    let maximum = |start: Start| {
+        let facets = Facets { data, gaussian: &start.gaussian };
+        let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, limit);
+        let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
+        Found::new(&facets, &solution, evidence)
+    };
+    starts.into_iter().map(maximum).collect()
 }
 
 /// Whether the maxima `near` were false: `far` there is one that explains the facets, and has more evidence than any of them.
@@ -102,21 +122,27 @@ struct Found {
     termination: Termination,
 }
 
-/// That of most evidence, its error bars widened by how far the others are from it.
-fn most_evident(mut found: Vec<Found>) -> Option<Found> {
+/// The mean of the maxima by their evidence, its error bars widened by how far they are from it; the rest is that of most evidence.
+fn mean(mut found: Vec<Found>) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
     let odds = |other: &Found| (other.ln_evidence - most.ln_evidence).exp();
     let total: f64 = found.iter().map(odds).sum();
+    let share =
+        |other: &Found| if total.is_finite() { odds(other) / total } else { 1.0 / found.len() as f64 };
+    let mut point = vec![0.0; most.point.len()];
+    for other in &found {
+        point.iter_mut().zip(&other.point).for_each(|(mean, value)| *mean += share(other) * value);
+    }
     let rows = found.iter().map(|other| {
-        let share = (odds(other) / total).sqrt();
-        let apart = other.point.iter().zip(&most.point).map(|(other, best)| share * (other - best));
+        let share = share(other).sqrt();
+        let apart = other.point.iter().zip(&point).map(|(other, mean)| share * (other - mean));
         let apart = RowDVector::from_iterator(other.point.len(), apart);
         let own = share * other.spread.as_ref()?;
         Some(own.row_iter().map(nalgebra::Matrix::into_owned).chain([apart]).collect::<Vec<_>>())
     });
     let spread = rows.collect::<Option<Vec<_>>>().map(|rows| DMatrix::from_rows(&rows.concat()));
-    Some(Found { spread, ..found.swap_remove(0) })
+    Some(Found { spread, point, ..found.swap_remove(0) })
 }
 
 impl Found {

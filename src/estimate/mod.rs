@@ -1,6 +1,7 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default), [`smooth`] (the paper's), and those of flat sheets
 //! that the paper compares with, [`park`] and [`khan`].
 
+mod built_in;
 mod channels;
 pub mod classes;
 pub mod components;

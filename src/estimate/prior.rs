@@ -2,13 +2,23 @@
 
 use nalgebra::{DMatrix, RowDVector};
 
+use super::built_in::{TabledClass, classes_on};
 use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result};
 
-/// Correlation length and standard deviation, in logit, of what spectra do that the training set does not.
+/// Correlation length and standard deviation, in logit, of what spectra do that the set behind a prior does not, all spectra being one
+/// Gaussian; classes are told apart with it, too.
 const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
+/// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little and materials differ most;
+/// it falls by e within the decay.
+const MIDDLE_SD: f64 = 0.18;
+const VIOLET_SD: f64 = 0.3;
+const RED_SD: f64 = 0.25;
+const VIOLET_NM: f64 = 400.0;
+const RED_NM: f64 = 700.0;
+const DECAY_NM: f64 = 20.0;
 
 /// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all classes together.
 #[derive(Clone, Debug)]
@@ -27,8 +37,39 @@ pub struct Class {
 }
 
 impl Prior {
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.25 in
-    /// logit) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
+    /// The built-in prior on `wavelengths_nm`: classes of paint, cloth, plants, skin, paper and prints, and one of anything smooth.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] for wavelengths beyond 380 to 780 nm.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::estimate::prior::Prior;
+    /// let prior = Prior::built_in(&[400.0, 500.0, 600.0, 700.0])?;
+    /// assert_eq!(prior.classes().len(), 38);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn built_in(wavelengths_nm: &[f64]) -> Result<Self> {
+        let mut table = classes_on(wavelengths_nm)?;
+        let Some(all) = table.pop() else {
+            return Err(Error::Numeric("the table of the built-in prior is empty".to_owned()));
+        };
+        let gaussian = |mean, factors: &DMatrix<f64>, beyond: &DMatrix<f64>| {
+            Gaussian::new(mean, &(factors * factors.transpose() + beyond))
+        };
+        let beyond = beyond_class(wavelengths_nm);
+        let class = |TabledClass { ln_share, mean, factors }| Class {
+            ln_share,
+            gaussian: gaussian(mean, &factors, &beyond),
+        };
+        Ok(Self {
+            broad: gaussian(all.mean, &all.factors, &matern(wavelengths_nm)),
+            classes: table.into_iter().map(class).collect(),
+        })
+    }
+
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.18 in
+    /// logit, more beyond 420 and 680 nm) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
     /// ([`classes_of`]).
     ///
     /// # Source
@@ -48,6 +89,7 @@ impl Prior {
             )));
         }
         let (logits, matern) = (logits_of(spectra), matern(wavelengths_nm));
+        let beyond = beyond_class(wavelengths_nm);
         let classes = classes.map_or_else(|| divide(&logits, &matern), <[usize]>::to_vec);
         if classes.len() != spectra.len() {
             return Err(Error::Numeric(format!("{} classes for {} spectra", classes.len(), spectra.len())));
@@ -57,7 +99,7 @@ impl Prior {
             let count = members.len() as f64;
             let (mean, own) =
                 moments(&logits.select_columns(&members), &RowDVector::from_element(members.len(), 1.0));
-            let gaussian = Gaussian::new(mean, &(shrunk(&own, count, &covariance) + &matern));
+            let gaussian = Gaussian::new(mean, &(shrunk(&own, count, &covariance) + &beyond));
             Class { ln_share: (count / spectra.len() as f64).ln(), gaussian }
         };
         let last = classes.iter().copied().max().unwrap_or(0);
@@ -96,6 +138,21 @@ fn logits_of(spectra: &[Vec<f64>]) -> DMatrix<f64> {
 fn matern(wavelengths_nm: &[f64]) -> DMatrix<f64> {
     let bands = wavelengths_nm.len();
     DMatrix::from_fn(bands, bands, |i, j| matern_5_2(wavelengths_nm[i] - wavelengths_nm[j]))
+}
+
+/// Covariance of what spectra do beyond their class.
+fn beyond_class(wavelengths_nm: &[f64]) -> DMatrix<f64> {
+    let sd = |nm: f64| {
+        let violet = (-(nm - VIOLET_NM).max(0.0) / DECAY_NM).exp();
+        let red = (-(RED_NM - nm).max(0.0) / DECAY_NM).exp();
+        (MIDDLE_SD + VIOLET_SD * violet + RED_SD * red) / MATERN_SD
+    };
+    let sd: Vec<f64> = wavelengths_nm.iter().map(|nm| sd(*nm)).collect();
+    let mut covariance = matern(wavelengths_nm);
+    for (j, mut column) in covariance.column_iter_mut().enumerate() {
+        column.iter_mut().zip(&sd).for_each(|(value, own)| *value *= own * sd[j]);
+    }
+    covariance
 }
 
 fn matern_5_2(distance_nm: f64) -> f64 {

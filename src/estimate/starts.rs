@@ -4,51 +4,76 @@
 //! which classes it may be of. Of one channel or two, spectra of every kind make the same (in light of one colour a red sheet may be
 //! a blue one), and many channels that are nearly alike mislead: then all classes are tried, each from its own mean.
 
-use nalgebra::{Cholesky, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::data::FacetData;
 use super::facets::{ByLogit, Facets, whitened};
+use super::gaussian::Gaussian;
 use super::prior::{Class, Prior};
 use crate::solve::posterior::{Model, first_inflation, maximise};
 
-/// Maxima are told apart this near to them, in standard deviations.
-pub const SORTING_TOLERANCE: f64 = 0.3;
-/// Most iterations of a search.
+/// So near to the maximum under all spectra, in standard deviations, that what is tried does not depend on the start.
+pub const SORTING_TOLERANCE: f64 = 0.01;
+/// Maxima from the means of classes are told apart this near to them.
+const TOLERANCE_FROM_MEANS: f64 = 0.3;
+/// Most iterations of a search that sorts.
 pub const ITERATION_LIMIT: usize = 500;
 /// Channels, those of every light counted, that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
-/// Most classes that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
-const CLASSES_TRIED: usize = 3;
-const LN_EVIDENCE_LEAST: f64 = -4.0;
+/// Most classes and scales that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
+const TRIED: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -2.0;
+
+/// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
+/// with a scale for each of them its tails are heavy.
+pub const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 0.05)];
 
 /// A class that the facets may belong to, and where to set out under it.
-pub struct Start<'a> {
-    pub class: &'a Class,
+pub struct Start {
+    /// The class and its width, by their places in their tables.
+    pub which: (usize, usize),
+    /// Factor by which the noise was inflated where it was found.
+    pub inflation: f64,
+    /// Logarithm of its share of all spectra.
+    pub ln_share: f64,
+    /// Its spectra.
+    pub gaussian: Gaussian,
     pub w: DVector<f64>,
 }
 
-/// The classes of most evidence, the model taken to be linear about `sorted`, the maximum under `all` spectra as one Gaussian with the
-/// noise `inflation` times its size; none if so few channels do not tell classes apart.
-pub fn likely<'a>(all: &Facets, sorted: &DVector<f64>, prior: &'a Prior, inflation: f64) -> Vec<Start<'a>> {
+/// The classes and scales of most evidence, the model taken to be linear about `sorted`, the maximum under `all` spectra as one Gaussian
+/// with the noise `inflation` times its size; none if so few channels do not tell classes apart.
+pub fn likely(all: &Facets, sorted: &DVector<f64>, prior: &Prior, inflation: f64) -> Vec<Start> {
     if !tell_classes(all.data) {
         return Vec::new();
     }
     let about = all.by_logit(sorted);
-    of_most_evidence(prior.classes().iter().filter_map(|class| linear(class, &about, inflation)))
+    let classes: Vec<_> =
+        prior.classes().iter().map(|class| LinearClass::new(class, &about, inflation)).collect();
+    let found = classes.iter().enumerate().flat_map(|(class, linear)| {
+        (0..SCALES.len()).filter_map(move |scale| {
+            let ln_evidence = linear.ln_evidence(SCALES[scale])?;
+            ln_evidence.is_finite().then_some((ln_evidence, (class, scale)))
+        })
+    });
+    let found = of_most_evidence(found).into_iter();
+    found.filter_map(|which| classes[which.0].start(which, inflation)).collect()
 }
 
 /// The classes of most evidence at the maximum that each class's mean leads to, the noise `inflation` times its size; all of them if so
 /// few channels do not tell classes apart.
-pub fn from_means<'a>(data: &FacetData, prior: &'a Prior, inflation: f64) -> Vec<Start<'a>> {
-    let from_mean = |class: &'a Class| {
+pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start> {
+    let from_mean = |(n, class): (usize, &Class)| {
         let facets = Facets { data, gaussian: &class.gaussian };
         let mean = DVector::zeros(facets.unknowns());
         let first = first_inflation(&facets, &mean, inflation);
-        let found = maximise(&facets, mean, (first, inflation), SORTING_TOLERANCE, ITERATION_LIMIT);
+        let found = maximise(&facets, mean, (first, inflation), TOLERANCE_FROM_MEANS, ITERATION_LIMIT);
         let ln_evidence = class.ln_share + found.ln_evidence(inflation)?;
-        ln_evidence.is_finite().then_some((ln_evidence, Start { class, w: found.w }))
+        let (ln_share, gaussian) = (class.ln_share, class.gaussian.clone());
+        let start = Start { which: (n, SCALES.len()), inflation, ln_share, gaussian, w: found.w };
+        ln_evidence.is_finite().then_some((ln_evidence, start))
     };
-    let found = prior.classes().iter().filter_map(from_mean);
+    let found = prior.classes().iter().enumerate().filter_map(from_mean);
     if tell_classes(data) { of_most_evidence(found) } else { found.map(|(_, start)| start).collect() }
 }
 
@@ -57,28 +82,58 @@ fn tell_classes(data: &FacetData) -> bool {
 }
 
 /// Those of most evidence, most first.
-fn of_most_evidence<'a>(found: impl Iterator<Item = (f64, Start<'a>)>) -> Vec<Start<'a>> {
+fn of_most_evidence<T>(found: impl Iterator<Item = (f64, T)>) -> Vec<T> {
     let mut found: Vec<_> = found.collect();
     found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    found.truncate(CLASSES_TRIED);
+    found.truncate(TRIED);
     let least = found.first().map_or(0.0, |(best, _)| best + LN_EVIDENCE_LEAST);
     found.into_iter().filter(|(evidence, _)| *evidence >= least).map(|(_, start)| start).collect()
 }
 
-/// The evidence for a class, and the mean of the linear posterior under it; none if the numbers are not finite.
-fn linear<'a>(class: &'a Class, about: &ByLogit, inflation: f64) -> Option<(f64, Start<'a>)> {
-    let weight = inflation.powi(-2);
-    let gaussian = &class.gaussian;
-    let jacobian = whitened(&about.jacobian, gaussian);
-    let (bands, unknowns) = (about.logit.len(), about.unknowns.len());
-    let residuals = &about.residuals
-        + about.jacobian.columns(0, bands) * (&about.logit - gaussian.mean())
-        + about.jacobian.columns(bands, unknowns) * &about.unknowns;
-    let mut information = weight * (jacobian.transpose() * &jacobian);
-    (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
-    let factor = Cholesky::new(information)?;
-    let w = factor.solve(&(weight * jacobian.tr_mul(&residuals)));
-    let cost = weight * (residuals - jacobian * &w).norm_squared() + w.norm_squared();
-    let ln_evidence = class.ln_share - 0.5 * (cost + factor.ln_determinant());
-    Some((ln_evidence, Start { class, w }))
+/// A linear model of the facets under a class, in units of the inflated noise.
+struct LinearClass<'a> {
+    class: &'a Class,
+    /// Residual by whitened logit, then by unknown of the scene.
+    jacobian: DMatrix<f64>,
+    residuals: DVector<f64>,
+    /// Covariance of the facets by the class, and by noise and unknowns.
+    by_class: DMatrix<f64>,
+    by_others: DMatrix<f64>,
+}
+
+impl<'a> LinearClass<'a> {
+    fn new(class: &'a Class, about: &ByLogit, inflation: f64) -> Self {
+        let (bands, unknowns) = (about.logit.len(), about.unknowns.len());
+        let residuals = &about.residuals
+            + about.jacobian.columns(0, bands) * (&about.logit - class.gaussian.mean())
+            + about.jacobian.columns(bands, unknowns) * &about.unknowns;
+        let jacobian = whitened(&about.jacobian, &class.gaussian) / inflation;
+        let coordinates = class.gaussian.basis().ncols();
+        let of_class = jacobian.columns(0, coordinates);
+        let of_others = jacobian.columns(coordinates, unknowns);
+        let by_class = of_class * of_class.transpose();
+        let mut by_others = of_others * of_others.transpose();
+        (0..by_others.nrows()).for_each(|i| by_others[(i, i)] += 1.0);
+        Self { class, residuals: residuals / inflation, by_class, by_others, jacobian }
+    }
+
+    fn covariance(&self, scale: f64) -> Option<Cholesky<f64, Dyn>> {
+        Cholesky::new(scale * scale * &self.by_class + &self.by_others)
+    }
+
+    /// The evidence for the class at a scale and its share; none if the numbers are not finite.
+    fn ln_evidence(&self, (scale, share): (f64, f64)) -> Option<f64> {
+        let factor = self.covariance(scale)?;
+        let cost = factor.l_dirty().solve_lower_triangular(&self.residuals)?.norm_squared();
+        Some(self.class.ln_share + share.ln() - 0.5 * (cost + factor.ln_determinant()))
+    }
+
+    /// The mean of the linear posterior under the class at its scale.
+    fn start(&self, which: (usize, usize), inflation: f64) -> Option<Start> {
+        let (scale, share) = SCALES[which.1];
+        let mut w = self.jacobian.tr_mul(&self.covariance(scale)?.solve(&self.residuals));
+        let gaussian = self.class.gaussian.scaled(scale);
+        w.rows_mut(0, gaussian.basis().ncols()).scale_mut(scale);
+        Some(Start { which, inflation, ln_share: self.class.ln_share + share.ln(), gaussian, w })
+    }
 }

@@ -17,11 +17,12 @@ use super::Termination;
 
 /// The noise is first taken for this share of the misfit at the start.
 const MISFIT: f64 = 0.3;
-/// Factor by which the noise falls from stage to stage.
-const STAGE: f64 = 10.0;
+/// Factor by which the noise falls from stage to stage, the root of ten: a tenth releases so many coordinates at once that the next stage
+/// may set out far off the valley that precise data cut.
+const STAGE: f64 = 3.162_277_660_168_379_5;
 /// Most steps at each inflation of the noise, and the gradient in the metric of the Hessian that ends a stage earlier.
-const STEPS_A_STAGE: u32 = 6;
-const END_OF_STAGE: f64 = 5.0;
+const STEPS_A_STAGE: u32 = 60;
+const END_OF_STAGE: f64 = 1.0;
 /// Longest step, in standard deviations of the prior: further out the model is not the one that was linearised.
 const LONGEST: f64 = 10.0;
 /// Most trials of a step; first damping, and its factors after a failure and after a success.
@@ -114,7 +115,7 @@ pub fn first_inflation(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 
     (MISFIT * misfit.norm() / (misfit.len().max(1) as f64).sqrt()).max(least)
 }
 
-/// Minimises from `start`, the noise first inflated to `inflation.0` times its true size and then, by tens, down to
+/// Minimises from `start`, the noise first inflated to `inflation.0` times its true size and then, by roots of ten, down to
 /// `inflation.1`, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
 /// within `tolerance` standard deviations of the minimum.
 ///
@@ -136,8 +137,7 @@ pub fn maximise<M: Model>(
         };
         let gradient_norm = newton.decrement;
         if now > last {
-            // A stage only has to lead to where the next one can start: it is left long before its own minimum, but not without
-            // a step.
+            // A stage only has to lead to where the next one can start: it is left before its own minimum, but not without a step.
             if steps > 0 && (gradient_norm < END_OF_STAGE || steps == STEPS_A_STAGE) {
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;

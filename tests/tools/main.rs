@@ -10,6 +10,7 @@ mod cluster;
 #[path = "../common/mod.rs"]
 mod common;
 mod cornell;
+mod coverage;
 mod daylight;
 mod determinism;
 mod estimates;

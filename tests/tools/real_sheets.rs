@@ -6,12 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use vfold::estimate::photograph;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::{classes, photograph};
 use vfold::image::Point;
 use vfold::scene::{FoldSetting, PhotographedFold, Setting};
-use vfold::spectrum::Outside;
 use vfold::stream::{Reader, Record, Sample, Scene};
 use vfold::transport::eye_before;
 
@@ -125,9 +124,7 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let setting = FoldSetting::of(&scene).unwrap();
     let parts = PhotographedFold::of(&setting).leaving_out(known).parts(&sample, exposure).unwrap().unwrap();
     let grid = scene.grid().unwrap();
-    let chips = vfold::spectrum::reflectances("munsell").unwrap();
-    let chips: Vec<_> = chips.iter().map(|chip| chip.on(&grid, Outside::Refuse).unwrap()).collect();
-    let prior = Prior::from_spectra(grid.wavelengths_nm(), &chips, Some(&classes::of_munsell())).unwrap();
+    let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
     let estimate = photograph::estimate(&parts, &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
     let sample = json!({"estimate": {"reflectance": estimate.reflectance, "reflectance_sd": estimate.reflectance_sd()}});
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();

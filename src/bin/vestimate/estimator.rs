@@ -17,7 +17,7 @@ use vfold::{Error, Result};
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
 use super::said::{self, Deviations};
-use super::settings::{MUNSELL, NoiseSd, Smoothness};
+use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
@@ -34,8 +34,8 @@ const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
 
 /// How spectra are estimated, from `--method` and `--prior`.
 enum Method {
-    /// Spectra of the prior, and their classes where they are known.
-    Map(Vec<Spectrum>, Option<Vec<usize>>),
+    /// Spectra of the prior, and their classes where they are known; none for the built-in one.
+    Map(Option<(Vec<Spectrum>, Option<Vec<usize>>)>),
     Smooth(Smoothness),
     Flat(FlatEstimator),
 }
@@ -95,6 +95,7 @@ fn method(args: &Args) -> Result<Method> {
     Ok(match args.prior() {
         "smooth" => Method::Smooth(args.smoothness.unwrap_or(SMOOTHNESS)),
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
+        SHEETS => Method::Map(None),
         spec => {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
             let spectra = args.common.reflectances(spec)?;
@@ -102,7 +103,7 @@ fn method(args: &Args) -> Result<Method> {
                 let problem = format!("'{spec}' is one spectrum, which tells nothing of others");
                 return Err(Error::usage("--prior", problem, "give a set or a file of two or more"));
             }
-            Method::Map(spectra, classes)
+            Method::Map(Some((spectra, classes)))
         }
     })
 }
@@ -124,7 +125,8 @@ impl Transform for Estimator<'_> {
             scene.set_materials(&materials)?;
         }
         let method = match &self.method {
-            Method::Map(spectra, classes) => {
+            Method::Map(None) => SceneMethod::Map(Prior::built_in(grid.wavelengths_nm())?),
+            Method::Map(Some((spectra, classes))) => {
                 let on_grid: Vec<_> =
                     spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
                 SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)

@@ -38,7 +38,7 @@ struct Args {
     /// Scenes and samples from vforward or vextract [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// What is known of reflectances beforehand: spectra (set or file), smooth (the paper's estimator) or none [default: munsell]
+    /// What is known of reflectances beforehand: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper's estimator) or none [default: sheets]
     #[arg(long, value_name = "SPEC|smooth|none")]
     prior: Option<String>,
     /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the
@@ -89,7 +89,7 @@ struct Args {
 impl Args {
     /// What is known of reflectances beforehand.
     fn prior(&self) -> &str {
-        self.prior.as_deref().unwrap_or(settings::MUNSELL)
+        self.prior.as_deref().unwrap_or(settings::SHEETS)
     }
 
     /// Whether estimates know how far off they may be.

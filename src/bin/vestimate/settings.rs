@@ -4,7 +4,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vfold::estimate::Exposure;
 use vfold::estimate::unknowns::{self, Flag, NONE};
 
-/// The prior whose classes are known, and the default.
+/// The built-in prior, the default.
+pub const SHEETS: &str = "sheets";
+/// The set whose classes are known, and the basis of the methods for flat sheets.
 pub const MUNSELL: &str = "munsell";
 
 /// Where the standard deviations of facets come from.

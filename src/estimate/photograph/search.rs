@@ -13,7 +13,9 @@ use super::model::{PhotographModel, Point};
 use super::parts::Parts;
 use super::sheets::Kind;
 use crate::error::{Error, Result};
+use crate::estimate::gaussian::Gaussian;
 use crate::estimate::prior::{Class, Prior};
+use crate::estimate::starts::SCALES;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
@@ -72,13 +74,14 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     for (_, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
         let about = About::new(&all, solution).ok_or_else(not_finite)?;
-        let likely = prior.classes().iter().filter_map(|class| Some((about.ln_evidence(class)?, class)));
-        for (_, class) in most_evident(likely.collect(), CLASSES, |one| one.0) {
-            let start = about.maximum(class).ok_or_else(not_finite)?;
-            let model = PhotographModel::new(parts, *kind, &class.gaussian, &whitening);
+        let likely = prior.classes().iter().flat_map(|class| about.ln_evidences(class)).collect();
+        for Likely { class, scale, ln_share, .. } in most_evident(likely, CLASSES, |one| one.ln_evidence) {
+            let gaussian = class.gaussian.scaled(scale);
+            let start = about.maximum(&gaussian).ok_or_else(not_finite)?;
+            let model = PhotographModel::new(parts, *kind, &gaussian, &whitening);
             let found = search(&model, start, TOLERANCE, LIMIT);
             tried += 1;
-            maxima.extend(Maximum::of(&model, &found, class.ln_share));
+            maxima.extend(Maximum::of(&model, &found, ln_share));
         }
     }
     let maxima = most_evident(maxima, kinds.len() * CLASSES, |one| one.ln_evidence);
@@ -88,7 +91,7 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     let best = maxima.first().ok_or_else(not_finite)?;
     let mut found = findings(&best.fitted, &parts.told);
     found.extend(corners::findings(&shifts, &best.residuals, error.corner));
-    let skipped = skipped(&best.fitted, kinds.len() * prior.classes().len() - tried);
+    let skipped = skipped(&best.fitted, kinds.len() * prior.classes().len() * SCALES.len() - tried);
     let mean = mean(maxima, trace).ok_or_else(not_finite)?;
     Ok(Estimate { findings: found, skipped, ..mean })
 }
@@ -117,6 +120,14 @@ fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f6
     let least = all.first().map_or(0.0, |first| ln_evidence(first) + LN_EVIDENCE_LEAST);
     all.retain(|one| ln_evidence(one) >= least);
     all
+}
+
+/// A class of spectra at one of its widths.
+struct Likely<'a> {
+    class: &'a Class,
+    scale: f64,
+    ln_share: f64,
+    ln_evidence: f64,
 }
 
 /// The model, taken to be linear about a maximum under all spectra.
@@ -168,20 +179,25 @@ impl About {
         })
     }
 
-    /// The evidence for a class of spectra.
-    fn ln_evidence(&self, class: &Class) -> Option<f64> {
+    /// The evidence for a class of spectra at each of its widths.
+    fn ln_evidences<'a>(&self, class: &'a Class) -> Vec<Likely<'a>> {
         let spread = &self.told * class.gaussian.basis();
-        let mut covariance = &spread * spread.transpose();
-        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
-        let off = &self.off + &self.told * (&self.logit - class.gaussian.mean());
-        let factor = Cholesky::new(covariance)?;
-        let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
-        Some(class.ln_share - 0.5 * (cost + factor.ln_determinant()))
+        let (of_class, off) =
+            (&spread * spread.transpose(), &self.off + &self.told * (&self.logit - class.gaussian.mean()));
+        let at = |(scale, share): &(f64, f64)| {
+            let mut covariance = scale * scale * &of_class;
+            (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
+            let factor = Cholesky::new(covariance)?;
+            let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
+            let ln_share = class.ln_share + share.ln();
+            let ln_evidence = ln_share - 0.5 * (cost + factor.ln_determinant());
+            Some(Likely { class, scale: *scale, ln_share, ln_evidence })
+        };
+        SCALES.iter().filter_map(at).collect()
     }
 
-    /// Where the maximum under a class of spectra is.
-    fn maximum(&self, class: &Class) -> Option<DVector<f64>> {
-        let own = &class.gaussian;
+    /// Where the maximum under a Gaussian of spectra is.
+    fn maximum(&self, own: &Gaussian) -> Option<DVector<f64>> {
         let coordinates = own.basis().ncols();
         let mut jacobian = DMatrix::zeros(self.by_logit.nrows(), coordinates + self.others.len());
         jacobian.columns_mut(0, coordinates).gemm(1.0, &self.by_logit, own.basis(), 0.0);
