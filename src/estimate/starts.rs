@@ -23,6 +23,9 @@ const TELLING_CHANNELS: usize = 3;
 /// Most classes and scales that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
 const TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -2.0;
+/// Most that are tried where facets tell nothing, and how near to the first they are then.
+const UNTOLD_TRIED: usize = 10;
+const LN_EVIDENCE_SAME: f64 = -0.5;
 
 /// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
 /// with a scale for each of them its tails are heavy.
@@ -85,8 +88,10 @@ fn tell_classes(data: &FacetData) -> bool {
 fn of_most_evidence<T>(found: impl Iterator<Item = (f64, T)>) -> Vec<T> {
     let mut found: Vec<_> = found.collect();
     found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    found.truncate(TRIED);
-    let least = found.first().map_or(0.0, |(best, _)| best + LN_EVIDENCE_LEAST);
+    let best = found.first().map_or(0.0, |(best, _)| *best);
+    let same = found.iter().take_while(|(evidence, _)| *evidence > best + LN_EVIDENCE_SAME).count();
+    found.truncate(same.clamp(TRIED, UNTOLD_TRIED));
+    let least = best + LN_EVIDENCE_LEAST;
     found.into_iter().filter(|(evidence, _)| *evidence >= least).map(|(_, start)| start).collect()
 }
 

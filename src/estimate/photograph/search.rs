@@ -4,6 +4,8 @@
 //! model, linearised there, leaves possible. What is reported is the mean over all of these, weighed by their evidence, and the error
 //! bars hold how far they are apart.
 
+use std::rc::Rc;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::corners;
@@ -28,10 +30,12 @@ const TOLERANCE: f64 = 3e-2;
 /// Most iterations of a search.
 const SORTING_LIMIT: usize = 25;
 const LIMIT: usize = 60;
-/// Classes of spectra that are tried further, and the least evidence for one of them, or for a kind of sheets, as the logarithm of its
-/// share of the first's.
-const CLASSES: usize = 3;
+/// Pairs of a kind of sheets and a class of spectra that are tried further, and the least evidence for one of them, or for a kind of sheets,
+/// as the logarithm of its share of the first's.
+const TRIED: usize = 5;
 const LN_EVIDENCE_LEAST: f64 = -5.0;
+/// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
+const SHARE_POWER: f64 = 0.25;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
@@ -70,28 +74,45 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     });
     let sorted = most_evident(sorted.collect(), kinds.len(), |one| one.0);
     let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
-    let (mut maxima, mut tried) = (Vec::new(), 0);
-    for (_, kind, solution) in &sorted {
+    let mut likely = Vec::new();
+    for (ln_evidence, kind, solution) in &sorted {
         let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
-        let about = About::new(&all, solution).ok_or_else(not_finite)?;
-        let likely = prior.classes().iter().flat_map(|class| about.ln_evidences(class)).collect();
-        for Likely { class, scale, ln_share, .. } in most_evident(likely, CLASSES, |one| one.ln_evidence) {
-            let gaussian = class.gaussian.scaled(scale);
-            let start = about.maximum(&gaussian).ok_or_else(not_finite)?;
-            let model = PhotographModel::new(parts, *kind, &gaussian, &whitening);
-            let found = search(&model, start, TOLERANCE, LIMIT);
-            tried += 1;
-            maxima.extend(Maximum::of(&model, &found, ln_share));
+        let about = Rc::new(About::new(&all, solution).ok_or_else(not_finite)?);
+        let of_all = about.ln_evidence(prior.broad(), 1.0).ok_or_else(not_finite)?;
+        for (class, (scale, share)) in prior.classes().iter().flat_map(|class| SCALES.map(|one| (class, one)))
+        {
+            let ln_share = SHARE_POWER * class.ln_share + share.ln();
+            let Some(of_class) = about.ln_evidence(&class.gaussian, scale) else { continue };
+            let ln_evidence = ln_evidence + ln_share + of_class - of_all;
+            likely.push(Likely {
+                kind: *kind,
+                class,
+                scale,
+                ln_share,
+                ln_evidence,
+                about: Rc::clone(&about),
+            });
         }
     }
-    let maxima = most_evident(maxima, kinds.len() * CLASSES, |one| one.ln_evidence);
+    let searches = likely.len();
+    let likely = most_evident(likely, TRIED, |one| one.ln_evidence);
+    let skipped_searches = searches - likely.len();
+    let mut maxima = Vec::new();
+    for Likely { kind, class, scale, ln_share, about, .. } in likely {
+        let gaussian = class.gaussian.scaled(scale);
+        let start = about.maximum(&gaussian).ok_or_else(not_finite)?;
+        let model = PhotographModel::new(parts, kind, &gaussian, &whitening);
+        let found = search(&model, start, TOLERANCE, LIMIT);
+        maxima.extend(Maximum::of(&model, &found, ln_share));
+    }
+    let maxima = most_evident(maxima, TRIED, |one| one.ln_evidence);
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
     let shifts: Vec<_> =
         corners::shifts(&parts.places, &parts.values).iter().map(|shift| &whitening * shift).collect();
     let best = maxima.first().ok_or_else(not_finite)?;
     let mut found = findings(&best.fitted, &parts.told);
     found.extend(corners::findings(&shifts, &best.residuals, error.corner));
-    let skipped = skipped(&best.fitted, kinds.len() * prior.classes().len() * SCALES.len() - tried);
+    let skipped = skipped(&best.fitted, skipped_searches);
     let mean = mean(maxima, trace).ok_or_else(not_finite)?;
     Ok(Estimate { findings: found, skipped, ..mean })
 }
@@ -122,8 +143,10 @@ fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f6
     all
 }
 
-/// A class of spectra at one of its widths.
+/// A kind of sheets and a class of spectra at one of its widths, and where they are judged from.
 struct Likely<'a> {
+    kind: Kind,
+    about: Rc<About>,
     class: &'a Class,
     scale: f64,
     ln_share: f64,
@@ -179,21 +202,15 @@ impl About {
         })
     }
 
-    /// The evidence for a class of spectra at each of its widths.
-    fn ln_evidences<'a>(&self, class: &'a Class) -> Vec<Likely<'a>> {
-        let spread = &self.told * class.gaussian.basis();
-        let (of_class, off) =
-            (&spread * spread.transpose(), &self.off + &self.told * (&self.logit - class.gaussian.mean()));
-        let at = |(scale, share): &(f64, f64)| {
-            let mut covariance = scale * scale * &of_class;
-            (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
-            let factor = Cholesky::new(covariance)?;
-            let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
-            let ln_share = class.ln_share + share.ln();
-            let ln_evidence = ln_share - 0.5 * (cost + factor.ln_determinant());
-            Some(Likely { class, scale: *scale, ln_share, ln_evidence })
-        };
-        SCALES.iter().filter_map(at).collect()
+    /// The evidence for spectra that are `scale` times as wide as a Gaussian, but for a term that all spectra share.
+    fn ln_evidence(&self, spectra: &Gaussian, scale: f64) -> Option<f64> {
+        let spread = scale * &self.told * spectra.basis();
+        let mut covariance = &spread * spread.transpose();
+        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
+        let off = &self.off + &self.told * (&self.logit - spectra.mean());
+        let factor = Cholesky::new(covariance)?;
+        let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
+        Some(-0.5 * (cost + factor.ln_determinant()))
     }
 
     /// Where the maximum under a Gaussian of spectra is.
