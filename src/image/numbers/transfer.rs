@@ -25,7 +25,7 @@ impl Transfer {
     }
 
     /// Linear light of a stored value scaled to [0, 1].
-    pub(super) fn to_linear(self, stored: f64) -> f64 {
+    pub(in crate::image) fn to_linear(self, stored: f64) -> f64 {
         if self == Self::Srgb { srgb_to_linear(stored) } else { stored }
     }
 

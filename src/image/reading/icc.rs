@@ -3,7 +3,7 @@
 use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
 
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
-use crate::image::numbers::{Transfer, srgb_to_linear};
+use crate::image::numbers::Transfer;
 
 /// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows 0.001.
 const SAME_CURVE: f64 = 2e-3;
@@ -52,14 +52,12 @@ fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
 /// The curve of a channel; none where a table of colours takes its place.
 fn curve(tone: Option<&ToneReprCurve>) -> Result<Transfer, &'static str> {
     let tone = tone.and_then(|tone| tone.make_linear_evaluator().ok()).ok_or(OTHER_CURVE)?;
-    let is = |linear: fn(f64) -> f64| {
-        (0..=255)
-            .map(|step| f64::from(step) / 255.0)
-            .all(|stored| (f64::from(tone.evaluate_value(stored as f32)) - linear(stored)).abs() < SAME_CURVE)
+    let is = |curve: &Transfer| {
+        (0..=255).map(|step| f64::from(step) / 255.0).all(|stored| {
+            (f64::from(tone.evaluate_value(stored as f32)) - curve.to_linear(stored)).abs() < SAME_CURVE
+        })
     };
-    let known: [(_, fn(f64) -> f64); 2] =
-        [(Transfer::Linear, |stored| stored), (Transfer::Srgb, srgb_to_linear)];
-    known.into_iter().find(|(_, linear)| is(*linear)).map(|(transfer, _)| transfer).ok_or(OTHER_CURVE)
+    [Transfer::Linear, Transfer::Srgb].into_iter().find(is).ok_or(OTHER_CURVE)
 }
 
 fn has_srgb_primaries(profile: &ColorProfile) -> bool {
