@@ -134,12 +134,9 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
 /// The tool between opening and finishing its output; how many records carry an error.
 fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<usize> {
     let common = args.common();
-    if let Some(threads) = common.threads {
-        // Fails only if a pool exists already, which no tool makes before this.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-    }
+    start_threads(common.threads)?;
     let mut out = match &common.resume {
-        Some(path) => Output::resume(path, &common.save)?,
+        Some(path) => Output::resume(path, &common.save, !common.no_history)?,
         None => Output::to(common.output.as_deref(), &common.save)?,
     };
     let to_file = common.output.is_some() || common.resume.is_some();
@@ -153,6 +150,16 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
         Err(e) if !e.is_finding() => Err(e),
         done => out.finish().and_then(|failed| done.map(|()| failed)),
     }
+}
+
+/// Starts so many threads, or one for each core.
+fn start_threads(count: Option<u16>) -> Result<()> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0).into());
+    pool.build_global().map_err(|error| {
+        Error::Numeric(format!(
+            "the system gives no threads ({error}); take fewer with --threads, or allow more memory"
+        ))
+    })
 }
 
 fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {

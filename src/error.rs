@@ -2,6 +2,8 @@
 
 use std::io;
 
+use crate::message::cut;
+
 /// What can go wrong, in one line a user can act on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -231,9 +233,10 @@ impl Error {
         }
     }
 
-    /// A record's field with what is wrong with it.
+    /// A record's field with what is wrong with it. What it quotes of the field is cut: it may be a whole array.
     pub fn field(field: impl Into<String>, problem: impl std::fmt::Display) -> Self {
-        Self::Field { field: field.into(), problem: problem.to_string() }
+        const LETTERS: usize = 400;
+        Self::Field { field: field.into(), problem: cut(&problem.to_string(), LETTERS).into_owned() }
     }
 
     /// A flag with what is wrong with its value and what to write instead.

@@ -1,8 +1,10 @@
 //! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed leaves none.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -16,6 +18,8 @@ use crate::error::{Error, Result};
 pub struct Saved {
     target: Target,
     path: PathBuf,
+    /// None of a pipe or device, which may take several.
+    _claim: Option<Claim>,
 }
 
 enum Target {
@@ -29,21 +33,25 @@ impl Saved {
     /// Opens the file without its name, or the pipe or device.
     ///
     /// # Errors
-    /// [`Error::File`] if the folder cannot be written.
+    /// [`Error::File`] if the folder cannot be written or the name is that of a link to nothing, [`Error::Usage`] if another output of this
+    /// run has the name.
     pub fn new(path: &Path) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
-        let (target, path) = match path.metadata() {
+        let path = match path.metadata() {
             Ok(found) if !found.is_file() => {
-                (Target::Special(File::options().write(true).open(path).map_err(failed)?), path.to_owned())
+                let target = Target::Special(File::options().write(true).open(path).map_err(failed)?);
+                return Ok(Self { target, path: path.to_owned(), _claim: None });
             }
             // A link to a file stays a link: its target is replaced.
-            Ok(_) => {
-                let replaced = path.canonicalize().map_err(failed)?;
-                (beside(&replaced).map_err(failed)?, replaced)
+            Ok(_) => path.canonicalize().map_err(failed)?,
+            // One that leads to itself or to nothing is not what was meant.
+            Err(_) if path.is_symlink() => {
+                return Err(failed(io::Error::other("a link that leads to no file")));
             }
-            Err(_) => (beside(path).map_err(failed)?, path.to_owned()),
+            Err(_) => path.to_owned(),
         };
-        Ok(Self { target, path })
+        let target = beside(&path).map_err(failed)?;
+        Ok(Self { target, _claim: Some(Claim::new(&path)?), path })
     }
 
     /// The open file.
@@ -100,6 +108,34 @@ impl Write for Saved {
     fn flush(&mut self) -> io::Result<()> {
         self.file_mut().flush()
     }
+}
+
+/// The right to a file's name, for as long as the file is written: of two outputs that took one name, one would be lost.
+pub(crate) struct Claim(PathBuf);
+
+static CLAIMED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+impl Claim {
+    /// # Errors
+    /// [`Error::Usage`] if another output has the name.
+    pub fn new(path: &Path) -> Result<Self> {
+        let name = folder(path).canonicalize().unwrap_or_default().join(path.file_name().unwrap_or_default());
+        if claimed().insert(name.clone()) {
+            return Ok(Self(name));
+        }
+        let problem = format!("two of this run would go to {}", path.display());
+        Err(Error::usage("outputs", problem, "give each a name of its own"))
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        claimed().remove(&self.0);
+    }
+}
+
+fn claimed() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    CLAIMED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file in the folder of `path`: without a name where there can be one, else under a temporary name.
@@ -181,6 +217,31 @@ mod tests {
         saved.write_all(b"half").unwrap();
         drop(saved);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_name_is_given_once_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        let saved = Saved::new(&file).unwrap();
+        for same in [&file, &link, &folder.path().join(".").join("file")] {
+            assert!(Saved::new(same).is_err_and(|error| error.exit_status() == 2), "{}", same.display());
+        }
+        drop(saved);
+        assert!(Saved::new(&link).is_ok());
+    }
+
+    #[test]
+    fn links_to_nothing_and_to_themselves_are_no_files() {
+        let folder = tempfile::tempdir().unwrap();
+        for (link, target) in [("loop", "loop"), ("dangling", "nowhere")] {
+            let link = folder.path().join(link);
+            std::os::unix::fs::symlink(target, &link).unwrap();
+            assert!(Saved::new(&link).is_err_and(|error| error.to_string().contains("leads to no file")));
+            assert!(link.is_symlink());
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Messages for people, each on a line of its own.
 
+use std::borrow::Cow;
+
 /// A message as one line that a terminal shows as it is: control characters, which names in files may hold, are escaped, and
 /// what is longer than any message is cut in the middle.
 ///
@@ -10,15 +12,20 @@
 /// ```
 #[must_use]
 pub fn one_line(message: &str) -> String {
-    const SIDE: usize = 1000;
     let shown = |letter: char| match letter.is_control() {
         true => letter.escape_default().collect(),
         false => letter.to_string(),
     };
-    let count = message.chars().count();
-    if count <= 2 * SIDE {
-        return message.chars().map(shown).collect();
+    cut(message, 2000).chars().map(shown).collect()
+}
+
+/// A text of at most so many letters, of a longer one its beginning and its end.
+#[must_use]
+pub(crate) fn cut(text: &str, letters: usize) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= letters {
+        return text.into();
     }
-    let (start, end) = (message.chars().take(SIDE), message.chars().skip(count - SIDE));
-    start.chain(['…']).chain(end).map(shown).collect()
+    let (start, end) = (text.chars().take(letters / 2), text.chars().skip(count - letters / 2));
+    start.chain(['…']).chain(end).collect()
 }

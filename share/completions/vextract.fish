@@ -15,7 +15,7 @@ complete -c vextract -l refine -d 'Move the panels\' corners to the edges and th
 complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r
 complete -c vextract -l overlay -d 'Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
 complete -c vextract -l preview -d 'Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above' -r -F
-complete -c vextract -l transfer -d 'Curve of the stored numbers; auto: sRGB for 8 bits, linear for the rest' -r
+complete -c vextract -l transfer -d 'Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest' -r
 complete -c vextract -l black-level -d 'Stored number that means no light' -r
 complete -c vextract -l white-level -d 'Stored number that means 1, from which on pixels are clipped' -r
 complete -c vextract -l white -d 'Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1' -r -F

@@ -12,7 +12,7 @@ cosine\t'Rays with the cosine law'"
 complete -c vkernel -l samples -d 'Pairs of points a distinct entry, or rays a row of facets [default: 10000]' -r
 complete -c vkernel -l seed -d 'Seed of the samples [default: 0]' -r
 complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed, one flat patch per facet (the paper\'s model), given patches, or on a shape so many cells along each side of a facet [default: auto; facets unless --method is exact]' -r
-complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, for reflectances up to 0.9]' -r
+complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the mean]' -r
 complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
 complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there' -r

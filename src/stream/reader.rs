@@ -31,6 +31,8 @@ pub struct Reader {
     line_bytes: usize,
     /// Comes before what is read.
     first: Option<Scene>,
+    /// Whether no record at all is no fault.
+    may_be_empty: bool,
 }
 
 impl Reader {
@@ -43,12 +45,12 @@ impl Reader {
             "-" => Box::new(BufReader::new(io::stdin())),
             _ => Box::new(BufReader::new(File::open(path).map_err(|e| Error::file(path, e))?)),
         };
-        Ok(Self::new(source, path))
+        Ok(Self { may_be_empty: false, ..Self::new(source, path) })
     }
 
-    /// Reads from `source`, which errors call `path`.
+    /// Reads from `source`, which errors call `path`; there may be nothing in it.
     pub(super) fn new(source: Box<dyn BufRead + Send>, path: &str) -> Self {
-        Self { source, path: path.to_owned(), line: 0, line_bytes: 0, first: None }
+        Self { source, path: path.to_owned(), line: 0, line_bytes: 0, first: None, may_be_empty: true }
     }
 
     /// Nothing but a scene.
@@ -66,17 +68,22 @@ impl Reader {
     /// The next record, none at the end.
     ///
     /// # Errors
-    /// [`Error::Record`] for a line that is not a record, with file and line.
+    /// [`Error::Record`] for a line that is not a record, with file and line, and for a stream that ends before its first.
     pub fn read(&mut self) -> Result<Option<Record>> {
         if let Some(scene) = self.first.take() {
             return Ok(Some(Record::Scene(scene)));
         }
         let bytes = self.line().map_err(|e| Error::file(&self.path, e))?;
-        if bytes.is_empty() {
+        if bytes.is_empty() && (self.line > 0 || self.may_be_empty) {
             return Ok(None);
         }
         self.line += 1;
         self.line_bytes = bytes.len();
+        if bytes.is_empty() {
+            return Err(
+                self.wrong("no record: the stream is empty", "give it what the tool before it writes")
+            );
+        }
         if is_record(&bytes) && !bytes.ends_with(b"\n") {
             return Err(match bytes.len() as u64 {
                 LINE_MAX => self.wrong("a line of more than 1 GiB", "take fewer facets or wavelengths"),

@@ -9,18 +9,23 @@ use std::path::{Path, PathBuf};
 
 use super::{Fields, Reader, Record, Sample};
 use crate::error::{Error, Result};
+use crate::files::Claim;
 
 /// How every record begins.
 const BEGINNING: &[u8] = b"{\"kind\":";
 
 /// The records that an interrupted run wrote, one for each that this run is about to make.
-pub struct Kept(Option<Reader>);
+pub struct Kept {
+    records: Option<Reader>,
+    /// Whether the next good sample is to be made again: nothing else tells what command wrote it.
+    is_unknown: bool,
+}
 
 impl Kept {
     /// No records.
     #[must_use]
     pub fn none() -> Self {
-        Self(None)
+        Self { records: None, is_unknown: false }
     }
 
     /// Passes the record of a scene.
@@ -28,7 +33,7 @@ impl Kept {
     /// # Errors
     /// As [`Reader::read`].
     pub fn pass(&mut self) -> Result<()> {
-        self.0.as_mut().map_or(Ok(None), Reader::read).map(drop)
+        self.next().map(drop)
     }
 
     /// The sample in the next place, if it is there and is that of the input that `is_its` knows.
@@ -36,10 +41,17 @@ impl Kept {
     /// # Errors
     /// As [`Reader::read`].
     pub fn sample(&mut self, is_its: impl Fn(&Sample) -> bool) -> Result<Option<Sample>> {
-        match self.0.as_mut().map_or(Ok(None), Reader::read)? {
-            Some(Record::Sample(sample)) if is_its(&sample) => Ok(Some(sample)),
+        match self.next()? {
+            Some(Record::Sample(sample)) if is_its(&sample) => {
+                let is_made_again = sample.error()?.is_none() && std::mem::take(&mut self.is_unknown);
+                Ok(Some(sample).filter(|_| !is_made_again))
+            }
             _ => Ok(None),
         }
+    }
+
+    fn next(&mut self) -> Result<Option<Record>> {
+        self.records.as_mut().map_or(Ok(None), Reader::read)
     }
 }
 
@@ -53,15 +65,17 @@ pub struct Resumed {
     /// Bytes in whole lines.
     whole: u64,
     is_cut: bool,
+    has_history: bool,
+    _claim: Claim,
 }
 
 impl Resumed {
-    /// Opens a file, or makes it, and keeps other runs out of it.
+    /// Opens a file, or makes it, and keeps other runs out of it; `has_history` says whether its scenes tell what made them.
     ///
     /// # Errors
     /// [`Error::Usage`] for standard output, [`Error::File`] if it cannot be read or written, [`Error::Record`] if it ends in
     /// something else than part of a record.
-    pub fn open(path: &Path) -> Result<Self> {
+    pub fn open(path: &Path, has_history: bool) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
         if path == Path::new("-") {
             return Err(Error::usage("--resume", "standard output cannot be read again", "name a file"));
@@ -82,7 +96,9 @@ impl Resumed {
             return Err(wrong(path, lines + 1, "the last line is no part of a record"));
         }
         let written = BufReader::new(File::open(path).map_err(failed)?.take(whole));
-        Ok(Self { file, path: path.to_owned(), written, line: 0, whole, is_cut: false })
+        let claim = Claim::new(&path.canonicalize().map_err(failed)?)?;
+        let path = path.to_owned();
+        Ok(Self { file, path, written, line: 0, whole, is_cut: false, has_history, _claim: claim })
     }
 
     /// What the file has, as records.
@@ -92,7 +108,8 @@ impl Resumed {
     pub fn kept(&self) -> Result<Kept> {
         let file = File::open(&self.path).map_err(|e| Error::file(self.path.display(), e))?;
         let source = BufReader::new(file.take(self.whole));
-        Ok(Kept(Some(Reader::new(Box::new(source), &self.path.display().to_string()))))
+        let records = Reader::new(Box::new(source), &self.path.display().to_string());
+        Ok(Kept { records: Some(records), is_unknown: !self.has_history })
     }
 
     /// Compares a line with that in its place, or appends it.

@@ -37,13 +37,14 @@ impl Output {
         Ok(Self::into(sink, saves))
     }
 
-    /// The file of an interrupted run, or a new one: records that it has are compared, others appended.
+    /// The file of an interrupted run, or a new one: records that it has are compared, others appended. Without a history in its
+    /// scenes, one of the samples that it has is made again to tell another command's file.
     ///
     /// # Errors
     /// [`Error::Usage`] for standard output, [`Error::File`] for a folder or a file that another run is writing, [`Error::Record`] if it is
     /// not a stream.
-    pub fn resume(path: &Path, saves: &[(String, PathBuf)]) -> Result<Self> {
-        Ok(Self::into(Sink::Resumed(Resumed::open(path)?), saves))
+    pub fn resume(path: &Path, saves: &[(String, PathBuf)], has_history: bool) -> Result<Self> {
+        Ok(Self::into(Sink::Resumed(Resumed::open(path, has_history)?), saves))
     }
 
     fn into(sink: Sink, saves: &[(String, PathBuf)]) -> Self {

@@ -125,7 +125,7 @@ END
                 "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442' \
                  --white-region '200,200 260,200 260,260 200,260'",
                 1,
-                &["grey.tif", "1 channels", "camera 3"],
+                &["grey.tif", "a grey picture", "camera has 3 channels"],
             ),
             case("sh marked --chart-cos 0.5", 2, &["--chart", "--regions"]),
             case("sh marked --white-reflectance 0.9", 2, &["--white-region", "--regions"]),

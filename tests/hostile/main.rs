@@ -14,6 +14,7 @@ mod formats;
 mod kernels;
 mod lights;
 mod methods;
+mod outputs;
 mod photographs;
 #[path = "../common/ready.rs"]
 mod ready;

@@ -24,6 +24,12 @@ fn photographs() {
             head -c 20 $photo > begun-$photo
         done
         rm photo.tif photo.png photo.jpg
+        oiiotool photo.exr --ch R -d uint16 -o grey.tif
+        oiiotool photo.exr -d uint16 --attrib tiff:bigtiff 1 -o big.tif
+        oiiotool photo.exr -d uint8 -o photo.jpg
+        mv photo.jpg photo.nef
+        oiiotool photo.exr --chnames a.R,a.G,a.B -o layered.exr
+        printf 'nm,grey\n380,1\n720,1\n' > one.csv
         cat > extract <<'END'
         photo=$1 corners=$2
         shift 2
@@ -81,6 +87,19 @@ END
             case("vextract text.png --preview one.png", 1, &["text.png", "not a PNG"]),
             case("vextract photo.exr --preview no/such/folder.png", 1, &["no/such/folder.png"]),
             case("sh whole .", 1, &["directory"]),
+            case(
+                "sh whole grey.tif",
+                1,
+                &["grey.tif", "a grey picture", "camera has 3 channels", "--camera"],
+            ),
+            case(
+                "vextract photo.exr --scene scene.json --camera one.csv --panel0 '332,462 345,77 122,12 104,442'",
+                1,
+                &["photo.exr", "in red, green and blue", "camera has 1 channels"],
+            ),
+            case("sh whole big.tif", 1, &["big.tif", "BigTIFF", "less than 4 GiB"]),
+            case("sh whole photo.nef", 1, &["photo.nef", "named like a camera's RAW file", "JPEG"]),
+            case("sh whole layered.exr", 1, &["layered.exr", "in layers", "R, G and B"]),
             case("sh whole text.png", 1, &["text.png", "not a PNG, TIFF, JPEG or OpenEXR"]),
             case("sh whole empty.tif", 1, &["empty.tif", "empty"]),
             case("sh whole cut-photo.exr", 1, &["cut-photo.exr", "cut short"]),

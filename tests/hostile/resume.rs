@@ -37,6 +37,11 @@ END
             case("vestimate samples.ndjson --resume a --trace b", 2, &["--resume", "--trace"]),
             case("sh refused samples.ndjson < samples.ndjson", 1, &["samples.ndjson:1", "'history'"]),
             case("sh refused nameless.ndjson < samples.ndjson", 1, &["nameless.ndjson:1", "'history'"]),
+            case(
+                "sh refused nameless.ndjson --no-history --prior smooth < samples.ndjson",
+                1,
+                &["nameless.ndjson:2", "the 'estimate' of sample"],
+            ),
             case("sh refused estimates.ndjson --prior smooth < samples.ndjson", 1, &[":1", "'history'"]),
             case("sh refused estimates.ndjson < fewer.ndjson", 1, &["estimates.ndjson:10", "more records"]),
             case(

@@ -9,11 +9,36 @@ use crate::{assert_refused, case};
 const STREAM: &str = "vkernel --angle-deg 50 --facets 2x2 --no-history |
     vforward --reflectance 0.5 --wavelengths-nm 400:700:10 --no-history -o good.ndjson";
 
+/// A field may be of any length, but not what is said of it.
+#[test]
+fn long_fields_are_not_echoed() {
+    let folder = Workdir::new();
+    folder.sh(&format!("{STREAM}\nhead -c 20000 /dev/zero | tr '\\0' x > long"));
+    for (edit, tool) in [
+        (r#"1s/"facets":{"panels":/&"LONG",&/"#, "vestimate"),
+        (r#"1s/"wavelengths_nm":\[/"wavelengths_nm":["LONG",/"#, "vestimate"),
+        (r#"2s/"exposure":1.0/"exposure":"LONG"/"#, "vestimate"),
+        (r#"2s/"facet_rgb":\[/"facet_rgb":["LONG",/"#, "vestimate"),
+        (r#"2s/"truth":{/"truth":"LONG","x":{/"#, "vscore"),
+    ] {
+        let run = folder.sh(&format!("sed '{edit}' good.ndjson | sed \"s/LONG/$(cat long)/\" | {tool}"));
+        assert!(matches!(run.status, 1 | 3), "{edit}: {}", run.stderr);
+        let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let errors: Vec<_> =
+            records.filter_map(|record| Some(record["error"].as_str()?.to_owned())).collect();
+        let said = errors.first().unwrap_or(&run.stderr);
+        assert!((1..600).contains(&said.len()), "{edit}: {said}");
+    }
+}
+
 #[test]
 fn streams() {
     assert_refused(
         STREAM,
         &[
+            case("vforward --reflectance 0.5 < /dev/null", 1, &["-:1", "no record", "the tool before it"]),
+            case("vestimate < /dev/null", 1, &["-:1", "no record"]),
+            case("vscore /dev/null", 1, &["/dev/null:1", "no record"]),
             case("echo hello | vestimate", 1, &["-:1", "not a JSON object"]),
             case("echo '[1, 2]' | vscore", 1, &["-:1", "not a JSON object"]),
             case("echo '{}' | vscore", 1, &["-:1", "'kind'"]),

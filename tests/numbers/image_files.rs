@@ -14,24 +14,24 @@ use vfold::image::{Photograph, Pixel, ReadOptions, Transfer, write_linear, write
 
 const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
 
-fn oiiotool(folder: &TempDir, arguments: &str) {
+pub(super) fn oiiotool(folder: &TempDir, arguments: &str) {
     let run = Command::new("oiiotool").args(arguments.split_whitespace()).current_dir(folder).output();
     let run = run.expect("these tests need oiiotool: apt-get install openimageio-tools");
     assert!(run.status.success(), "oiiotool {arguments}: {}", String::from_utf8_lossy(&run.stderr));
 }
 
-fn open(path: impl AsRef<Path>) -> vfold::Result<Photograph> {
+pub(super) fn open(path: impl AsRef<Path>) -> vfold::Result<Photograph> {
     Photograph::open(path.as_ref(), &ReadOptions::default())
 }
 
-fn light(photograph: &Photograph, x: usize, y: usize) -> [f64; 3] {
+pub(super) fn light(photograph: &Photograph, x: usize, y: usize) -> [f64; 3] {
     match photograph.pixel(x, y) {
         Pixel::Light(light) => light,
         other => panic!("({x}, {y}) is {other:?}"),
     }
 }
 
-fn assert_light(photograph: &Photograph, want: [f64; 3], tolerance: f64) {
+pub(super) fn assert_light(photograph: &Photograph, want: [f64; 3], tolerance: f64) {
     let got = light(photograph, 1, 1);
     assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() < tolerance), "{got:?} {want:?}");
 }
@@ -117,7 +117,7 @@ fn the_camera_is_known_from_exif() {
 }
 
 /// IEC 61966-2-1 at 0.2, 0.4, 0.6, which 255 and 65535 divide evenly (colour-science 0.4.7, `eotf_sRGB`).
-const SRGB: [f64; 3] = [0.033104766570885055, 0.13286832155381798, 0.31854677812509186];
+pub(super) const SRGB: [f64; 3] = [0.033104766570885055, 0.13286832155381798, 0.31854677812509186];
 
 #[test]
 fn every_format_and_depth_is_read() {
@@ -194,7 +194,7 @@ fn integers_are_clipped_from_the_white_level() {
 // ---- hostile files ----
 
 /// The message of a file that must be refused, which is one line and names the file.
-fn refusal(path: &Path) -> String {
+pub(super) fn refusal(path: &Path) -> String {
     let error = open(path).unwrap_err();
     assert_eq!(error.exit_status(), 1, "{error}");
     let message = error.to_string();
@@ -202,7 +202,7 @@ fn refusal(path: &Path) -> String {
     message
 }
 
-fn written(folder: &TempDir, name: &str, bytes: &[u8]) -> PathBuf {
+pub(super) fn written(folder: &TempDir, name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();
     path
@@ -284,7 +284,7 @@ fn inflate(name: &str, bytes: &mut [u8]) {
 }
 
 /// PNG specification, annex D.
-fn crc32(bytes: &[u8]) -> u32 {
+pub(super) fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
     !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
 }

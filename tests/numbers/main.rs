@@ -13,6 +13,7 @@ mod common;
 mod image_facets;
 mod image_files;
 mod image_refine;
+mod image_statements;
 mod kernel_methods;
 mod laws;
 mod lights;

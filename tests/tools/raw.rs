@@ -283,6 +283,25 @@ fn what_cannot_be_understood_is_refused() {
     assert_eq!(open(flat.saved(&tempfile::tempdir().unwrap())).unwrap_err().exit_status(), 2);
 }
 
+/// Lossy DNG has its curve in a list of opcodes; shading of the lens, as phones write it, is left as it is.
+#[test]
+fn numbers_that_are_light_only_after_opcodes_are_refused() {
+    let list = |opcode: u8| {
+        let bytes =
+            [&[0, 0, 0, 1, 0, 0, 0, opcode, 1, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4][..], &[0; 4]].concat();
+        bytes.into_iter().map(u32::from).collect::<Vec<_>>()
+    };
+    for (tag, opcode, says) in
+        [(51009, 8, "MapPolynomial"), (51008, 7, "MapTable"), (51022, 12, "ScalePerRow")]
+    {
+        let message = refusal(&Dng::new(8, even(8, 8)).with(tag, 1, &list(opcode)));
+        assert!(message.contains(says) && message.contains("linear TIFF"), "{message}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let shaded = Dng::new(8, even(8, 8)).with(51009, 1, &list(9));
+    assert_light(&open(shaded.saved(&folder)).unwrap(), (4, 4), [0.2, 0.4, 0.8]);
+}
+
 #[test]
 fn a_file_cut_short_anywhere_is_refused() {
     let folder = tempfile::tempdir().unwrap();

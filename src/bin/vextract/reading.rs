@@ -10,7 +10,7 @@ use vfold::{Error, Result};
 #[derive(Args)]
 #[command(next_help_heading = "Reading photographs")]
 pub struct ReadingArgs {
-    /// Curve of the stored numbers; auto: sRGB for 8 bits, linear for the rest
+    /// Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest
     #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]
     transfer: Transfer,
     /// Stored number that means no light

@@ -41,6 +41,7 @@ impl Setup<'_> {
             Some(flat_field) => photograph?.with_flat_field(flat_field.clone(), path)?,
             None => photograph?,
         };
+        self.check_colours(path, &photograph)?;
         let args = self.args;
         let regions = self.regions.of(path, &photograph)?;
         let panels = MarkedPanels::new(&self.panels, &regions)?;
@@ -90,6 +91,23 @@ impl Setup<'_> {
             sample.set_error(&error)?;
             Ok(sample)
         })
+    }
+
+    /// A grey picture shows what a camera of one channel sees, and no other.
+    fn check_colours(&self, path: &Path, photograph: &Photograph) -> Result<()> {
+        // none if no camera is named, and the first photograph, which would have named it, cannot be read
+        let Ok(camera) = self.scene.camera() else { return Ok(()) };
+        let (seen, of_camera) = (photograph.channels(), camera.channels.len());
+        if seen == of_camera {
+            return Ok(());
+        }
+        let kind = if seen == 1 { "a grey picture" } else { "a picture in red, green and blue" };
+        let problem = format!("{kind}, and the scene's camera has {of_camera} channels");
+        Err(Error::picture(
+            path,
+            problem,
+            "give the camera that took it (--camera), or the picture as it took it",
+        ))
     }
 
     fn say(

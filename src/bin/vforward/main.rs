@@ -127,6 +127,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
                 setup.samples(&subject, &seen, out)?;
+                args.render.say_corners(&seen, &args.common);
             }
             other => out.record(&other)?,
         }

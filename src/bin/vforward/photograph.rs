@@ -9,7 +9,6 @@ use vfold::scene::{FoldSetting, Setting, SurfaceSetting};
 use vfold::stream::Corners;
 use vfold::{Error, Result};
 
-use super::render::say_corners;
 use super::setup::Setup;
 use super::subject::Subject;
 
@@ -30,9 +29,6 @@ impl Setup<'_> {
             picture.save_for_screen(path)?;
         } else {
             picture.save(path)?;
-        }
-        if !self.args.common.quiet {
-            say_corners(path, &seen);
         }
         Ok(seen)
     }

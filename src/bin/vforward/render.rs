@@ -1,10 +1,10 @@
 //! The photograph that `--render` asks for.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use nalgebra::Vector3;
-use vfold::cli;
+use vfold::cli::{self, Common};
 use vfold::forward::render::{Frame, Viewpoint};
 use vfold::stream::Corners;
 use vfold::{Error, Result};
@@ -59,19 +59,20 @@ impl RenderArgs {
         let Self { eye, look_at, up, field_of_view_deg, .. } = *self;
         Viewpoint { eye, look_at, up, field_of_view_deg }
     }
-}
 
-/// Says how vextract is told where the panels are.
-pub fn say_corners(path: &Path, panels: &[(usize, Corners)]) {
-    let flag = |(number, corners): &(usize, Corners)| {
-        let corners = corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" ");
-        match number {
-            0 | 1 => format!("--panel{number} \"{corners}\""),
-            _ => format!("--panel {number}=\"{corners}\""),
-        }
-    };
-    let flags: Vec<String> = panels.iter().map(flag).collect();
-    cli::say("vforward", &format!("{} has its corners at {}", path.display(), flags.join(" ")));
+    /// Says how vextract is told where the panels are in the photograph, if one was taken.
+    pub fn say_corners(&self, panels: &[(usize, Corners)], common: &Common) {
+        let Some(path) = self.render.as_ref().filter(|_| !common.quiet && !panels.is_empty()) else { return };
+        let flag = |(number, corners): &(usize, Corners)| {
+            let corners = corners.map(|corner| format!("{:.2},{:.2}", corner.x, corner.y)).join(" ");
+            match number {
+                0 | 1 => format!("--panel{number} \"{corners}\""),
+                _ => format!("--panel {number}=\"{corners}\""),
+            }
+        };
+        let flags: Vec<String> = panels.iter().map(flag).collect();
+        cli::say("vforward", &format!("{} has its corners at {}", path.display(), flags.join(" ")));
+    }
 }
 
 fn point(text: &str) -> std::result::Result<Vector3<f64>, String> {

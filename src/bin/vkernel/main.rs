@@ -68,7 +68,8 @@ struct Args {
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,
     /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it
-    /// gets on a narrow fold; on shapes 5e-3, for reflectances up to 0.9]
+    /// gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the
+    /// mean]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more

@@ -5,7 +5,7 @@ use crate::Error;
 /// How the stored numbers follow the light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Transfer {
-    /// [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for everything deeper.
+    /// What the file says; if it says nothing [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for everything deeper.
     #[default]
     Auto,
     /// In proportion.
@@ -25,7 +25,7 @@ impl Transfer {
     }
 
     /// Linear light of a stored value scaled to [0, 1].
-    pub(super) fn to_linear(self, stored: f64) -> f64 {
+    pub(in crate::image) fn to_linear(self, stored: f64) -> f64 {
         if self == Self::Srgb { srgb_to_linear(stored) } else { stored }
     }
 

@@ -22,8 +22,6 @@ pub struct CameraNotes {
     pub taken: Taken,
     /// How the picture was stored.
     pub orientation: Orientation,
-    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
-    pub(in crate::image) is_raw: bool,
     /// What was wrong but did no harm.
     pub notes: Vec<String>,
 }

@@ -1,13 +1,18 @@
 //! From the bytes of a picture file to stored samples, whatever the file turns out to be.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek};
+use std::io::{BufRead, BufReader, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::codecs::tiff::TiffDecoder;
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
-use super::exif;
+use super::exif::{self, Tags};
+use super::jpeg::Jpeg;
+use super::openexr::{self, Kind};
+use super::stated::Statement;
+use super::{icc, png_chunks};
 use crate::image::photograph::CameraNotes;
 use crate::{Error, Result};
 
@@ -23,6 +28,8 @@ pub(super) struct Picture {
     pub format: ImageFormat,
     pub pixels: DynamicImage,
     pub camera: CameraNotes,
+    /// What the file says of its numbers.
+    pub stated: Vec<Statement>,
 }
 
 /// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
@@ -52,24 +59,60 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     if begins_like_raw(head) {
         return Ok(Decoded::Raw);
     }
+    if head.starts_with(b"II+\0") || head.starts_with(b"MM\0+") {
+        return Err(Error::picture(
+            path,
+            "a BigTIFF file, which is not read",
+            "save it as TIFF of less than 4 GiB",
+        ));
+    }
     let format = image::guess_format(head).ok().filter(is_supported);
     let format =
         format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
-    if format != ImageFormat::Tiff {
-        let (pixels, block) = decode_as(path, &mut file, length, format)?;
-        if format == ImageFormat::Jpeg && !jpeg_is_complete(&mut file).map_err(failed)? {
-            return Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"));
-        }
-        let camera = exif::read(block);
-        return Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera })));
-    }
-    let camera = exif::read(Some(exif::tiff_tags(&mut file).map_err(failed)?));
-    if camera.is_raw {
+    let tags = match format {
+        ImageFormat::Tiff => Some(exif::read(Some(exif::tiff_tags(&mut file).map_err(failed)?))),
+        _ => None,
+    };
+    if tags.as_ref().is_some_and(|tags| tags.is_raw) {
         return Ok(Decoded::Raw);
     }
+    if tags.as_ref().is_some_and(|tags| tags.has_wide_integers) {
+        const REMEDY: &str = "save it again with 16 bits, or as floats";
+        return Err(Error::picture(path, "its numbers are integers of 32 bits, which are not read", REMEDY));
+    }
+    if is_named_raw(path) {
+        let problem = format!("named like a camera's RAW file, but a {} picture", name(format));
+        return Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"));
+    }
     file.rewind().map_err(failed)?;
-    let (pixels, _) = decode_as(path, &mut file, length, format)?;
-    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera })))
+    let (pixels, block, mut stated) = decode_as(path, &mut file, length, format)?;
+    let Tags { camera, colour_space, has_profile, .. } = tags.unwrap_or_else(|| exif::read(block));
+    if has_profile && stated.is_empty() {
+        stated.push(icc::unreadable());
+    }
+    stated.extend(colour_space);
+    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
+}
+
+/// What a format is called.
+pub(super) fn name(format: ImageFormat) -> &'static str {
+    match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Jpeg => "JPEG",
+        _ => "OpenEXR",
+    }
+}
+
+/// How the names of RAW files end.
+const RAW_ENDINGS: [&str; 16] = [
+    "3fr", "arw", "cr2", "cr3", "crw", "dng", "erf", "iiq", "mef", "mrw", "nef", "nrw", "orf", "pef", "raf",
+    "rw2",
+];
+
+fn is_named_raw(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str()))
 }
 
 /// First bytes of the RAW files that are not, or not only, laid out as TIFF: where they stand, and what they are.
@@ -87,8 +130,8 @@ fn is_supported(format: &ImageFormat) -> bool {
     matches!(format, ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg | ImageFormat::OpenExr)
 }
 
-/// A picture and, for PNG and JPEG, its EXIF block.
-type PictureAndExif = (DynamicImage, Option<Vec<u8>>);
+/// A picture; for PNG and JPEG, its EXIF block; what else the file says of its numbers.
+type PictureAndMore = (DynamicImage, Option<Vec<u8>>, Vec<Statement>);
 
 /// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the file's fault.
 fn decode_as(
@@ -96,7 +139,7 @@ fn decode_as(
     file: &mut BufReader<File>,
     length: u64,
     format: ImageFormat,
-) -> Result<PictureAndExif> {
+) -> Result<PictureAndMore> {
     let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
     catch_unwind(AssertUnwindSafe(|| decode_whole(path, file, length, format))).unwrap_or_else(unforeseen)
 }
@@ -106,7 +149,9 @@ fn decode_whole(
     file: &mut BufReader<File>,
     length: u64,
     format: ImageFormat,
-) -> Result<PictureAndExif> {
+) -> Result<PictureAndMore> {
+    let mut stated = before_pixels(path, file, format)?;
+    file.rewind().map_err(|source| Error::file(path.display(), source))?;
     let mut reader = ImageReader::with_format(file, format);
     reader.limits(limits());
     let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
@@ -123,9 +168,50 @@ fn decode_whole(
         let problem = format!("{width} x {height} px cannot be in its {length} bytes");
         return Err(Error::picture(path, problem, DAMAGED));
     }
+    if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
+        return Err(inks(path));
+    }
+    stated.extend(decoder.icc_profile().ok().flatten().map(|profile| icc::statement(&profile)));
     let block = decoder.exif_metadata().ok().flatten();
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| undecodable(path, error))?;
-    Ok((picture, block))
+    Ok((picture, block, stated))
+}
+
+/// What the decoders do not tell, or take for something else: what a file says of its numbers.
+fn before_pixels(path: &Path, file: &mut BufReader<File>, format: ImageFormat) -> Result<Vec<Statement>> {
+    match format {
+        ImageFormat::Png => Ok(png_chunks::statements(file)),
+        ImageFormat::OpenExr => match openexr::kind(file) {
+            Some(Kind::Colours(stated)) => Ok(stated),
+            Some(Kind::Other { is, remedy }) => Err(Error::picture(path, is, remedy)),
+            None => Ok(Vec::new()),
+        },
+        ImageFormat::Jpeg => {
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).map_err(|source| Error::file(path.display(), source))?;
+            let jpeg = Jpeg(&bytes);
+            match jpeg.components() {
+                Some(4) => Err(inks(path)),
+                Some(_) if !jpeg.is_complete() => {
+                    Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"))
+                }
+                _ => Ok(Vec::new()),
+            }
+        }
+        // asked for before the decoder is given its limits: they are those of the picture, and a small one's are too narrow for a profile
+        _ => {
+            let profile = TiffDecoder::new(file).ok().and_then(|mut decoder| decoder.icc_profile().ok()?);
+            Ok(profile.iter().map(|profile| icc::statement(profile)).collect())
+        }
+    }
+}
+
+fn inks(path: &Path) -> Error {
+    Error::picture(
+        path,
+        "its colours are those of inks (CMYK)",
+        "photographs have red, green and blue: export it as RGB",
+    )
 }
 
 fn limits() -> Limits {
@@ -149,31 +235,4 @@ fn undecodable(path: &Path, error: ImageError) -> Error {
 /// A decoder's message, which may have several lines, in one.
 pub(super) fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Whether a JPEG reaches its end marker; the decoder paints what is missing grey and does not say so.
-fn jpeg_is_complete(file: &mut BufReader<File>) -> io::Result<bool> {
-    const END: u8 = 0xd9;
-    let mut bytes = Vec::new();
-    file.rewind()?;
-    file.read_to_end(&mut bytes)?;
-    let mut at = 2;
-    while let Some([0xff, marker]) = bytes.get(at..at + 2) {
-        at += match marker {
-            &END => return Ok(true),
-            0x00 | 0x01 | 0xd0..=0xd7 => 2,
-            0xff => 1,
-            _ => {
-                2 + bytes
-                    .get(at + 2..at + 4)
-                    .map_or(0, |length| usize::from(length[0]) << 8 | usize::from(length[1]))
-            }
-        };
-        // after a scan's header come its data, up to the next marker
-        at += bytes
-            .get(at..)
-            .and_then(|rest| rest.iter().position(|byte| *byte == 0xff))
-            .unwrap_or(bytes.len());
-    }
-    Ok(false)
 }

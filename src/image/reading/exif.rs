@@ -8,6 +8,8 @@ use std::io::{self, Read, Seek, SeekFrom};
 use exif::{Context, Exif, In, Reader, Tag, Value};
 
 use super::exif_taken::taken;
+use super::stated::{OTHER_COLOURS, Statement};
+use crate::image::numbers::Transfer;
 use crate::image::photograph::{CameraNotes, Orientation};
 
 /// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
@@ -36,13 +38,29 @@ fn read_part(file: &mut (impl Read + Seek), block: &mut [u8], from: usize) -> io
     file.read_exact(part)
 }
 
+/// An ICC profile.
+const PROFILE: Tag = Tag(Context::Tiff, 0x8773);
+
+/// What a block says.
+pub(super) struct Tags {
+    pub camera: CameraNotes,
+    /// Whose colours the picture has.
+    pub colour_space: Option<Statement>,
+    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
+    pub is_raw: bool,
+    /// Whether a TIFF file has an ICC profile.
+    pub has_profile: bool,
+    /// Whether a TIFF file has integers of 32 bits or more, which its decoder takes for floats if the file does not name them.
+    pub has_wide_integers: bool,
+}
+
 /// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block.
-pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
+pub(super) fn read(block: Option<Vec<u8>>) -> Tags {
     let mut notes = Vec::new();
     let exif = block.and_then(|block| parse(block, &mut notes));
     let field =
         |tag| exif.as_ref().and_then(|exif| exif.get_field(tag, In::PRIMARY)).map(|field| &field.value);
-    CameraNotes {
+    let camera = CameraNotes {
         make: field(Tag::Make).and_then(text),
         model: field(Tag::Model).and_then(text),
         exposure_s: field(Tag::ExposureTime).and_then(positive),
@@ -52,9 +70,31 @@ pub(super) fn read(block: Option<Vec<u8>>) -> CameraNotes {
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
         xyz_to_camera: exif.as_ref().and_then(xyz_to_camera),
         taken: exif.as_ref().map(taken).unwrap_or_default(),
-        is_raw: exif.as_ref().is_some_and(is_raw),
         notes,
+    };
+    Tags {
+        camera,
+        colour_space: exif.as_ref().and_then(colour_space),
+        is_raw: exif.as_ref().is_some_and(is_raw),
+        has_profile: field(PROFILE).is_some(),
+        has_wide_integers: exif.as_ref().is_some_and(has_wide_integers),
     }
+}
+
+/// What EXIF and DCF say of a picture's colours. `uncalibrated` says nothing by itself.
+fn colour_space(exif: &Exif) -> Option<Statement> {
+    const SRGB: u32 = 1;
+    const ADOBE_RGB: u32 = 2;
+    let field = |tag| exif.get_field(tag, In::PRIMARY).map(|field| &field.value);
+    let space = field(Tag::ColorSpace).and_then(|value| value.get_uint(0));
+    let is_optional = field(Tag::InteroperabilityIndex).and_then(text).as_deref() == Some("R03");
+    let says = match space {
+        Some(ADOBE_RGB) => Err(()),
+        _ if is_optional => Err(()),
+        Some(SRGB) => Ok(Transfer::Srgb),
+        _ => return None,
+    };
+    Some(Statement { by: "EXIF", says: says.map_err(|()| format!("Adobe RGB, {OTHER_COLOURS}")) })
 }
 
 fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
@@ -80,6 +120,13 @@ fn is_raw(exif: &Exif) -> bool {
     number(DNG_VERSION).is_some()
         || number(Tag::PhotometricInterpretation) == Some(MOSAIC)
         || number(NEW_SUBFILE_TYPE).is_some_and(|kind| kind & 1 == 1)
+}
+
+fn has_wide_integers(exif: &Exif) -> bool {
+    const SAMPLE_FORMAT: Tag = Tag(Context::Tiff, 0x153);
+    const FLOAT: u32 = 3;
+    let number = |tag| exif.get_field(tag, In::PRIMARY).and_then(|field| field.value.get_uint(0));
+    number(Tag::BitsPerSample).is_some_and(|bits| bits >= 32) && number(SAMPLE_FORMAT) != Some(FLOAT)
 }
 
 /// DNG's matrix for D65, which stands first or second.
@@ -134,14 +181,14 @@ mod tests {
 
     #[test]
     fn no_exif_is_no_fault() {
-        let camera = read(None);
+        let camera = read(None).camera;
         assert_eq!((camera.orientation, camera.notes), (Orientation::UPRIGHT, vec![]));
     }
 
     #[test]
     fn broken_exif_becomes_a_note() {
         for broken in [b"nonsense".to_vec(), b"II*\0".to_vec(), b"II*\0\xff\xff\xff\xff".to_vec()] {
-            let camera = read(Some(broken));
+            let camera = read(Some(broken)).camera;
             assert_eq!(camera.orientation, Orientation::UPRIGHT);
             assert!(camera.notes[0].ends_with("is ignored"), "{:?}", camera.notes);
         }
@@ -156,14 +203,14 @@ mod tests {
         large[..4].copy_from_slice(&small[..4]);
         large[4..8].copy_from_slice(&(directory as u32).to_le_bytes());
         large[directory..directory + small.len() - 8].copy_from_slice(&small[8..]);
-        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap()));
+        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap())).camera;
         assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
     }
 
     #[test]
     fn good_fields_survive_a_bad_one() {
         let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6)); // the make lies outside the block
-        let camera = read(Some(block(&[make, orientation])));
+        let camera = read(Some(block(&[make, orientation]))).camera;
         assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
         assert_eq!(camera.notes.len(), 1);
     }
@@ -183,8 +230,21 @@ mod tests {
     }
 
     #[test]
+    fn integers_of_32_bits_are_told_from_floats() {
+        let (bits, float, integer) = ((0x102, 3, 1, 32), (0x153, 3, 1, 3), (0x153, 3, 1, 1));
+        for (entries, wide) in [
+            (vec![bits], true),
+            (vec![bits, integer], true),
+            (vec![bits, float], false),
+            (vec![(0x102, 3, 1, 16)], false),
+        ] {
+            assert_eq!(read(Some(block(&entries))).has_wide_integers, wide, "{entries:?}");
+        }
+    }
+
+    #[test]
     fn an_impossible_orientation_is_noted() {
-        let camera = read(Some(block(&[(0x112, 3, 1, 9)])));
+        let camera = read(Some(block(&[(0x112, 3, 1, 9)]))).camera;
         assert_eq!(camera.orientation, Orientation::UPRIGHT);
         assert!(camera.notes[0].contains("orientation"));
     }

@@ -3,7 +3,13 @@
 mod decode;
 mod exif;
 mod exif_taken;
+mod icc;
+mod jpeg;
 mod open;
+mod openexr;
+mod png_chunks;
+mod primaries;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;
+mod stated;
 mod taken;

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use image::ImageFormat;
 
-use super::decode::{Decoded, Picture, decode};
-use super::raw;
-use crate::image::numbers::{ReadOptions, Scale};
+use super::decode::{Decoded, Picture, decode, name};
+use super::{raw, stated};
+use crate::image::numbers::{ReadOptions, Scale, Transfer};
 use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
 use crate::{Error, Result};
 
@@ -14,12 +14,14 @@ impl Photograph {
     /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha; with the
     /// feature `raw` also a camera's RAW file.
     ///
-    /// The content, not the name, tells the format. Alpha is dropped, except that a fully transparent pixel counts as
+    /// The content, not the name, tells the format; a picture under the name of a RAW file is refused. What the file says of its
+    /// numbers (ICC profile, EXIF colour space, PNG's chunks, OpenEXR's chromaticities) tells the curve where
+    /// [`Transfer::Auto`] asks for it. Alpha is dropped, except that a fully transparent pixel counts as
     /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too
-    /// large, or has no colours to undo a development of; [`Error::Usage`] if the white level is not above the black
+    /// large, has no colours to undo a development of, or says of its numbers what contradicts itself or cannot be undone; [`Error::Usage`] if the white level is not above the black
     /// level.
     ///
     /// # Example
@@ -44,12 +46,15 @@ impl Photograph {
             Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
                 Err(no_colours("a grey picture"))
             }
-            Decoded::Picture(picture) => Self::from_picture(*picture, options),
+            Decoded::Picture(picture) => {
+                let options = &ReadOptions { transfer: transfer(path, &picture, options)?, ..*options };
+                Self::from_picture(*picture, options)
+            }
         }
     }
 
     fn from_picture(picture: Picture, options: &ReadOptions) -> Result<Self> {
-        let Picture { format, pixels, camera } = picture;
+        let Picture { format, pixels, camera, .. } = picture;
         let color = pixels.color();
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
@@ -68,13 +73,15 @@ impl Photograph {
     }
 }
 
+/// The curve that was asked for, or else the one that the file says.
+fn transfer(path: &Path, picture: &Picture, options: &ReadOptions) -> Result<Transfer> {
+    match options.transfer {
+        Transfer::Auto => Ok(stated::curve(path, &picture.stated)?.unwrap_or_default()),
+        given => Ok(given),
+    }
+}
+
 fn describe(format: ImageFormat, bits: u32, colour: bool) -> String {
-    let name = match format {
-        ImageFormat::Png => "PNG",
-        ImageFormat::Tiff => "TIFF",
-        ImageFormat::Jpeg => "JPEG",
-        _ => "OpenEXR",
-    };
     let samples = if bits == 32 { "float".to_owned() } else { format!("{bits}-bit") };
-    format!("{name}, {samples}, {}", if colour { "RGB" } else { "grey" })
+    format!("{}, {samples}, {}", name(format), if colour { "RGB" } else { "grey" })
 }

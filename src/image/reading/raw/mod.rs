@@ -1,5 +1,6 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
+mod opcodes;
 mod sensor;
 mod taken;
 mod tiff_directories;
@@ -33,7 +34,16 @@ pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
         return Err(Error::usage("--transfer", problem, "leave it out"));
     }
     let bytes = std::fs::read(path).map_err(|source| Error::file(path.display(), source))?;
-    let Decoded { image, exif, is_dng } = decode(path, bytes)?;
+    let Decoded { image, exif, is_dng, undone } = decode(path, bytes)?;
+    if let Some(opcode) = undone {
+        let problem =
+            format!("its numbers are light only after {opcode}, one of DNG's opcodes, which are not applied");
+        return Err(Error::picture(
+            path,
+            problem,
+            "convert it to linear TIFF with a program that does, or take the camera's own RAW file",
+        ));
+    }
     let camera = camera_notes(&image, &exif);
     Sensor::new(path, image, is_dng, options)?.photograph(path, camera)
 }
@@ -43,6 +53,8 @@ struct Decoded {
     image: RawImage,
     exif: Exif,
     is_dng: bool,
+    /// What is still to be done to its numbers.
+    undone: Option<&'static str>,
 }
 
 /// Decodes a file. The decoders stop at some damaged files with a panic, which is reported like their other errors.
@@ -56,7 +68,8 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
         let (decoder, parameters) = (rawler::get_decoder(&source)?, RawDecodeParams::default());
         let image = decoder.raw_image(&source, &parameters, false)?;
         let exif = decoder.raw_metadata(&source, &parameters)?.exif;
-        Ok(Decoded { image, exif, is_dng: decoder.format_hint() == FormatHint::DNG })
+        let undone = opcodes::needed(decoder.as_ref());
+        Ok(Decoded { image, exif, is_dng: decoder.format_hint() == FormatHint::DNG, undone })
     };
     let decoded = without_panic_messages(|| panic::catch_unwind(AssertUnwindSafe(decode)))
         .map_err(|payload| failed(panic_message(payload.as_ref())))?

@@ -1,0 +1,109 @@
+//! ICC profiles, which PNG, TIFF and JPEG files carry.
+
+use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
+
+use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
+use crate::image::numbers::Transfer;
+
+/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows 0.001.
+const SAME_CURVE: f64 = 2e-3;
+/// Furthest, in XYZ under D50, that primaries may be from others and still be them: writers round them in various ways.
+const SAME_PRIMARY: f64 = 3e-3;
+/// Red, green and blue of sRGB, adapted to D50.
+///
+/// # Source
+/// IEC 61966-2-1:1999, annex F, as `sRGB2014.icc` of the ICC has it.
+const SRGB_PRIMARIES: [[f64; 3]; 3] =
+    [[0.43607, 0.22249, 0.01392], [0.38515, 0.71687, 0.09708], [0.14307, 0.06061, 0.71410]];
+
+/// What a profile says of a picture's numbers.
+pub(super) fn statement(profile: &[u8]) -> Statement {
+    match ColorProfile::new_from_slice(profile) {
+        Ok(profile) => said(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
+        Err(_) => unreadable(),
+    }
+}
+
+/// Of a profile that is there, but cannot be read.
+pub(super) fn unreadable() -> Statement {
+    said(Err("something that cannot be read".to_owned()))
+}
+
+fn said(says: Result<Transfer, String>) -> Statement {
+    Statement { by: "ICC profile", says }
+}
+
+fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
+    match profile.color_space {
+        DataColorSpace::Gray => curve(profile.gray_trc.as_ref()),
+        DataColorSpace::Rgb => {
+            let [red, green, blue] =
+                [&profile.red_trc, &profile.green_trc, &profile.blue_trc].map(Option::as_ref);
+            let curve = curve(red)?;
+            if [green, blue].into_iter().any(|other| self::curve(other) != Ok(curve)) {
+                return Err(OTHER_CURVE);
+            }
+            has_srgb_primaries(profile).then_some(curve).ok_or(OTHER_COLOURS)
+        }
+        _ => Err("which is for numbers that are neither RGB nor grey"),
+    }
+}
+
+/// The curve of a channel; none where a table of colours takes its place.
+fn curve(tone: Option<&ToneReprCurve>) -> Result<Transfer, &'static str> {
+    let tone = tone.and_then(|tone| tone.make_linear_evaluator().ok()).ok_or(OTHER_CURVE)?;
+    let is = |curve: &Transfer| {
+        (0..=255).map(|step| f64::from(step) / 255.0).all(|stored| {
+            (f64::from(tone.evaluate_value(stored as f32)) - curve.to_linear(stored)).abs() < SAME_CURVE
+        })
+    };
+    [Transfer::Linear, Transfer::Srgb].into_iter().find(is).ok_or(OTHER_CURVE)
+}
+
+fn has_srgb_primaries(profile: &ColorProfile) -> bool {
+    let of_profile = [profile.red_colorant, profile.green_colorant, profile.blue_colorant];
+    of_profile.iter().zip(SRGB_PRIMARIES).all(|(Xyzd { x, y, z }, srgb)| {
+        [x, y, z].into_iter().zip(srgb).all(|(got, want)| (got - want).abs() < SAME_PRIMARY)
+    })
+}
+
+/// What a profile calls itself.
+fn name(profile: &ColorProfile) -> String {
+    let text = match &profile.description {
+        Some(ProfileText::PlainString(text)) => Some(text),
+        Some(ProfileText::Localizable(texts)) => texts.first().map(|text| &text.value),
+        Some(ProfileText::Description(text)) => Some(&text.ascii_string),
+        None => None,
+    };
+    text.map_or_else(|| "a profile without a name".to_owned(), |text| text.trim_end_matches('\0').to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(profile: ColorProfile) -> Result<Transfer, String> {
+        statement(&profile.encode().unwrap()).says
+    }
+
+    #[test]
+    fn profiles_say_linear_srgb_or_something_else() {
+        assert_eq!(of(ColorProfile::new_srgb()), Ok(Transfer::Srgb));
+        let mut linear = ColorProfile::new_srgb();
+        let straight = Some(ToneReprCurve::Lut(Vec::new()));
+        (linear.red_trc, linear.green_trc) = (straight.clone(), straight.clone());
+        assert!(of(linear.clone()).unwrap_err().contains("curve"), "blue is not straight yet");
+        linear.blue_trc = straight;
+        assert_eq!(of(linear), Ok(Transfer::Linear));
+        assert!(of(ColorProfile::new_adobe_rgb()).unwrap_err().contains("curve"));
+        assert!(of(ColorProfile::new_display_p3()).unwrap_err().contains("primaries"));
+        assert!(of(ColorProfile::new_gray_with_gamma(2.2)).unwrap_err().contains("curve"));
+        assert_eq!(of(ColorProfile::new_gray_with_gamma(1.0)), Ok(Transfer::Linear));
+        assert!(of(ColorProfile::new_bt2020()).is_err());
+    }
+
+    #[test]
+    fn what_is_no_profile_is_said() {
+        assert!(statement(b"no profile").says.unwrap_err().contains("cannot be read"));
+    }
+}

@@ -1,0 +1,43 @@
+//! The markers of a JPEG file, for what its decoder does not tell: whether it is whole, and what its components are.
+
+/// A JPEG file's bytes.
+pub(super) struct Jpeg<'a>(pub &'a [u8]);
+
+const END: u8 = 0xd9;
+
+impl Jpeg<'_> {
+    /// Whether it reaches its end marker; the decoder paints what is missing grey and does not say so.
+    pub fn is_complete(&self) -> bool {
+        self.markers().any(|(marker, _)| marker == END)
+    }
+
+    /// How many components a pixel has: 1 grey, 3 colours, 4 inks; none before any frame.
+    pub fn components(&self) -> Option<u8> {
+        let is_frame = |marker| matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc);
+        let (_, at) = self.markers().find(|(marker, _)| is_frame(*marker))?;
+        // after marker and length: depth, height, width
+        self.0.get(at + 9).copied()
+    }
+
+    /// Its markers, and where they are.
+    fn markers(&self) -> impl Iterator<Item = (u8, usize)> {
+        let bytes = self.0;
+        let mut next = 2;
+        std::iter::from_fn(move || {
+            let at = next;
+            let Some(&[0xff, marker]) = bytes.get(at..at + 2) else { return None };
+            next += match marker {
+                0x00 | 0x01 | 0xd0..=0xd7 => 2,
+                0xff => 1,
+                _ => {
+                    let length = bytes.get(at + 2..at + 4);
+                    2 + length.map_or(0, |length| usize::from(length[0]) << 8 | usize::from(length[1]))
+                }
+            };
+            // after a scan's header come its data, up to the next marker
+            let data = bytes.get(next..).and_then(|rest| rest.iter().position(|byte| *byte == 0xff));
+            next += data.unwrap_or(bytes.len());
+            Some((marker, at))
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! What a picture file says of its own numbers: how they follow the light, and whose colours they are.
+//!
+//! A picture that says nothing is read by its depth. One that says several things which do not agree, or something that
+//! cannot be undone here, is refused: only who made it knows.
+
+use std::path::Path;
+
+use crate::image::numbers::Transfer;
+use crate::{Error, Result};
+
+/// One thing that a file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Statement {
+    /// Where it says it.
+    pub by: &'static str,
+    /// The curve; or what it says where that is no curve of [`Transfer`], or the colours are neither a camera's own nor sRGB's.
+    pub says: std::result::Result<Transfer, String>,
+}
+
+/// What is wrong with a curve,
+pub(super) const OTHER_CURVE: &str = "whose curve is neither linear nor sRGB's";
+/// and with colours: they were made of a camera's by a matrix that the file does not tell.
+pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
+
+/// How to read it all the same.
+const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how its numbers are to be read";
+
+/// The curve that the file's statements agree on, none if there are none.
+///
+/// # Errors
+/// [`Error::Picture`] if they contradict each other, or one is none that can be undone.
+pub(super) fn curve(path: &Path, statements: &[Statement]) -> Result<Option<Transfer>> {
+    let mut agreed: Option<(&str, Transfer)> = None;
+    for Statement { by, says } in statements {
+        let refused = |problem: String| Err(Error::picture(path, problem, REMEDY));
+        match (says, agreed) {
+            (Err(what), _) => return refused(format!("its {by} says {what}")),
+            (Ok(curve), Some((first, other))) if *curve != other => {
+                let (other, curve) = (other.name(), curve.name());
+                return refused(format!("its {first} says {other}, its {by} {curve}"));
+            }
+            (Ok(curve), _) => agreed = Some((by, *curve)),
+        }
+    }
+    Ok(agreed.map(|(_, curve)| curve))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(says: &[std::result::Result<Transfer, &str>]) -> Result<Option<Transfer>> {
+        let says = says.iter().zip(["EXIF", "ICC profile", "chunk sRGB"]);
+        let statement = |(says, by): (&std::result::Result<Transfer, &str>, _)| Statement {
+            by,
+            says: says.map_err(str::to_owned),
+        };
+        curve(Path::new("a.png"), &says.map(statement).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn what_agrees_is_believed_and_the_rest_refused() {
+        let (linear, srgb) = (Ok(Transfer::Linear), Ok(Transfer::Srgb));
+        assert_eq!(said(&[]).unwrap(), None);
+        assert_eq!(said(&[srgb, srgb]).unwrap(), Some(Transfer::Srgb));
+        let refused = said(&[srgb, linear]).unwrap_err().to_string();
+        assert!(refused.starts_with("a.png: its EXIF says srgb, its ICC profile linear; "), "{refused}");
+        let refused = said(&[srgb, Err("'ProPhoto'")]).unwrap_err().to_string();
+        assert!(
+            refused.contains("its ICC profile says 'ProPhoto'; ") && refused.contains("--transfer"),
+            "{refused}"
+        );
+    }
+}

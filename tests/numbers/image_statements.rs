@@ -1,0 +1,242 @@
+//! What picture files say of their own numbers: believed, or refused.
+
+use std::fs;
+use std::path::Path;
+
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::PngEncoder;
+use image::codecs::tiff::TiffEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use moxcms::{ColorProfile, ToneReprCurve};
+use tempfile::TempDir;
+use vfold::image::{Photograph, ReadOptions, Transfer, write_linear};
+
+use super::image_files::{SRGB, assert_light, crc32, light, oiiotool, open, refusal, written};
+
+const LINEAR: [f64; 3] = [0.2, 0.4, 0.6];
+const SIZE: (u32, u32) = (16, 9);
+
+/// The picture all over in one colour, as bytes of 16 bits and of 8.
+fn samples(bits: u8) -> Vec<u8> {
+    let stored = |value: f64| match bits {
+        8 => vec![(value * 255.0).round() as u8],
+        _ => ((value * 65535.0).round() as u16).to_ne_bytes().to_vec(),
+    };
+    LINEAR.into_iter().flat_map(stored).collect::<Vec<_>>().repeat((SIZE.0 * SIZE.1) as usize)
+}
+
+/// A file that an encoder makes, with an ICC profile and an EXIF block.
+fn encoded(
+    folder: &TempDir,
+    name: &str,
+    profile: Option<&ColorProfile>,
+    exif: Option<Vec<u8>>,
+) -> std::path::PathBuf {
+    fn encode(
+        mut encoder: impl ImageEncoder,
+        bits: u8,
+        profile: Option<&ColorProfile>,
+        exif: Option<Vec<u8>>,
+    ) {
+        profile.map_or(Ok(()), |profile| encoder.set_icc_profile(profile.encode().unwrap())).unwrap();
+        exif.map_or(Ok(()), |exif| encoder.set_exif_metadata(exif)).unwrap();
+        let colours = if bits == 8 { ExtendedColorType::Rgb8 } else { ExtendedColorType::Rgb16 };
+        encoder.write_image(&samples(bits), SIZE.0, SIZE.1, colours).unwrap();
+    }
+    let path = folder.path().join(name);
+    let file = fs::File::create(&path).unwrap();
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("png") => encode(PngEncoder::new(file), 16, profile, exif),
+        Some("tif") => encode(TiffEncoder::new(file), 16, profile, exif),
+        _ => encode(JpegEncoder::new_with_quality(file, 100), 8, profile, exif),
+    }
+    path
+}
+
+/// A profile of sRGB's primaries and another curve.
+fn profile(curve: ToneReprCurve) -> ColorProfile {
+    let curve = Some(curve);
+    let mut profile = ColorProfile::new_srgb();
+    (profile.red_trc, profile.green_trc, profile.blue_trc) = (curve.clone(), curve.clone(), curve);
+    profile.cicp = None;
+    profile
+}
+
+#[test]
+fn icc_profiles_are_believed_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let straight = profile(ToneReprCurve::Lut(vec![]));
+    for (name, tolerance) in [("a.png", 1e-12), ("a.tif", 1e-12), ("a.jpg", 7e-3)] {
+        let with = |profile: &ColorProfile| encoded(&folder, name, Some(profile), None);
+        assert_light(&open(with(&ColorProfile::new_srgb())).unwrap(), SRGB, tolerance);
+        assert_light(&open(with(&straight)).unwrap(), LINEAR, tolerance);
+        for (other, says) in [
+            (ColorProfile::new_adobe_rgb(), "curve"),
+            (ColorProfile::new_display_p3(), "primaries"),
+            (ColorProfile::new_pro_photo_rgb(), "curve"),
+            (ColorProfile::new_aces_aces_2065_1_linear(), "primaries"),
+            (profile(ToneReprCurve::Lut(vec![0x0233])), "curve"),
+        ] {
+            let path = with(&other);
+            let refused = refusal(&path);
+            assert!(refused.contains("ICC profile") && refused.contains(says), "{refused}");
+            // whoever made it knows better
+            let linear = ReadOptions { transfer: Transfer::Linear, ..ReadOptions::default() };
+            assert_light(&Photograph::open(&path, &linear).unwrap(), LINEAR, tolerance);
+        }
+    }
+}
+
+/// Chunk by chunk; numbers are what PNG's specification, third edition, says of them.
+#[test]
+fn png_chunks_are_believed_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = folder.path().join("plain.png");
+    write_linear(&plain, 4, 4, &LINEAR.repeat(16)).unwrap();
+    let plain = fs::read(plain).unwrap();
+    let with = |chunks: &[(&[u8; 4], &[u8])]| {
+        let mut bytes = plain[..33].to_vec();
+        for (kind, data) in chunks {
+            let body = [&kind[..], data].concat();
+            bytes.extend((data.len() as u32).to_be_bytes());
+            bytes.extend(body.iter().copied().chain(crc32(&body).to_be_bytes()));
+        }
+        bytes.extend(&plain[33..]);
+        written(&folder, "chunks.png", &bytes)
+    };
+    let gamma = |gamma: u32| gamma.to_be_bytes();
+    let corners: Vec<u8> = [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000]
+        .into_iter()
+        .flat_map(u32::to_be_bytes)
+        .collect();
+    let wide: Vec<u8> = [31270_u32, 32900, 70800, 29200, 17000, 79700, 13100, 4600]
+        .into_iter()
+        .flat_map(u32::to_be_bytes)
+        .collect();
+    for (chunks, want) in [
+        (vec![(b"sRGB", &[0][..])], SRGB),
+        (vec![(b"gAMA", &gamma(45455))], SRGB),
+        (vec![(b"gAMA", &gamma(100_000))], LINEAR),
+        (vec![(b"sRGB", &[1]), (b"gAMA", &gamma(45455)), (b"cHRM", &corners)], SRGB),
+        (vec![(b"cHRM", &corners)], LINEAR),
+        (vec![(b"cICP", &[1, 13, 0, 1])], SRGB),
+        (vec![(b"cICP", &[1, 8, 0, 1])], LINEAR),
+    ] {
+        assert_light(&open(with(&chunks)).unwrap(), want, 1e-12);
+    }
+    for (chunks, says) in [
+        (vec![(b"gAMA", &gamma(55556)[..])], "its chunk gAMA says 0.55556, whose curve"),
+        (
+            vec![(b"sRGB", &[0]), (b"gAMA", &gamma(100_000))],
+            "its chunk sRGB says srgb, its chunk gAMA linear",
+        ),
+        (vec![(b"cHRM", &wide)], "its chunk cHRM says a colour space whose primaries"),
+        (vec![(b"cICP", &[9, 16, 0, 1])], "its chunk cICP says 9/16/0, whose primaries"),
+        (vec![(b"cICP", &[1, 1, 0, 1])], "1/1/0, whose curve"),
+        (vec![(b"cICP", &[1, 13, 0, 0])], "video"),
+    ] {
+        let refused = refusal(&with(&chunks));
+        assert!(refused.contains(says) && refused.contains("--transfer"), "{refused}");
+    }
+}
+
+/// A little-endian block of an EXIF directory with a colour space, and perhaps one of interoperability.
+fn exif(colour_space: u8, interoperability: Option<&[u8; 4]>) -> Vec<u8> {
+    let entry = |tag: u16, kind: u16, count: u32, value: [u8; 4]| {
+        [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value].concat()
+    };
+    let mut directory = vec![entry(0xa001, 3, 1, [colour_space, 0, 0, 0])];
+    directory.extend(interoperability.map(|_| entry(0xa005, 4, 1, [56, 0, 0, 0])));
+    let mut bytes = b"II*\0\x08\0\0\0\x01\0".to_vec();
+    bytes.extend(entry(0x8769, 4, 1, [26, 0, 0, 0]));
+    bytes.extend([0; 4]);
+    bytes.extend((directory.len() as u16).to_le_bytes());
+    bytes.extend(directory.concat());
+    bytes.extend([0; 4]);
+    if let Some(name) = interoperability {
+        bytes.extend([&[1, 0], &entry(1, 2, 4, *name)[..], &[0; 4]].concat());
+    }
+    bytes
+}
+
+#[test]
+fn exif_colour_spaces_are_believed_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |block| encoded(&folder, "a.png", None, Some(block));
+    assert_light(&open(with(exif(1, None))).unwrap(), SRGB, 1e-12);
+    assert_light(&open(with(exif(255, None))).unwrap(), LINEAR, 1e-12); // says nothing
+    assert_light(&open(with(exif(1, Some(b"R98\0")))).unwrap(), SRGB, 1e-12);
+    for block in [exif(2, None), exif(255, Some(b"R03\0"))] {
+        let refused = refusal(&with(block));
+        assert!(refused.contains("its EXIF says Adobe RGB"), "{refused}");
+    }
+    let straight = profile(ToneReprCurve::Lut(vec![]));
+    let refused = refusal(&encoded(&folder, "a.png", Some(&straight), Some(exif(1, None))));
+    assert!(refused.contains("its ICC profile says linear, its EXIF srgb"), "{refused}");
+}
+
+/// `oiiotool` writes what it says with `oiio:ColorSpace`, and needs no more to be believed.
+#[test]
+fn what_oiiotool_converts_is_what_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    oiiotool(
+        &folder,
+        "--pattern constant:color=.2,.4,.6 16x9 3 --colorconvert linear sRGB -d uint16 -o a.png",
+    );
+    assert_light(&open(folder.path().join("a.png")).unwrap(), LINEAR, 1e-4);
+}
+
+#[test]
+fn openexr_says_whose_colours_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |arguments: &str| {
+        oiiotool(&folder, &format!("--pattern constant:color=.2,.4,.6 16x9 3 -d float {arguments} -o a.exr"));
+        folder.path().join("a.exr")
+    };
+    let chromaticities = |numbers: &str| format!("--attrib:type=float[8] chromaticities {numbers}");
+    let rec709 = chromaticities("0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329");
+    assert_light(&open(made(&rec709)).unwrap(), LINEAR, 1e-7);
+    assert_light(&open(made("--attrib:type=float whiteLuminance 80")).unwrap(), LINEAR, 1e-7);
+    let over = open(made("--fullsize 8x5+3+2")).unwrap();
+    assert_eq!((over.width(), over.height(), light(&over, 7, 4)[1] > 0.39), (8, 5, true));
+    for (arguments, says) in [
+        (chromaticities("0.7347,0.2653,0,1,0.0001,-0.077,0.32168,0.33767").as_str(), "chromaticities"),
+        ("--chnames diffuse.R,diffuse.G,diffuse.B", "in layers, such as 'diffuse."),
+        ("--ch 0 --chnames Y", "luminance (Y)"),
+        ("--chnames X,Y,Z", "luminance (Y)"),
+        ("--chnames u,v,w", "a picture of u, v, w"),
+        ("--crop 8x5+3+2", "leaves part of its display window empty"),
+    ] {
+        let refused = refusal(&made(arguments));
+        assert!(refused.contains(says), "{refused}");
+    }
+}
+
+/// Of 32 bits and more, only floats; of four inks, none.
+#[test]
+fn numbers_that_are_no_light_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut inks = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
+    let frame = inks.windows(2).position(|two| two == [0xff, 0xc0]).unwrap();
+    inks[frame + 9] = 4;
+    assert!(refusal(&written(&folder, "inks.jpg", &inks)).contains("inks (CMYK)"));
+    let wide = Path::new("wide.tif");
+    let mut bytes = fs::read(encoded(&folder, "a.tif", None, None)).unwrap();
+    let bits = bytes.windows(8).rposition(|entry| entry == [2, 1, 3, 0, 3, 0, 0, 0]).unwrap();
+    let at = u32::from_le_bytes(bytes[bits + 8..bits + 12].try_into().unwrap()) as usize;
+    bytes[at..at + 6].copy_from_slice(&[32, 0, 32, 0, 32, 0]);
+    assert!(refusal(&written(&folder, wide.to_str().unwrap(), &bytes)).contains("integers of 32 bits"));
+    let mut big = bytes;
+    big[2] = 43;
+    assert!(refusal(&written(&folder, "big.tif", &big)).contains("BigTIFF"));
+}
+
+#[test]
+fn pictures_under_the_names_of_raw_files_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let jpeg = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
+    for name in ["a.nef", "A.NEF", "a.dng", "a.CR2"] {
+        let refused = refusal(&written(&folder, name, &jpeg));
+        assert!(refused.contains("like a camera's RAW file, but a JPEG picture"), "{refused}");
+    }
+}
