@@ -1,8 +1,7 @@
 //! Every error of the five tools: where it is, what is wrong, what to do.
 
+use std::borrow::Cow;
 use std::io;
-
-use crate::message::cut;
 
 /// What can go wrong, in one line a user can act on.
 #[derive(Debug, thiserror::Error)]
@@ -247,3 +246,14 @@ impl Error {
 
 /// A result whose error is the tools' own.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// A text of at most so many letters, of a longer one its beginning and its end.
+#[must_use]
+pub(crate) fn cut(text: &str, letters: usize) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= letters {
+        return text.into();
+    }
+    let (start, end) = (text.chars().take(letters / 2), text.chars().skip(count - letters / 2));
+    start.chain(['…']).chain(end).collect()
+}

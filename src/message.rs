@@ -1,6 +1,6 @@
 //! Messages for people, each on a line of its own.
 
-use std::borrow::Cow;
+use crate::error::cut;
 
 /// A message as one line that a terminal shows as it is: control characters, which names in files may hold, are escaped, and
 /// what is longer than any message is cut in the middle.
@@ -17,15 +17,4 @@ pub fn one_line(message: &str) -> String {
         false => letter.to_string(),
     };
     cut(message, 2000).chars().map(shown).collect()
-}
-
-/// A text of at most so many letters, of a longer one its beginning and its end.
-#[must_use]
-pub(crate) fn cut(text: &str, letters: usize) -> Cow<'_, str> {
-    let count = text.chars().count();
-    if count <= letters {
-        return text.into();
-    }
-    let (start, end) = (text.chars().take(letters / 2), text.chars().skip(count - letters / 2));
-    start.chain(['…']).chain(end).collect()
 }
