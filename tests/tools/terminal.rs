@@ -79,7 +79,7 @@ fn what_is_said_keeps_its_line() {
     assert_eq!(said.len(), 2, "{shown:?}");
     for line in said {
         let last = line.rsplit('\r').find(|drawn| !drawn.is_empty()).unwrap();
-        assert!(last.starts_with("vestimate: cc24:red: prior munsell, "), "{shown:?}");
+        assert!(last.starts_with("vestimate: cc24:red: prior sheets, "), "{shown:?}");
     }
 }
 

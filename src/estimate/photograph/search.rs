@@ -74,26 +74,15 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     });
     let sorted = most_evident(sorted.collect(), kinds.len(), |one| one.0);
     let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
-    let mut likely = Vec::new();
-    for (ln_evidence, kind, solution) in &sorted {
-        let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
-        let about = Rc::new(About::new(&all, solution).ok_or_else(not_finite)?);
-        let of_all = about.ln_evidence(prior.broad(), 1.0).ok_or_else(not_finite)?;
-        for (class, (scale, share)) in prior.classes().iter().flat_map(|class| SCALES.map(|one| (class, one)))
-        {
-            let ln_share = SHARE_POWER * class.ln_share + share.ln();
-            let Some(of_class) = about.ln_evidence(&class.gaussian, scale) else { continue };
-            let ln_evidence = ln_evidence + ln_share + of_class - of_all;
-            likely.push(Likely {
-                kind: *kind,
-                class,
-                scale,
-                ln_share,
-                ln_evidence,
-                about: Rc::clone(&about),
-            });
-        }
-    }
+    let likely: Result<Vec<_>> = sorted
+        .iter()
+        .map(|(ln_evidence, kind, solution)| {
+            let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
+            let about = About::new(&all, solution).ok_or_else(not_finite)?;
+            about.classes(*kind, prior, *ln_evidence).ok_or_else(not_finite)
+        })
+        .collect();
+    let likely: Vec<Likely> = likely?.into_iter().flatten().collect();
     let searches = likely.len();
     let likely = most_evident(likely, TRIED, |one| one.ln_evidence);
     let skipped_searches = searches - likely.len();
@@ -200,6 +189,20 @@ impl About {
             by_others,
             residuals,
         })
+    }
+
+    /// All classes of spectra at all widths, `ln_evidence` being that for all spectra as one Gaussian.
+    fn classes<'a>(self, kind: Kind, prior: &'a Prior, ln_evidence: f64) -> Option<Vec<Likely<'a>>> {
+        let about = Rc::new(self);
+        let of_all = about.ln_evidence(prior.broad(), 1.0)?;
+        let pairs =
+            prior.classes().iter().flat_map(|class| SCALES.map(|(scale, share)| (class, scale, share)));
+        let likely = |(class, scale, share): (&'a Class, f64, f64)| {
+            let ln_share = SHARE_POWER * class.ln_share + share.ln();
+            let ln_evidence = ln_evidence + ln_share + about.ln_evidence(&class.gaussian, scale)? - of_all;
+            Some(Likely { kind, class, scale, ln_share, ln_evidence, about: Rc::clone(&about) })
+        };
+        Some(pairs.filter_map(likely).collect())
     }
 
     /// The evidence for spectra that are `scale` times as wide as a Gaussian, but for a term that all spectra share.
