@@ -10,6 +10,7 @@ use super::data::FacetData;
 use super::facets::{ByLogit, Facets, whitened};
 use super::gaussian::Gaussian;
 use super::prior::{Class, Prior};
+use crate::solve::Eigen;
 use crate::solve::posterior::{Model, first_inflation, maximise};
 
 /// So near to the maximum under all spectra, in standard deviations, that what is tried does not depend on the start.
@@ -23,9 +24,10 @@ const TELLING_CHANNELS: usize = 3;
 /// Most classes and scales that are tried, and the least evidence for the second, as the logarithm of its share of the first's.
 const TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -2.0;
-/// Most that are tried where facets tell nothing, and how near to the first they are then.
-const UNTOLD_TRIED: usize = 10;
-const LN_EVIDENCE_SAME: f64 = -0.5;
+/// Directions of logits that facets must tell more of than is known of all spectra, for so few to be enough; otherwise more are tried.
+const TOLD: usize = 3;
+const UNTOLD_TRIED: usize = 24;
+const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
 
 /// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
 /// with a scale for each of them its tails are heavy.
@@ -59,7 +61,7 @@ pub fn likely(all: &Facets, sorted: &DVector<f64>, prior: &Prior, inflation: f64
             ln_evidence.is_finite().then_some((ln_evidence, (class, scale)))
         })
     });
-    let found = of_most_evidence(found).into_iter();
+    let found = of_most_evidence(found, is_telling(all, &about, inflation)).into_iter();
     found.filter_map(|which| classes[which.0].start(which, inflation)).collect()
 }
 
@@ -77,21 +79,33 @@ pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start>
         ln_evidence.is_finite().then_some((ln_evidence, start))
     };
     let found = prior.classes().iter().enumerate().filter_map(from_mean);
-    if tell_classes(data) { of_most_evidence(found) } else { found.map(|(_, start)| start).collect() }
+    if tell_classes(data) { of_most_evidence(found, true) } else { found.map(|(_, start)| start).collect() }
 }
 
 fn tell_classes(data: &FacetData) -> bool {
     data.channels() >= TELLING_CHANNELS
 }
 
-/// Those of most evidence, most first.
-fn of_most_evidence<T>(found: impl Iterator<Item = (f64, T)>) -> Vec<T> {
+/// Whether facets tell so much of a spectrum that classes of less evidence may be left out.
+fn is_telling(all: &Facets, about: &ByLogit, inflation: f64) -> bool {
+    if about.residuals.len() < TOLD || about.jacobian.iter().any(|slope| !slope.is_finite()) {
+        return false;
+    }
+    let jacobian = whitened(&about.jacobian, all.gaussian) / inflation;
+    let of_spectrum = jacobian.columns(0, all.gaussian.basis().ncols());
+    let information = Eigen::of_symmetric(of_spectrum * of_spectrum.transpose()).values;
+    information.iter().filter(|value| **value > 1.0).count() >= TOLD
+}
+
+/// Those of most evidence, most first; more of them if facets are not `telling`.
+fn of_most_evidence<T>(found: impl Iterator<Item = (f64, T)>, telling: bool) -> Vec<T> {
     let mut found: Vec<_> = found.collect();
     found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let best = found.first().map_or(0.0, |(best, _)| *best);
-    let same = found.iter().take_while(|(evidence, _)| *evidence > best + LN_EVIDENCE_SAME).count();
-    found.truncate(same.clamp(TRIED, UNTOLD_TRIED));
-    let least = best + LN_EVIDENCE_LEAST;
+    let (most, ln_least) =
+        if telling { (TRIED, LN_EVIDENCE_LEAST) } else { (UNTOLD_TRIED, UNTOLD_LN_EVIDENCE_LEAST) };
+    found.truncate(most);
+    let least = best + ln_least;
     found.into_iter().filter(|(evidence, _)| *evidence >= least).map(|(_, start)| start).collect()
 }
 

@@ -66,7 +66,7 @@ pub const ROWS: [Row; 35] = [
     fold("facets 256x256", "--facets 256x256", 0.01),
     fold("panels 1000x1", "--panel 1000x1", 0.01),
     fold("panels 1x1000", "--panel 1x1000", 0.08),
-    fold("panel 1 1000 times as deep as panel 0", "--panel1-depth 1000", 0.015),
+    fold("panel 1 1000 times as deep as panel 0", "--panel1-depth 1000", 0.02),
     seen("light of one line", "--illuminant line.csv", 0.35, 3.5),
     seen("light of spikes, FL11", "--illuminant FL11", 0.01, HONEST),
     seen("light of 1e-200 with a gap", "--illuminant gap.csv", 0.02, HONEST),
