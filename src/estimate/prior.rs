@@ -68,8 +68,8 @@ impl Prior {
         })
     }
 
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.18 in
-    /// logit, more beyond 420 and 680 nm) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.18 in logit, more below
+    /// 420 and above 680 nm) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
     /// ([`classes_of`]).
     ///
     /// # Source

@@ -6,7 +6,7 @@ use ndarray::{Array2, Axis};
 use super::FoldSetting;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::estimate::photograph::model::{NODES, nodes};
+use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::quadrature::Lagrange;
 use crate::sheet::Shape;

@@ -15,7 +15,7 @@ use ndarray::Array2;
 use super::{FoldSetting, Unmodelled};
 use crate::error::{Error, Result};
 use crate::estimate::photograph::Told;
-use crate::estimate::photograph::model::{NODES, nodes};
+use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;

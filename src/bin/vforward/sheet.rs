@@ -49,6 +49,6 @@ impl SheetArgs {
     }
 }
 
-/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged between. Of a closed surface, facets
-/// away from the crease agree with another program's transport between patches within 2 % at 0.25, and within 7 % at 0.15.
+/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged between. Compared once with another
+/// program's transport between patches, facets away from the crease of a closed surface were 2 % apart at 0.25 and 7 % at 0.15.
 const LEAST_ROUGHNESS: f64 = 0.25;

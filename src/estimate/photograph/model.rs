@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::chebyshev::{chebyshev, nodes};
 use super::conditions::Conditions;
 use super::parts::{Ambient, Parts, Radiance};
 use super::sheets::{Departure, Kind};
@@ -24,16 +25,6 @@ struct Terms {
     values: DMatrix<f64>,
     /// Their derivatives by albedo.
     slopes: DMatrix<f64>,
-}
-
-/// Nodes of albedo that are enough for every bounce.
-pub const NODES: usize = 10;
-
-/// Chebyshev nodes of [0, 1], from the first kind.
-#[must_use]
-pub fn nodes(count: usize) -> Vec<f64> {
-    let angle = |n: usize| std::f64::consts::PI * (n as f64 + 0.5) / count as f64;
-    (0..count).map(|n| 0.5 * (1.0 - angle(n).cos())).collect()
 }
 
 /// Facets as they are predicted, with what they are made of.
@@ -305,28 +296,6 @@ impl<'a> PhotographModel<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         &self.parts.values - self.predicted(w, &self.terms(&albedo)).values
     }
-}
-
-/// Chebyshev polynomials of [0, 1] at `points`, and their derivatives: polynomial by point.
-fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
-    let (mut values, mut slopes) = (DMatrix::zeros(count, points.len()), DMatrix::zeros(count, points.len()));
-    for (column, point) in points.iter().enumerate() {
-        let x = 2.0 * point - 1.0;
-        for n in 0..count {
-            let (value, slope) = match n {
-                0 => (1.0, 0.0),
-                1 => (x, 2.0),
-                _ => (
-                    2.0 * x * values[(n - 1, column)] - values[(n - 2, column)],
-                    4.0 * values[(n - 1, column)] + 2.0 * x * slopes[(n - 1, column)]
-                        - slopes[(n - 2, column)],
-                ),
-            };
-            values[(n, column)] = value;
-            slopes[(n, column)] = slope;
-        }
-    }
-    (values, slopes)
 }
 
 /// The reddest daylight that CIE 15 has, 4000 K.

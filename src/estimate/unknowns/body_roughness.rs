@@ -18,7 +18,7 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 10.0,
             words: "the sheet is rough",
-            remedy: "a chart or a card makes the exposure known, which helps most",
+            remedy: "if there is no chart or card in the picture, put one in",
         }),
     }),
 };

@@ -14,13 +14,16 @@ pub static BOW: Unknown = Unknown {
     photograph: Some(Effect {
         prior,
         set: |conditions, value| conditions.bow_deg = value,
-        symptom: Some(Symptom {
-            ideal: |_| 0.0,
-            least: 1.0,
-            words: "the panels bow",
-            remedy: "hold them flat, by stiff card behind them",
-        }),
+        symptom: Some(BOWED),
     }),
+};
+
+/// Of either kind of bow.
+pub(super) const BOWED: Symptom = Symptom {
+    ideal: |_| 0.0,
+    least: 1.0,
+    words: "the panels bow",
+    remedy: "hold them flat, by stiff card behind them",
 };
 
 /// Sheets that are held at their edges turn by a few degrees.

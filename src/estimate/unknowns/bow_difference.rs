@@ -1,6 +1,7 @@
 //! Panels that do not bow alike.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::bow::BOWED;
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
@@ -14,12 +15,7 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     photograph: Some(Effect {
         prior,
         set: |conditions, value| conditions.bow_difference_deg = value,
-        symptom: Some(Symptom {
-            ideal: |_| 0.0,
-            least: 1.0,
-            words: "the panels bow",
-            remedy: "hold them flat, by stiff card behind them",
-        }),
+        symptom: Some(BOWED),
     }),
 };
 

@@ -14,13 +14,16 @@ pub static FIRST_GAIN: Unknown = Unknown {
     photograph: Some(Effect {
         prior,
         set: |conditions, value| conditions.gains[0] = value,
-        symptom: Some(Symptom {
-            ideal: |_| 1.0,
-            least: 0.02,
-            words: "the channels are not balanced as they were told",
-            remedy: "photograph a grey card with the sheet",
-        }),
+        symptom: Some(UNBALANCED),
     }),
+};
+
+/// Of either gain.
+pub(super) const UNBALANCED: Symptom = Symptom {
+    ideal: |_| 1.0,
+    least: 0.02,
+    words: "the channels are not balanced as they were told",
+    remedy: "photograph a grey card with the sheet",
 };
 
 /// Cameras of one model differ by 2 %.

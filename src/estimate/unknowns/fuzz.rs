@@ -18,7 +18,7 @@ pub static FUZZ: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.15,
             words: "fibres stand up from the sheet",
-            remedy: "a chart or a card makes the exposure known, which helps most",
+            remedy: "if there is no chart or card in the picture, put one in",
         }),
     }),
 };

@@ -1,6 +1,7 @@
 //! How much more the last channel amplifies than it should.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::first_gain::UNBALANCED;
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {
@@ -14,12 +15,7 @@ pub static LAST_GAIN: Unknown = Unknown {
     photograph: Some(Effect {
         prior,
         set: |conditions, value| conditions.gains[1] = value,
-        symptom: Some(Symptom {
-            ideal: |_| 1.0,
-            least: 0.02,
-            words: "the channels are not balanced as they were told",
-            remedy: "photograph a grey card with the sheet",
-        }),
+        symptom: Some(UNBALANCED),
     }),
 };
 
