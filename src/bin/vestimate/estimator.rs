@@ -157,11 +157,7 @@ impl Transform for Estimator<'_> {
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
                 let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                let ideal = map::estimate(&data, prior, context.start.as_deref());
-                match self.of_photograph(context, sample, prior, exposure, &ideal)? {
-                    Some(real) => (real, how),
-                    None => (ideal, how),
-                }
+                (self.by_prior(context, sample, &data, prior, exposure)?, how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
@@ -240,38 +236,45 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
-    /// The estimate from a photograph of a real sheet, if the sample is one that an ideal fold does not explain, or that a camera took of
-    /// which the curves are another's.
-    fn of_photograph(
+    /// The estimate under a prior. A photograph that an ideal fold does not explain, or that a camera took of which the curves are
+    /// another's, is taken to be of a real sheet.
+    fn by_prior(
         &self,
         context: &Context,
         sample: &Sample,
+        data: &FacetData,
         prior: &Prior,
         exposure: Exposure,
-        ideal: &Estimate,
-    ) -> Result<Option<Estimate>> {
+    ) -> Result<Estimate> {
+        let ideal = || map::estimate(data, prior, context.start.as_deref());
         let known = match exposure {
             Exposure::Known(exposure) => Some(exposure),
             Exposure::Free => None,
-            Exposure::Sum => return Ok(None),
+            Exposure::Sum => return Ok(ideal()),
         };
         let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
         let Some(record) = context.record.as_ref().filter(|_| is_auto && sample.is_photograph()) else {
-            return Ok(None);
+            return Ok(ideal());
         };
-        let (is_ideal, stands_in) =
-            (ideal.residual_rms < IDEAL, record.camera()?.stands_in.as_ref().map(|one| one.camera.clone()));
-        if is_ideal && stands_in.is_none() {
-            return Ok(None);
+        let stands_in = record.camera()?.stands_in.as_ref().map(|one| one.camera.clone());
+        let mut misfit = map::least_misfit(data, prior);
+        if misfit < IDEAL {
+            let ideal = ideal();
+            misfit = ideal.residual_rms;
+            if misfit < IDEAL && stands_in.is_none() {
+                return Ok(ideal);
+            }
         }
         let setting = FoldSetting::of(record)?;
-        let parts = match PhotographedFold::of(&setting).parts(sample, known)? {
-            Ok(parts) => parts,
+        match PhotographedFold::of(&setting).parts(sample, known)? {
+            Ok(parts) => photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS),
             Err(why) => {
                 if !self.args.common.quiet {
                     let what = match stands_in {
-                        Some(camera) if is_ideal => format!("the curves of {camera} are another camera's"),
-                        _ => format!("misfit {:.1}: this is no ideal fold", ideal.residual_rms),
+                        Some(camera) if misfit < IDEAL => {
+                            format!("the curves of {camera} are another camera's")
+                        }
+                        _ => format!("misfit {misfit:.1}: this is no ideal fold"),
                     };
                     let text = format!(
                         "{}: {what}, and as {why}, what that changes is not estimated; expect errors beyond the bars",
@@ -279,10 +282,9 @@ impl<'a> Estimator<'a> {
                     );
                     cli::say("vestimate", &text);
                 }
-                return Ok(None);
+                Ok(ideal())
             }
-        };
-        photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS).map(Some)
+        }
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.

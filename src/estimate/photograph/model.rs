@@ -31,10 +31,29 @@ struct Terms {
 struct Predicted {
     /// Facet by channel.
     values: DMatrix<f64>,
-    /// Brightness of each facet and channel for radiance and weights of 1: exposure, gains, lens.
-    scale: DMatrix<f64>,
+    lens: Lens,
     /// Radiances and weights (channel by waveband) of the lights.
     lights: Vec<(Radiance, DMatrix<f64>)>,
+}
+
+/// What makes values of radiances.
+struct Lens {
+    /// Brightness of each facet and channel for radiance and weights of 1: exposure, gains, vignetting.
+    scale: DMatrix<f64>,
+    /// Share of a channel's mean that is spread over all facets.
+    glare: f64,
+}
+
+impl Lens {
+    /// Values of radiances through the camera's curves: facet by channel.
+    fn seen(&self, radiances: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut values = radiances.component_mul(&self.scale);
+        for mut channel in values.column_iter_mut() {
+            let mean = channel.mean();
+            channel.add_scalar_mut(self.glare * mean);
+        }
+        values
+    }
 }
 
 /// The model under one kind of sheet and one Gaussian of albedos.
@@ -244,14 +263,10 @@ impl<'a> PhotographModel<'a> {
         let scale = DMatrix::from_fn(parts.places.len(), gains.len(), |facet, c| {
             exposure * gains[c] * (1.0 - conditions.vignetting * parts.places[facet].off_centre)
         });
-        let mut values: DMatrix<f64> =
+        let lens = Lens { scale, glare: conditions.glare };
+        let radiances: DMatrix<f64> =
             lights.iter().map(|(radiance, weights)| radiance * (&terms.values * weights.transpose())).sum();
-        values.component_mul_assign(&scale);
-        for mut channel in values.column_iter_mut() {
-            let mean = channel.mean();
-            channel.add_scalar_mut(conditions.glare * mean);
-        }
-        Predicted { values, scale, lights }
+        Predicted { values: lens.seen(&radiances), lens, lights }
     }
 
     /// Values in the order of residuals, in which they are compared.
@@ -323,16 +338,16 @@ impl Model for PhotographModel<'_> {
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let terms = self.terms(&albedo);
-        let Predicted { values, scale, lights } = self.predicted(w, &terms);
+        let Predicted { values, lens, lights } = self.predicted(w, &terms);
         let ordered = Self::in_order(&values);
-        let [scene, _, camera, end] = self.layout();
+        let [scene, sheet, camera, end] = self.layout();
         let (channels, bands) = (values.ncols(), albedo.len());
         let mut by_logit = DMatrix::<f64>::zeros(values.len(), bands);
         for (radiance, weights) in &lights {
             let slopes = radiance * &terms.slopes;
             for facet in 0..values.nrows() {
                 for channel in 0..channels {
-                    let scale = scale[(facet, channel)];
+                    let scale = lens.scale[(facet, channel)];
                     let mut row = by_logit.row_mut(facet * channels + channel);
                     for (band, entry) in row.iter_mut().enumerate() {
                         *entry += scale * weights[(channel, band)] * slopes[(facet, band)];
@@ -345,20 +360,28 @@ impl Model for PhotographModel<'_> {
         }
         let mut jacobian = DMatrix::zeros(values.len(), end);
         jacobian.columns_mut(0, scene).gemm(1.0, &by_logit, self.gaussian.basis(), 0.0);
-        for n in scene..camera {
-            let mut beside = w.clone();
-            beside[n] += STEP;
-            let moved = Self::in_order(&self.predicted(&beside, &terms).values);
-            jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
+        for (n, expected) in (scene..).zip(&self.unknowns) {
+            if self.kind.has(expected.unknown) {
+                let mut beside = w.clone();
+                beside[n] += STEP;
+                let moved = Self::in_order(&self.predicted(&beside, &terms).values);
+                jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
+            }
         }
-        // curves enter in proportion: their columns are what each waveband gives
-        let sun = &lights[0];
-        let given = &sun.0 * &terms.values;
+        // variations of the sheet and errors of the curves enter in proportion
+        let (radiance, weights) = &lights[0];
+        let to_channels = &terms.values * weights.transpose();
+        for (n, change) in (sheet..).zip(self.parts.sheets.by_variation(self.kind)) {
+            let seen = lens.seen(&(change * &to_channels));
+            jacobian.column_mut(n).copy_from(&DVector::from_column_slice(seen.transpose().as_slice()));
+        }
+        let given = radiance * &terms.values;
         let [power, ..] = self.powers(&self.conditions(w));
         for (n, (channel, error)) in self.parts.eye.errors.iter().enumerate() {
             let column = &given * error.component_mul(&power);
             for facet in 0..values.nrows() {
-                jacobian[(facet * channels + channel, camera + n)] = scale[(facet, *channel)] * column[facet];
+                jacobian[(facet * channels + channel, camera + n)] =
+                    lens.scale[(facet, *channel)] * column[facet];
             }
         }
         Linearised {

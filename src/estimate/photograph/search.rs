@@ -66,9 +66,13 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
     let kinds = [Kind::Matt, Kind::Family, Kind::Measured];
+    // each kind from where the one before it led, which is near
+    let mut start = None;
     let sorted = kinds.into_iter().filter_map(|kind| {
         let model = PhotographModel::new(parts, kind, prior.broad(), &whitening);
-        let solution = search(&model, DVector::zeros(model.unknowns()), SORTING_TOLERANCE, SORTING_LIMIT);
+        let from = start.take().unwrap_or_else(|| DVector::zeros(model.unknowns()));
+        let solution = search(&model, from, SORTING_TOLERANCE, SORTING_LIMIT);
+        start = Some(solution.w.clone());
         let ln_evidence = solution.ln_evidence(1.0)?;
         ln_evidence.is_finite().then_some((ln_evidence, kind, solution))
     });
@@ -245,7 +249,9 @@ impl Maximum {
                 slopes[(band, n)] = change * basis[(band, n)];
             }
         }
-        for n in scene..camera {
+        let unknowns = model.scene_unknowns().iter().zip(scene..);
+        let of_sheet = unknowns.filter(|(expected, _)| expected.unknown.is_of_sheet()).map(|(_, n)| n);
+        for n in of_sheet.chain(sheet..camera) {
             let mut beside = found.w.clone();
             beside[n] += STEP;
             let moved = model.point(&beside).departure.reflectance;

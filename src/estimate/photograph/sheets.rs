@@ -2,6 +2,7 @@
 
 use super::conditions::Conditions;
 use super::parts::Radiance;
+use crate::estimate::unknowns::Unknown;
 
 /// How a sheet departs from a Lambertian one.
 #[derive(Clone, Debug)]
@@ -100,6 +101,26 @@ pub enum Kind {
     Measured,
 }
 
+impl Kind {
+    /// Standard deviation of its variations, that of measured sheets from their mean being 1.
+    fn variation(self) -> f64 {
+        match self {
+            Self::Measured => MEASURED_VARIATION,
+            Self::Matt => MATT_VARIATION,
+            Self::Family => FAMILY_VARIATION,
+        }
+    }
+
+    /// Whether an unknown makes a difference to sheets of this kind: the numbers of a family make none to others.
+    #[must_use]
+    pub fn has(self, unknown: &Unknown) -> bool {
+        match self {
+            Self::Family => true,
+            Self::Matt | Self::Measured => !unknown.is_of_sheet(),
+        }
+    }
+}
+
 impl Sheets {
     /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says beyond them.
     #[must_use]
@@ -107,21 +128,26 @@ impl Sheets {
         self.variations.len() + 1
     }
 
+    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak.
+    pub fn by_variation(&self, kind: Kind) -> impl Iterator<Item = Radiance> + '_ {
+        self.variations.iter().map(move |own| kind.variation() * &own.radiance)
+    }
+
     /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
     #[must_use]
     pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
-        let (mut sum, variation) = match kind {
+        let mut sum = match kind {
             Kind::Measured => {
                 let mut mean = self.measured.clone();
                 mean.reflectance[0] += self.instrument.shared * variations.last().copied().unwrap_or(0.0);
-                (mean, MEASURED_VARIATION)
+                mean
             }
-            // of these two the formula tells it
-            Kind::Matt => (Departure::none(&self.measured.radiance), MATT_VARIATION),
-            Kind::Family => (self.family(conditions), FAMILY_VARIATION),
+            // of these two the formula tells what an instrument says
+            Kind::Matt => Departure::none(&self.measured.radiance),
+            Kind::Family => self.family(conditions),
         };
         for (own, size) in self.variations.iter().zip(variations) {
-            sum.add(variation * size, own, [0.0, 0.0]);
+            sum.add(kind.variation() * size, own, [0.0, 0.0]);
         }
         sum
     }

@@ -1,6 +1,8 @@
 //! How far the fold is open.
 
-use super::{Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown};
+use super::{
+    Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown, Whose,
+};
 use crate::error::{Error, Result};
 use crate::kernel::mesh::{Mesh, respond};
 
@@ -14,6 +16,7 @@ pub static ANGLE: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior: of_photograph,
         set: |conditions, value| conditions.angle_deg = value,
         symptom: Some(Symptom {

@@ -1,6 +1,6 @@
 //! How rough the sheet is under its surface.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     scale: Scale::Positive { unit: 8.0 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Sheet,
         prior,
         set: |conditions, value| conditions.body_roughness_deg = value,
         symptom: Some(Symptom {

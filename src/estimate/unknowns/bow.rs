@@ -1,6 +1,6 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static BOW: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.bow_deg = value,
         symptom: Some(BOWED),

@@ -1,7 +1,7 @@
 //! Panels that do not bow alike.
 
 use super::bow::BOWED;
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.bow_difference_deg = value,
         symptom: Some(BOWED),

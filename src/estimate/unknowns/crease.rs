@@ -1,6 +1,6 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static CREASE: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.01 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.crease_radius = value,
         symptom: Some(Symptom {

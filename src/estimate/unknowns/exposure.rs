@@ -1,6 +1,6 @@
 //! How bright the picture is.
 
-use super::{Effect, Flag, Normal, Role, Scale, Told, Unknown};
+use super::{Effect, Flag, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
 pub static EXPOSURE: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static EXPOSURE: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Exposure,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior: of_photograph,
         set: |conditions, value| conditions.exposure = value,
         symptom: None,

@@ -1,6 +1,6 @@
 //! How much more the first channel amplifies than it should.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.gains[0] = value,
         symptom: Some(UNBALANCED),

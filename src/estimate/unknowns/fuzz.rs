@@ -1,6 +1,6 @@
 //! Fibres that stand up from the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
 pub static FUZZ: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static FUZZ: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.15 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Sheet,
         prior,
         set: |conditions, value| conditions.fuzz = value,
         symptom: Some(Symptom {

@@ -1,6 +1,6 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the picture's light that the lens spreads over all of it.
 pub static GLARE: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static GLARE: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.006 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.glare = value,
         symptom: Some(Symptom {

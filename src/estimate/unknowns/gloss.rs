@@ -1,6 +1,6 @@
 //! What the surface of the sheet reflects before light enters it.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
 pub static GLOSS: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static GLOSS: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.3 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Sheet,
         prior,
         set: |conditions, value| conditions.gloss = value,
         symptom: Some(Symptom {

@@ -1,6 +1,6 @@
 //! How sharply the surface of the sheet reflects.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Roughness of the surface: the width of the slopes of its microfacets (GGX's alpha).
 pub static GLOSS_ROUGHNESS: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static GLOSS_ROUGHNESS: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Sheet,
         prior,
         set: |conditions, value| conditions.gloss_roughness = value,
         symptom: None,

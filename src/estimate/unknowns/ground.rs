@@ -1,6 +1,6 @@
 //! Light from what lies below the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static GROUND: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.15 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.ground = value,
         symptom: Some(Symptom {

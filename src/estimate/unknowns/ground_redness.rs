@@ -1,6 +1,6 @@
 //! The colour of what lies below the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
 pub static GROUND_REDNESS: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.ground_redness = value,
         symptom: None,

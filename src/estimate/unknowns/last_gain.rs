@@ -1,7 +1,7 @@
 //! How much more the last channel amplifies than it should.
 
 use super::first_gain::UNBALANCED;
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static LAST_GAIN: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.gains[1] = value,
         symptom: Some(UNBALANCED),

@@ -112,12 +112,23 @@ pub struct Unknown {
 
 /// How an unknown enters the model of a photograph.
 pub struct Effect {
+    /// What it is a number of.
+    pub whose: Whose,
     /// What is known of it before the picture is looked at, on its scale; none where it does not occur.
     pub prior: fn(&Told) -> Option<Normal>,
     /// Makes it one of the conditions.
     pub set: fn(&mut Conditions, f64),
     /// What the user is told of it; none of what every photograph has.
     pub symptom: Option<Symptom>,
+}
+
+/// What an unknown of a photograph is a number of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whose {
+    /// The sheet: how its surface and body reflect, the same in every photograph of it.
+    Sheet,
+    /// The photograph: fold, light and lens.
+    Photograph,
 }
 
 /// What is not ideal about a photograph, in the words of who took it.
@@ -229,6 +240,12 @@ pub fn of_flags(asked: &[&Flag]) -> Vec<&'static Unknown> {
 }
 
 impl Unknown {
+    /// Whether it is a number of the sheet, the same in every photograph of it.
+    #[must_use]
+    pub fn is_of_sheet(&self) -> bool {
+        self.photograph.as_ref().is_some_and(|effect| effect.whose == Whose::Sheet)
+    }
+
     /// Whether it is one of photographs of real sheets alone.
     #[must_use]
     pub fn is_of_photographs(&self) -> bool {

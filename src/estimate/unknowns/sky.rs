@@ -1,7 +1,7 @@
 //! How much light comes from the sky.
 
 use super::sources::Source;
-use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown};
+use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown, Whose};
 use crate::error::Result;
 
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
@@ -17,6 +17,7 @@ pub static SKY: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior: of_photograph,
         set: |conditions, value| conditions.sky = value,
         symptom: None,

@@ -1,6 +1,6 @@
 //! The colour of the sky: daylight of unknown temperature.
 
-use super::{Effect, Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown};
+use super::{Effect, Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown, Whose};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::spectrum::{self, Outside};
@@ -15,6 +15,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior: of_photograph,
         set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
         symptom: None,

@@ -1,6 +1,6 @@
 //! The colour of the sun: daylight of unknown temperature.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 use crate::estimate::photograph::conditions::Daylight;
 
 /// Correlated colour temperature of the sun, K.
@@ -13,6 +13,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
     scale: Scale::Reciprocal,
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {

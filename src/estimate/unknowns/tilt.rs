@@ -1,6 +1,8 @@
 //! Where the sun stands across the crease.
 
-use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown};
+use super::{
+    Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown, Whose,
+};
 use crate::error::Result;
 
 /// Angle of the sun off the bisecting plane, degrees.
@@ -13,6 +15,7 @@ pub static TILT: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior: of_photograph,
         set: |conditions, value| conditions.tilt_deg = value,
         symptom: Some(Symptom {

@@ -1,6 +1,6 @@
 //! A lens that darkens the corners of the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown};
+use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
@@ -12,6 +12,7 @@ pub static VIGNETTING: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.1 },
     role: Role::Photograph,
     photograph: Some(Effect {
+        whose: Whose::Photograph,
         prior,
         set: |conditions, value| conditions.vignetting = value,
         symptom: Some(Symptom {

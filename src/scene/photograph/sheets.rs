@@ -10,7 +10,7 @@ use crate::estimate::photograph::sheets::{Departure, FAMILY_NODES, FUZZ, Instrum
 use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
 use crate::solve::Eigen;
-use crate::transport::departures;
+use crate::transport::{Resolution, departures};
 
 /// Numbers by which measured sheets vary.
 const VARIATIONS: usize = 8;
@@ -39,7 +39,7 @@ pub fn of(
     let formulas = distinct.iter().map(|n| families[*n]).chain(fuzzy).map(Shape::from);
     let tables = measured()?.iter().zip(measured_names()).filter(|(_, name)| Some(*name) != left_out);
     let all: Vec<Shape> = formulas.chain(tables.map(|(shape, _)| shape.clone())).collect();
-    let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes);
+    let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes, &Resolution::COARSE);
     let departure = |(shape, radiance): (&Shape, ndarray::ArrayView2<f64>)| Departure {
         radiance: bins.pool(&radiance.to_owned()),
         reflectance: shape.slope_and_offset(),
