@@ -273,7 +273,8 @@ impl OpticsArgs {
             let spectrum = common.illuminant(spec)?;
             let power = spectrum.on(&grid, Outside::Refuse)?;
             let interpolation = spectrum.interpolation(&grid).map(name);
-            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power, interpolation })
+            let name = spectrum.name().to_owned();
+            Ok(SpectrumRecord { name, power, interpolation, is_assumed: false })
         };
         Ok(Optics {
             camera: CameraRecord {

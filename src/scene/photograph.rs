@@ -3,7 +3,7 @@
 
 mod ambient;
 mod bins;
-mod eye;
+pub(super) mod eye;
 mod framing;
 mod sheets;
 
@@ -86,13 +86,12 @@ impl<'a> PhotographedFold<'a> {
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),
-            daylight: eye::daylight(&eye),
+            daylight: eye::daylight(&eye.daylight, &eye.sun),
             has_sky_illuminant: setting.has_sky_illuminant()?,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
-        let sheets =
-            sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, &lit.even, self.left_out.as_deref())?;
+        let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {
             told,
             places: bins.places().to_vec(),

@@ -58,6 +58,10 @@ pub struct EstimateRecord {
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
+    /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this sample's among them; absent of
+    /// a sample that was estimated alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joined: Vec<String>,
     /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FindingRecord>,
@@ -85,6 +89,8 @@ pub struct NewEstimate<'a> {
     pub estimate: &'a Estimate,
     /// What facets were taken to be worth, by a method that weighs them.
     pub noise: Option<&'a Noise>,
+    /// Ids of all samples that it was made of, if there were several.
+    pub joined: &'a [String],
     /// Whether to record the covariance, waveband by waveband.
     pub with_covariance: bool,
 }
@@ -199,7 +205,7 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn set_estimate(&mut self, new: &NewEstimate) -> Result<()> {
-        let NewEstimate { method, prior, wavelengths_nm, estimate, noise, with_covariance } = *new;
+        let NewEstimate { method, prior, wavelengths_nm, estimate, noise, joined, with_covariance } = *new;
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
@@ -224,6 +230,7 @@ impl Sample {
                 reflectance_sd,
                 total_reflectance: estimate.total.clone(),
                 fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
+                joined: joined.to_vec(),
                 findings: estimate.findings.iter().map(FindingRecord::from).collect(),
                 skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
                 covariance: covariance.map(rows),

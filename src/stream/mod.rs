@@ -44,6 +44,7 @@ mod scores;
 mod shape_file;
 mod skipped;
 mod surface;
+mod together;
 mod trace;
 mod writer;
 
@@ -76,5 +77,6 @@ pub use scores::summary;
 pub use shape_file::read_shape;
 pub use skipped::SkippedRecord;
 pub use surface::Surface;
+pub use together::{Member, Together, pipe_together};
 pub use trace::trace;
 pub use writer::Output;

@@ -19,6 +19,9 @@ pub struct SpectrumRecord {
     /// How it was found between samples, where it was: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
+    /// Whether nobody said it: of daylight that is assumed, the colour is an unknown of the estimate.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_assumed: bool,
 }
 
 /// A camera on the scene's wavelengths.

@@ -39,7 +39,7 @@ pub trait Transform {
 }
 
 /// A record as it goes out, with what was made beside it.
-type Made<A> = (Record, Option<A>);
+pub(super) type Made<A> = (Record, Option<A>);
 
 /// A record that is as it should be, or a sample with the context of its scene.
 type Step<T> = Item<(Arc<<T as Transform>::Context>, Sample), Result<Made<<T as Transform>::Aside>>>;
@@ -79,7 +79,7 @@ fn step<T: Transform>(
     let Some(record) = reader.read()? else { return Ok(None) };
     if let Record::Sample(sample) = record {
         let Some(context) = context else {
-            return Err(reader.wrong("a sample before any scene", "put its scene line first"));
+            return Err(reader.no_scene());
         };
         return Ok(Some(match kept.sample(|kept| transform.is_made(&sample, kept))? {
             Some(kept) => Item::Known(Ok((Record::Sample(kept), None))),
@@ -95,7 +95,7 @@ fn step<T: Transform>(
 }
 
 /// The sample as the tool leaves it; one that carries an error is left as it is.
-fn transformed<T: Transform>(
+pub(super) fn transformed<T: Transform>(
     transform: &T,
     context: &T::Context,
     mut sample: Sample,

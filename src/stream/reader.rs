@@ -135,6 +135,11 @@ impl Reader {
         }
     }
 
+    /// A sample that stands before all scenes.
+    pub(super) fn no_scene(&self) -> Error {
+        self.wrong("a sample before any scene", "put its scene line first")
+    }
+
     /// What is wrong with the line that was read last.
     pub(super) fn wrong(&self, problem: &str, remedy: &str) -> Error {
         Error::Record {

@@ -31,7 +31,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::{FacetGrid, Fold};
-    use crate::sheet::{Family, Shape, measured};
+    use crate::sheet::{Family, measured};
     use crate::transport::departures;
 
     /// Facets of families within 0.3 % and 0.8 % of their brightness (rms), of a measured paper within 2.5 %, in the mean of three folds.
@@ -53,7 +53,7 @@ mod tests {
         for (angle_deg, tilt, eye) in scenes {
             let fold = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: 10, cols: 3 }).unwrap();
             let (sun, eye) = (Vector3::new(tilt, 0.05, 1.0), Point3::from(eye));
-            let at = |resolution| departures(&fold, &sun, &eye, &shapes, &albedos, resolution);
+            let at = |resolution: &Resolution| departures(&fold, &sun, &eye, &shapes, &albedos, resolution);
             let truth = at(&finest);
             for (squares, resolution) in squares.iter_mut().zip([Resolution::FINE, Resolution::COARSE]) {
                 for ((shape, facet, albedo), found) in at(&resolution).indexed_iter() {

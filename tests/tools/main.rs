@@ -17,6 +17,7 @@ mod estimates;
 mod fit;
 mod flat_sheets;
 mod ill_posed;
+mod joint;
 mod photographs;
 mod picker;
 mod plots;

@@ -19,14 +19,14 @@ use crate::common::{Ended, Workdir, left_out};
 const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared");
 
 /// What came of a photograph.
-struct Outcome {
+pub struct Outcome {
     name: String,
-    rmse: f64,
+    pub rmse: f64,
     mean_error: f64,
     delta_e: Option<f64>,
-    within_two_sd: f64,
+    pub within_two_sd: f64,
     /// Two standard deviations to both sides.
-    bar: f64,
+    pub bar: f64,
     /// What the tools say is not ideal about the photograph.
     findings: Vec<String>,
 }
@@ -125,7 +125,8 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let parts = PhotographedFold::of(&setting).leaving_out(known).parts(&sample, exposure).unwrap().unwrap();
     let grid = scene.grid().unwrap();
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
-    let estimate = photograph::estimate(&parts, &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
+    let estimate = photograph::estimate(&[parts], &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
+    let estimate = &estimate.photographs[0];
     let sample = json!({"estimate": {"reflectance": estimate.reflectance, "reflectance_sd": estimate.reflectance_sd()}});
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let bands = numbers(&sidecar["bands_nm"]);
@@ -270,7 +271,7 @@ fn rows(sample: &Value) -> Vec<Vec<f64>> {
     (0..10).map(|row| (0..6).map(|n| mean(n / 3, row, n % 3)).collect()).collect()
 }
 
-fn print_table(all: &[Outcome]) {
+pub fn print_table(all: &[Outcome]) {
     println!("picture                RMSE   mean error  CIEDE2000  within two sd  width of the bars");
     for Outcome { name, rmse, mean_error, delta_e, within_two_sd, bar, .. } in all {
         let delta_e = delta_e.map_or_else(String::new, |delta_e| format!("{delta_e:.2}"));
@@ -283,7 +284,7 @@ fn mean(all: &[&Outcome], of: impl Fn(&Outcome) -> f64) -> f64 {
 }
 
 /// The sidecars of a folder of photographs, in the order of their names.
-fn sidecars(folder: &str) -> Option<Vec<PathBuf>> {
+pub fn sidecars(folder: &str) -> Option<Vec<PathBuf>> {
     let folder = Path::new(SHARED).join(folder);
     let Ok(entries) = fs::read_dir(&folder) else {
         left_out(&format!("the photographs of {}, which is not there", folder.display()));
@@ -297,12 +298,24 @@ fn sidecars(folder: &str) -> Option<Vec<PathBuf>> {
 
 fn of_real(path: &Path) -> Outcome {
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let truth = numbers(&sidecar["reflectance"]);
+    let truth_csv = table(&numbers(&sidecar["wavelengths_nm"]), std::slice::from_ref(&truth));
+    let script = format!(
+        "{}\ncat > truth.csv <<END\n{truth_csv}END\nvestimate -q records.ndjson | vscore --truth truth.csv",
+        real_records(path, "records.ndjson")
+    );
+    let sample = sample(path, &Workdir::new().sh(&script));
+    outcome(path, &sample, &truth, <[f64]>::to_vec)
+}
+
+/// The shell lines that make a file of records of a photograph.
+pub fn real_records(path: &Path, records: &str) -> String {
+    let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let told = &sidecar["told"];
     let wavelengths = numbers(&sidecar["wavelengths_nm"]);
     let columns = |columns: Vec<Vec<f64>>| table(&wavelengths, &columns);
     let camera = columns(told["camera_sensitivities_rgb"].as_array().unwrap().iter().map(numbers).collect());
     let light = columns(vec![numbers(&told["illuminant_spd"])]);
-    let truth = numbers(&sidecar["reflectance"]);
     let calibration = match (told.get("chart"), told.get("white_region")) {
         (Some(chart), _) => {
             let cos = &told["chart_cos"];
@@ -321,15 +334,15 @@ fn of_real(path: &Path) -> Outcome {
     let panels =
         format!("--panel0 '{}' --panel1 '{}' --refine", corners(&told["panel0"]), corners(&told["panel1"]));
     let photo = path.with_extension("tif");
-    let sample = run(
-        &camera,
-        &light,
-        &columns(vec![truth.clone()]),
-        &scene,
-        &photo,
-        &format!("{panels} {calibration}"),
-    );
-    outcome(path, &sample, &truth, <[f64]>::to_vec)
+    format!(
+        r#"
+cat > camera.csv <<END
+{camera}END
+cat > light.csv <<END
+{light}END
+vkernel {scene} | vextract -q "{photo}" --camera camera.csv --illuminant light.csv {panels} {calibration} > {records}"#,
+        photo = photo.display(),
+    )
 }
 
 fn of_material(path: &Path, exposure: &str) -> Outcome {
@@ -350,26 +363,7 @@ fn sample(path: &Path, run: &Ended) -> Value {
     records.into_iter().find(|record| record["kind"] == "sample").unwrap()
 }
 
-/// The sample that the tools make of a photograph.
-fn run(camera: &str, light: &str, truth: &str, scene: &str, photo: &Path, extract: &str) -> Value {
-    let run = Workdir::new().sh(&format!(
-        r#"
-cat > camera.csv <<END
-{camera}END
-cat > light.csv <<END
-{light}END
-cat > truth.csv <<END
-{truth}END
-vkernel {scene} |
-vextract -q "{photo}" --camera camera.csv --illuminant light.csv {extract} |
-vestimate -q | vscore --truth truth.csv
-"#,
-        photo = photo.display(),
-    ));
-    sample(photo, &run)
-}
-
-fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -> Vec<f64>) -> Outcome {
+pub fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -> Vec<f64>) -> Outcome {
     let reflectance = at(&numbers(&sample["estimate"]["reflectance"]));
     let sd = at(&numbers(&sample["estimate"]["reflectance_sd"]));
     let count = truth.len() as f64;
@@ -387,7 +381,7 @@ fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -> Ve
     }
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 

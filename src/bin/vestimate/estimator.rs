@@ -5,11 +5,12 @@ use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
+use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SceneModel, Unknown};
+use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SUN_COLOUR, SceneModel, Unknown};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, photograph, smooth};
-use vfold::scene::{FoldSetting, PhotographedFold, Setting};
+use vfold::scene::{FoldSetting, PhotographedFold, Setting, Unmodelled};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
@@ -44,6 +45,8 @@ enum Method {
 pub struct Context {
     grid: WavelengthGrid,
     scene: SceneModel,
+    /// The same in daylight of a colour that nobody said, if it is so.
+    in_any_daylight: Option<SceneModel>,
     method: SceneMethod,
     start: Option<Vec<f64>>,
     /// The scene's record, if it is that of a fold.
@@ -55,6 +58,27 @@ enum SceneMethod {
     Map(Prior),
     Smooth(Smoothness),
     Flat(FlatContext),
+}
+
+impl Context {
+    /// What is known of spectra.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the method knows nothing of them.
+    pub fn prior(&self) -> Result<&Prior> {
+        match &self.method {
+            SceneMethod::Map(prior) => Ok(prior),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
+                let problem = "photographs are estimated together under a prior alone";
+                Err(Error::usage("--join", problem, "leave --prior and --method out, or give spectra"))
+            }
+        }
+    }
+
+    /// Whether estimates of both are on the same wavelengths.
+    pub fn is_estimated_like(&self, other: &Self) -> bool {
+        self.grid.wavelengths_nm() == other.grid.wavelengths_nm()
+    }
 }
 
 /// Estimates as the flags ask for.
@@ -144,18 +168,30 @@ impl Transform for Estimator<'_> {
             None => None,
         };
         let record = scene.fold_if_one()?.map(|_| scene.clone());
-        let scene = Setting::of(scene)?.model_to_fit(&self.fit)?;
-        Ok(Context { grid, scene, method, start, record })
+        let is_assumed = self.is_auto()
+            && record.is_some()
+            && matches!(method, SceneMethod::Map(_))
+            && scene.has_camera()
+            && scene.illuminants()?.iter().any(|light| light.is_assumed);
+        let setting = Setting::of(scene)?;
+        let in_any_daylight = is_assumed.then(|| setting.model_to_fit(&[&SUN_COLOUR])).transpose()?;
+        let scene = setting.model_to_fit(&self.fit)?;
+        Ok(Context { grid, scene, in_any_daylight, method, start, record })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
-        let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
+        let exposure = self.exposure_of(sample)?;
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let deviations = Deviations::of(&noise, context.scene.facets(), &rgb)?;
+                // a chart or a card has made the channels those of the light that was assumed
+                let scene = match &context.in_any_daylight {
+                    Some(scene) if !sample.fields.has("calibration") => scene,
+                    _ => &context.scene,
+                };
+                let deviations = Deviations::of(&noise, scene.facets(), &rgb)?;
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
-                let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
+                let data = FacetData::new(scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
                 (self.by_prior(context, sample, &data, prior, exposure)?, how)
             }
@@ -166,29 +202,7 @@ impl Transform for Estimator<'_> {
                 (flat.estimate(&sheet)?, flat.to_string())
             }
         };
-        if self.args.common.verbose {
-            let id = sample.id();
-            cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(&estimate, exposure)));
-        }
-        refuse_unexplained(context, &rgb, &noise, &estimate)?;
-        let (method, prior) = match &context.method {
-            SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
-            SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
-        };
-        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
-        let is_weighed = match context.method {
-            SceneMethod::Map(_) => true,
-            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => false,
-        };
-        sample.set_estimate(&NewEstimate {
-            method,
-            prior,
-            wavelengths_nm: context.grid.wavelengths_nm(),
-            estimate: &estimate,
-            noise: is_weighed.then_some(&noise),
-            with_covariance,
-        })?;
-        if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
+        self.finish(context, sample, &estimate, &how, &[])
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -236,6 +250,53 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
+    /// Whether what is fitted is up to the photograph.
+    fn is_auto(&self) -> bool {
+        self.args.fit.is_empty() || self.args.fit.contains(&&AUTO)
+    }
+
+    /// How the exposure of a sample enters.
+    fn exposure_of(&self, sample: &Sample) -> Result<Exposure> {
+        Ok(self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known)))
+    }
+
+    /// Adds an estimate that was made `how`, with all ids of `joined` if there were several; records of the iterations, if they are
+    /// asked for.
+    fn finish(
+        &self,
+        context: &Context,
+        sample: &mut Sample,
+        estimate: &Estimate,
+        how: &str,
+        joined: &[String],
+    ) -> Result<Vec<Fields>> {
+        let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
+        if self.args.common.verbose {
+            let (id, exposure) = (sample.id(), self.exposure_of(sample)?);
+            cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(estimate, exposure)));
+        }
+        refuse_unexplained(context, &rgb, &noise, estimate)?;
+        let (method, prior) = match &context.method {
+            SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
+            SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
+        };
+        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
+        let is_weighed = match context.method {
+            SceneMethod::Map(_) => true,
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => false,
+        };
+        sample.set_estimate(&NewEstimate {
+            method,
+            prior,
+            wavelengths_nm: context.grid.wavelengths_nm(),
+            estimate,
+            noise: is_weighed.then_some(&noise),
+            joined,
+            with_covariance,
+        })?;
+        if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
+    }
+
     /// The estimate under a prior. A photograph that an ideal fold does not explain, or that a camera took of which the curves are
     /// another's, is taken to be of a real sheet.
     fn by_prior(
@@ -247,16 +308,16 @@ impl<'a> Estimator<'a> {
         exposure: Exposure,
     ) -> Result<Estimate> {
         let ideal = || map::estimate(data, prior, context.start.as_deref());
-        let known = match exposure {
-            Exposure::Known(exposure) => Some(exposure),
-            Exposure::Free => None,
-            Exposure::Sum => return Ok(ideal()),
-        };
-        let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
-        let Some(record) = context.record.as_ref().filter(|_| is_auto && sample.is_photograph()) else {
+        let Some(record) = context.record.as_ref().filter(|_| self.is_auto() && sample.is_photograph())
+        else {
             return Ok(ideal());
         };
+        if exposure == Exposure::Sum {
+            return Ok(ideal());
+        }
         let stands_in = record.camera()?.stands_in.as_ref().map(|one| one.camera.clone());
+        let is_light_assumed =
+            record.illuminants()?.iter().any(|light| light.is_assumed) && !sample.fields.has("calibration");
         let mut misfit = map::least_misfit(data, prior);
         if misfit < IDEAL {
             let ideal = ideal();
@@ -265,9 +326,11 @@ impl<'a> Estimator<'a> {
                 return Ok(ideal);
             }
         }
-        let setting = FoldSetting::of(record)?;
-        match PhotographedFold::of(&setting).parts(sample, known)? {
-            Ok(parts) => photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS),
+        match self.parts(record, sample)? {
+            Ok(parts) => {
+                let found = photograph::estimate(&[parts], prior, self.model_error())?;
+                Ok(found.photographs.into_iter().next().unwrap_or_else(ideal))
+            }
             Err(why) => {
                 if !self.args.common.quiet {
                     let what = match stands_in {
@@ -285,6 +348,47 @@ impl<'a> Estimator<'a> {
                 Ok(ideal())
             }
         }
+    }
+
+    /// What a photograph of the scene of `record` is made of, or why that is not modelled.
+    fn parts(&self, record: &Scene, sample: &Sample) -> Result<std::result::Result<Parts, Unmodelled>> {
+        let known = match self.exposure_of(sample)? {
+            Exposure::Known(exposure) => Some(exposure),
+            Exposure::Free | Exposure::Sum => None,
+        };
+        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, known)
+    }
+
+    /// What a photograph that is estimated with others is made of.
+    ///
+    /// # Errors
+    /// A sample that is no photograph of a real sheet.
+    pub fn photograph(&self, context: &Context, sample: &Sample) -> Result<Parts> {
+        let alone = |why: String| {
+            Error::field(
+                "id",
+                format!("{}: {why}; only photographs of folds are estimated together", sample.id()),
+            )
+        };
+        let Some(record) = &context.record else { return Err(alone("the scene is no fold".to_owned())) };
+        self.parts(record, sample)?.map_err(|why| alone(why.to_string()))
+    }
+
+    /// What no unknown of a photograph explains.
+    pub fn model_error(&self) -> ModelError {
+        ModelError::OF_PHOTOGRAPHS
+    }
+
+    /// Adds what a photograph's share of an estimate from several is.
+    pub fn joined(
+        &self,
+        context: &Context,
+        sample: &mut Sample,
+        estimate: &Estimate,
+        ids: &[String],
+    ) -> Result<Vec<Fields>> {
+        let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
+        self.finish(context, sample, estimate, &how, ids)
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.

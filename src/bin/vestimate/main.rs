@@ -3,6 +3,7 @@
 mod drawing;
 mod estimator;
 mod flat;
+mod join;
 mod plan;
 mod said;
 mod settings;
@@ -14,6 +15,7 @@ use clap::{ArgGroup, Parser};
 use drawing::Drawing;
 use estimator::Estimator;
 use flat::{MethodArgs, MethodName};
+use join::Join;
 use plan::PlanArgs;
 use settings::{NoiseSd, Smoothness};
 use vfold::Result;
@@ -21,7 +23,7 @@ use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::estimate::unknowns::Flag;
 use vfold::spectrum::formats::{check_ending, write};
-use vfold::stream::{Output, Reader, Record, Sample, pipe};
+use vfold::stream::{Fields, Output, Reader, Record, Sample, pipe};
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -58,6 +60,11 @@ struct Args {
     /// for photographs that an ideal fold does not explain, else none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = settings::fit())]
     fit: Vec<&'static Flag>,
+    /// Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id
+    /// up to its last - or _
+    #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
+        conflicts_with_all = ["resume", "plan"])]
+    join: Option<Join>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
@@ -123,7 +130,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut drawing = args.plot.as_deref().map(Drawing::new).transpose()?;
     let mut measured = Vec::new();
     let mut traces = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
-    pipe(&mut reader, &estimator, out.kept()?, |record, trace| {
+    let kept = out.kept()?;
+    let done = |record: Record, trace: Option<Vec<Fields>>| {
         if let Record::Sample(sample) = &record {
             warn(args, sample)?;
             if let Some(file) = &mut traces {
@@ -135,7 +143,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         }
         drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record))?;
         out.record(&record)
-    })?;
+    };
+    match &args.join {
+        Some(join) => join::run(join, &mut reader, &estimator, done)?,
+        None => pipe(&mut reader, &estimator, kept, done)?,
+    }
     traces.map_or(Ok(0), Output::finish)?;
     drawing.as_ref().map_or(Ok(()), Drawing::write)?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))

@@ -126,8 +126,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let first = Photograph::open(&images[0], &options);
     let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        let (optics, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
-        let mut optics = optics.resolve(&camera.spec, &args.common)?;
+        let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
+        let mut optics = given.resolve(&camera.spec, &args.common)?;
+        for light in optics.illuminants.iter_mut().filter(|_| given.illuminant.is_empty()) {
+            light.is_assumed = true;
+        }
         let stands_in = camera.stands_in.is_some();
         optics.camera.stands_in = camera.stands_in;
         scene.set_optics(&optics)?;

@@ -3,7 +3,7 @@
 //! A sheet reflects more at some angles than at others, its crease is round and its panels bow, the sky and the ground shine into the
 //! fold, the sun is warmer than it was said to be, the lens darkens the corners. Each of these is an unknown with a prior that says how
 //! well people know it ([`unknowns::TABLE`](super::unknowns::TABLE)); what is left is an error that is smooth over a panel and alike in
-//! the channels ([`error`]). [`parts`] holds what the facets are made of, [`model`] puts it together, [`sheets`] are the kinds of sheets
+//! the channels ([`error`]). [`parts`] holds what the facets are made of, [`model`] puts it together, [`kinds`] are the kinds of sheets
 //! that a prior of measured materials knows, and [`search`] finds the most probable spectrum under all of them.
 
 pub mod chebyshev;
@@ -11,6 +11,8 @@ pub mod conditions;
 pub mod corners;
 pub mod error;
 pub mod findings;
+mod joint;
+pub mod kinds;
 pub mod model;
 pub mod parts;
 pub mod search;
@@ -19,4 +21,4 @@ pub mod sheets;
 pub use conditions::{Conditions, Told};
 pub use findings::Finding;
 pub use parts::Parts;
-pub use search::estimate;
+pub use search::{SheetEstimate, estimate};

@@ -5,8 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
 use super::conditions::Conditions;
+use super::kinds::{Kind, Kinds};
 use super::parts::{Ambient, Parts, Radiance};
-use super::sheets::{Departure, Kind};
+use super::sheets::Departure;
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::unknowns::{Expected, TABLE, Unknown};
 use crate::solve::posterior::{Linearised, Model};
@@ -59,6 +60,7 @@ impl Lens {
 /// The model under one kind of sheet and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
+    kinds: &'a Kinds<'a>,
     kind: Kind,
     gaussian: &'a Gaussian,
     whitening: &'a DMatrix<f64>,
@@ -91,11 +93,17 @@ fn unknowns_of(parts: &Parts) -> Vec<Expected> {
 impl<'a> PhotographModel<'a> {
     /// The model; `whitening` makes residuals of all values, facet by facet and in each channel by channel, standard normal.
     #[must_use]
-    pub fn new(parts: &'a Parts, kind: Kind, gaussian: &'a Gaussian, whitening: &'a DMatrix<f64>) -> Self {
+    pub fn new(
+        parts: &'a Parts,
+        kinds: &'a Kinds,
+        kind: Kind,
+        gaussian: &'a Gaussian,
+        whitening: &'a DMatrix<f64>,
+    ) -> Self {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
         let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
-        Self { parts, kind, gaussian, whitening, unknowns: unknowns_of(parts), coefficients }
+        Self { parts, kinds, kind, gaussian, whitening, unknowns: unknowns_of(parts), coefficients }
     }
 
     /// The unknowns of the scene.
@@ -109,7 +117,7 @@ impl<'a> PhotographModel<'a> {
     pub fn layout(&self) -> [usize; 4] {
         let scene = self.gaussian.basis().ncols();
         let sheet = scene + self.unknowns.len();
-        let camera = sheet + self.parts.sheets.variation_count();
+        let camera = sheet + self.kinds.variation_count();
         [scene, sheet, camera, camera + self.parts.eye.errors.len()]
     }
 
@@ -163,7 +171,7 @@ impl<'a> PhotographModel<'a> {
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
-            departure: self.parts.sheets.departure(self.kind, &conditions, &variations),
+            departure: self.kinds.departure(self.kind, &conditions, &variations),
             exposure: self.exposure(&conditions),
             conditions,
         }
@@ -178,7 +186,7 @@ impl<'a> PhotographModel<'a> {
         sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
         sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
         sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
-        radiance + self.parts.sheets.departure(self.kind, conditions, variations).radiance
+        radiance + self.kinds.departure(self.kind, conditions, variations).radiance
     }
 
     /// Powers of sun, sky and ground, the sun giving 1 in the reference channel, the others for an irradiance of 1 by the sky in
@@ -371,7 +379,7 @@ impl Model for PhotographModel<'_> {
         // variations of the sheet and errors of the curves enter in proportion
         let (radiance, weights) = &lights[0];
         let to_channels = &terms.values * weights.transpose();
-        for (n, change) in (sheet..).zip(self.parts.sheets.by_variation(self.kind)) {
+        for (n, change) in (sheet..).zip(self.kinds.by_variation(self.kind)) {
             let seen = lens.seen(&(change * &to_channels));
             jacobian.column_mut(n).copy_from(&DVector::from_column_slice(seen.transpose().as_slice()));
         }

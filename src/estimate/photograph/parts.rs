@@ -86,6 +86,15 @@ pub struct Eye {
     pub reference: usize,
 }
 
+impl Eye {
+    /// Whether it is the same camera, as far as its curves tell.
+    #[must_use]
+    pub fn is(&self, other: &Self) -> bool {
+        (&self.wavelengths_nm, &self.sensitivities) == (&other.wavelengths_nm, &other.sensitivities)
+            && self.errors == other.errors
+    }
+}
+
 /// All of it.
 #[derive(Clone, Debug)]
 pub struct Parts {

@@ -11,9 +11,10 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::corners;
 use super::error::ModelError;
 use super::findings::findings;
-use super::model::{PhotographModel, Point};
+use super::joint::{JointModel, Photograph};
+use super::kinds::Kind;
+use super::model::Point;
 use super::parts::Parts;
-use super::sheets::Kind;
 use crate::error::{Error, Result};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::prior::{Class, Prior};
@@ -46,43 +47,57 @@ const STEP: f64 = 1e-3;
 /// A maximum.
 struct Maximum {
     ln_evidence: f64,
-    point: Point,
+    albedo: Vec<f64>,
     reflectance: DVector<f64>,
     /// The product of its transpose with it is the covariance of the reflectance.
     spread: DMatrix<f64>,
-    fitted: Vec<Fitted>,
-    /// What is left of the facets, whitened.
-    residuals: DVector<f64>,
-    unexplained: f64,
+    /// Of each photograph.
+    seen: Vec<Seen>,
     trace: Vec<Iteration>,
     termination: Termination,
 }
 
-/// The estimate from a photograph.
+/// A photograph at a maximum.
+struct Seen {
+    exposure: f64,
+    fitted: Vec<Fitted>,
+    /// What is left of the facets, whitened.
+    residuals: DVector<f64>,
+    unexplained: f64,
+}
+
+/// A sheet as its photographs show it.
+pub struct SheetEstimate {
+    /// One estimate for each photograph: spectrum and error bars are the same in all, the rest is the photograph's own.
+    pub photographs: Vec<Estimate>,
+    /// Logarithm of the probability of all facets under what is known of sheets and scenes, but for a term that depends on each
+    /// photograph alone: the difference between one sheet and several tells which it is.
+    pub ln_evidence: f64,
+}
+
+/// The estimate from photographs of one sheet, one or more.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estimate> {
+pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    let whitening = error.whitening(&parts.places, &parts.values, &parts.sd).ok_or_else(not_finite)?;
-    let kinds = [Kind::Matt, Kind::Family, Kind::Measured];
+    let photographs = Photograph::all(parts, error).ok_or_else(not_finite)?;
     // each kind from where the one before it led, which is near
     let mut start = None;
-    let sorted = kinds.into_iter().filter_map(|kind| {
-        let model = PhotographModel::new(parts, kind, prior.broad(), &whitening);
+    let sorted = Kind::ALL.into_iter().filter_map(|kind| {
+        let model = JointModel::new(&photographs, kind, prior.broad());
         let from = start.take().unwrap_or_else(|| DVector::zeros(model.unknowns()));
         let solution = search(&model, from, SORTING_TOLERANCE, SORTING_LIMIT);
         start = Some(solution.w.clone());
         let ln_evidence = solution.ln_evidence(1.0)?;
         ln_evidence.is_finite().then_some((ln_evidence, kind, solution))
     });
-    let sorted = most_evident(sorted.collect(), kinds.len(), |one| one.0);
+    let sorted = most_evident(sorted.collect(), Kind::ALL.len(), |one| one.0);
     let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
     let likely: Result<Vec<_>> = sorted
         .iter()
         .map(|(ln_evidence, kind, solution)| {
-            let all = PhotographModel::new(parts, *kind, prior.broad(), &whitening);
-            let about = About::new(&all, solution).ok_or_else(not_finite)?;
+            let about = About::new(prior.broad(), solution).ok_or_else(not_finite)?;
             about.classes(*kind, prior, *ln_evidence).ok_or_else(not_finite)
         })
         .collect();
@@ -94,20 +109,38 @@ pub fn estimate(parts: &Parts, prior: &Prior, error: ModelError) -> Result<Estim
     for Likely { kind, class, scale, ln_share, about, .. } in likely {
         let gaussian = class.gaussian.scaled(scale);
         let start = about.maximum(&gaussian).ok_or_else(not_finite)?;
-        let model = PhotographModel::new(parts, kind, &gaussian, &whitening);
+        let model = JointModel::new(&photographs, kind, &gaussian);
         let found = search(&model, start, TOLERANCE, LIMIT);
         maxima.extend(Maximum::of(&model, &found, ln_share));
     }
     let maxima = most_evident(maxima, TRIED, |one| one.ln_evidence);
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
-    let shifts: Vec<_> =
-        corners::shifts(&parts.places, &parts.values).iter().map(|shift| &whitening * shift).collect();
     let best = maxima.first().ok_or_else(not_finite)?;
-    let mut found = findings(&best.fitted, &parts.told);
-    found.extend(corners::findings(&shifts, &best.residuals, error.corner));
-    let skipped = skipped(&best.fitted, skipped_searches);
-    let mean = mean(maxima, trace).ok_or_else(not_finite)?;
-    Ok(Estimate { findings: found, skipped, ..mean })
+    let of_scene = photographs.iter().zip(&best.seen).map(|(photograph, seen)| {
+        let Photograph { parts, whitening, .. } = photograph;
+        let shifts: Vec<_> =
+            corners::shifts(&parts.places, &parts.values).iter().map(|shift| whitening * shift).collect();
+        let mut found = findings(&seen.fitted, &parts.told);
+        found.extend(corners::findings(&shifts, &seen.residuals, error.corner));
+        (found, skipped(&seen.fitted, skipped_searches))
+    });
+    let of_scene: Vec<_> = of_scene.collect();
+    let ln_evidence = best.ln_evidence
+        + maxima.iter().map(|one| (one.ln_evidence - best.ln_evidence).exp()).sum::<f64>().ln()
+        - ln_all_shares(prior);
+    let estimates = mean(maxima, &trace).ok_or_else(not_finite)?;
+    let complete = |(estimate, (findings, skipped))| Estimate { findings, skipped, ..estimate };
+    Ok(SheetEstimate {
+        photographs: estimates.into_iter().zip(of_scene).map(complete).collect(),
+        ln_evidence,
+    })
+}
+
+/// Logarithm of the sum of what pairs of a kind and a class are weighed with.
+fn ln_all_shares(prior: &Prior) -> f64 {
+    let classes: f64 = prior.classes().iter().map(|class| (SHARE_POWER * class.ln_share).exp()).sum();
+    let scales: f64 = SCALES.iter().map(|(_, share)| share).sum();
+    (Kind::ALL.len() as f64 * classes * scales).ln()
 }
 
 /// What the facets do not speak of.
@@ -121,7 +154,7 @@ fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
     all.map(of).into_iter().filter(|one| one.count > 0).collect()
 }
 
-fn search(model: &PhotographModel, start: DVector<f64>, tolerance: f64, limit: usize) -> Solution<()> {
+fn search(model: &JointModel, start: DVector<f64>, tolerance: f64, limit: usize) -> Solution<()> {
     let first = first_inflation(model, &start, 1.0);
     maximise(model, start, (first, 1.0), tolerance, limit)
 }
@@ -162,9 +195,9 @@ struct About {
 }
 
 impl About {
-    fn new(all: &PhotographModel, solution: &Solution<()>) -> Option<Self> {
-        let [scene, ..] = all.layout();
-        let (broad, count) = (all.gaussian(), solution.w.len() - scene);
+    fn new(broad: &Gaussian, solution: &Solution<()>) -> Option<Self> {
+        let scene = broad.basis().ncols();
+        let count = solution.w.len() - scene;
         let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
         let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
         let others = solution.w.rows(scene, count).into_owned();
@@ -235,61 +268,79 @@ impl About {
 }
 
 impl Maximum {
-    fn of(model: &PhotographModel, found: &Solution<()>, ln_share: f64) -> Option<Self> {
+    fn of(model: &JointModel, found: &Solution<()>, ln_share: f64) -> Option<Self> {
         let ln_evidence = ln_share + found.ln_evidence(1.0)?;
-        let point = model.point(&found.w);
+        // spectrum and sheet are the same in all photographs
+        let first = model.members().first()?;
+        let w = first.own(&found.w);
+        let point = first.model.point(&w);
         let reflectance = reflectance(&point);
-        let [scene, sheet, camera, end] = model.layout();
-        let basis = model.gaussian().basis();
-        let bands = reflectance.len();
-        let mut slopes = DMatrix::zeros(bands, end);
-        for (band, albedo) in point.albedo.iter().enumerate() {
-            let change = point.departure.reflectance[0] * albedo * (1.0 - albedo);
-            for n in 0..scene {
-                slopes[(band, n)] = change * basis[(band, n)];
-            }
-        }
-        let unknowns = model.scene_unknowns().iter().zip(scene..);
-        let of_sheet = unknowns.filter(|(expected, _)| expected.unknown.is_of_sheet()).map(|(_, n)| n);
-        for n in of_sheet.chain(sheet..camera) {
-            let mut beside = found.w.clone();
-            beside[n] += STEP;
-            let moved = model.point(&beside).departure.reflectance;
-            let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
-            for (band, albedo) in point.albedo.iter().enumerate() {
-                slopes[(band, n)] = slope * albedo + offset;
-            }
-        }
         let lower = found.information()?.l();
         let widened = rms(&found.at.residuals).max(1.0);
+        let slopes = slopes(model, &w, &point, reflectance.len())?;
         let of_facets = widened * lower.solve_lower_triangular(&slopes.transpose())?;
-        let spread = match model.instrument_errors(&point.albedo) {
+        let spread = match first.model.instrument_errors(&point.albedo) {
             Some(errors) => {
                 DMatrix::from_rows(&of_facets.row_iter().chain(errors.row_iter()).collect::<Vec<_>>())
             }
             None => of_facets,
         };
-        let own = lower.solve_lower_triangular(&DMatrix::identity(end, end))?;
-        let sd = |n: usize| widened * own.column(n).norm();
-        let fitted = model.scene_unknowns().iter().zip(scene..sheet).map(|(expected, n)| {
-            let (value, slope) = expected.at(found.w[n]);
-            let value = if expected.unknown == &EXPOSURE { point.exposure } else { value };
-            let sd_of = sd(n);
-            Fitted { unknown: expected.unknown, value, sd: sd_of * slope.abs(), supported: sd_of < SUPPORTED }
+        let own = lower.solve_lower_triangular(&DMatrix::identity(found.w.len(), found.w.len()))?;
+        let sd = |place: usize| widened * own.column(place).norm();
+        let seen = model.members().iter().zip(model.each(&found.at.residuals)).map(|(member, residuals)| {
+            let w = member.own(&found.w);
+            let exposure = member.model.point(&w).exposure;
+            let [scene, ..] = member.model.layout();
+            let fitted = member.model.scene_unknowns().iter().zip(scene..).map(|(expected, n)| {
+                let (value, slope) = expected.at(w[n]);
+                let value = if expected.unknown == &EXPOSURE { exposure } else { value };
+                let sd = sd(member.place(n));
+                Fitted { unknown: expected.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
+            });
+            let values = member.model.values().norm().max(f64::MIN_POSITIVE);
+            Seen {
+                exposure,
+                fitted: fitted.collect(),
+                residuals,
+                unexplained: member.model.left_over(&w).norm() / values,
+            }
         });
-        let left = model.left_over(&found.w);
         Some(Self {
             ln_evidence,
-            fitted: fitted.collect(),
-            unexplained: left.norm() / model.values().norm().max(f64::MIN_POSITIVE),
-            residuals: found.at.residuals.clone(),
-            point,
+            seen: seen.collect(),
+            albedo: point.albedo,
             reflectance,
             spread,
             trace: found.trace.clone(),
             termination: found.termination,
         })
     }
+}
+
+/// Derivatives of the reflectance in every waveband by all numbers of the model, those of the first photograph being `w`.
+fn slopes(model: &JointModel, w: &DVector<f64>, point: &Point, bands: usize) -> Option<DMatrix<f64>> {
+    let first = model.members().first()?;
+    let [scene, sheet, camera, _] = first.model.layout();
+    let basis = model.gaussian().basis();
+    let mut slopes = DMatrix::zeros(bands, model.unknowns());
+    for (band, albedo) in point.albedo.iter().enumerate() {
+        let change = point.departure.reflectance[0] * albedo * (1.0 - albedo);
+        for n in 0..scene {
+            slopes[(band, first.place(n))] = change * basis[(band, n)];
+        }
+    }
+    let unknowns = first.model.scene_unknowns().iter().zip(scene..);
+    let of_sheet = unknowns.filter(|(expected, _)| expected.unknown.is_of_sheet()).map(|(_, n)| n);
+    for n in of_sheet.chain(sheet..camera) {
+        let mut beside = w.clone();
+        beside[n] += STEP;
+        let moved = first.model.point(&beside).departure.reflectance;
+        let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
+        for (band, albedo) in point.albedo.iter().enumerate() {
+            slopes[(band, first.place(n))] = slope * albedo + offset;
+        }
+    }
+    Some(slopes)
 }
 
 fn rms(residuals: &DVector<f64>) -> f64 {
@@ -303,8 +354,8 @@ fn reflectance(point: &Point) -> DVector<f64> {
     DVector::from_iterator(point.albedo.len(), point.albedo.iter().map(of))
 }
 
-/// The mean of all maxima by their evidence, what they do not agree on as an error.
-fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<Estimate> {
+/// The mean of all maxima by their evidence, what they do not agree on as an error; one estimate for each photograph.
+fn mean(maxima: Vec<Maximum>, trace: &[Vec<Iteration>]) -> Option<Vec<Estimate>> {
     let most = maxima.first()?.ln_evidence;
     let odds: Vec<f64> = maxima.iter().map(|one| (one.ln_evidence - most).exp()).collect();
     let total: f64 = odds.iter().sum();
@@ -315,23 +366,25 @@ fn mean(maxima: Vec<Maximum>, trace: Vec<Vec<Iteration>>) -> Option<Estimate> {
     let mut albedo = vec![0.0; bands];
     let mut rows = Vec::new();
     for (one, share) in maxima.iter().zip(shares()) {
-        albedo.iter_mut().zip(&one.point.albedo).for_each(|(sum, albedo)| *sum += share * albedo);
+        albedo.iter_mut().zip(&one.albedo).for_each(|(sum, albedo)| *sum += share * albedo);
         rows.extend(one.spread.row_iter().map(|row| share.sqrt() * row));
         rows.push(share.sqrt() * (&one.reflectance - &reflectance).transpose());
     }
     let best = maxima.into_iter().next()?;
-    Some(Estimate {
-        total: Some(albedo),
+    let spread = DMatrix::from_rows(&rows);
+    let of = |seen: Seen| Estimate {
+        total: Some(albedo.clone()),
         reflectance: reflectance.iter().copied().collect(),
-        spread: Some(DMatrix::from_rows(&rows)),
-        exposure: best.point.exposure,
-        fitted: best.fitted,
+        spread: Some(spread.clone()),
+        exposure: seen.exposure,
+        fitted: seen.fitted,
         findings: Vec::new(),
         skipped: Vec::new(),
-        residual_rms: rms(&best.residuals),
-        unexplained: best.unexplained,
+        residual_rms: rms(&seen.residuals),
+        unexplained: seen.unexplained,
         iterations: trace.iter().map(|run| run.len() as u32).sum(),
-        trace,
+        trace: trace.to_vec(),
         termination: best.termination,
-    })
+    };
+    Some(best.seen.into_iter().map(of).collect())
 }

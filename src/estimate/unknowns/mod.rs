@@ -53,7 +53,7 @@ pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
 use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
-use sun_colour::SUN_COLOUR;
+pub use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
 use vignetting::VIGNETTING;
 

@@ -3,6 +3,7 @@
 use super::{Expected, Factor, Role, SceneModel, Unknown};
 use crate::camera::CameraResponse;
 use crate::error::Result;
+use crate::estimate::photograph::conditions::Daylight;
 use crate::forward::{Card, FacetModel, Lighting, Lit};
 use crate::geometry::{Fold, Light};
 use crate::response::{ModeLight, Response};
@@ -18,6 +19,10 @@ pub struct FoldInLight {
     pub tolerance: Option<f64>,
     /// Sun and sky as the camera responds to them.
     pub lighting: Lighting,
+    /// Relative power of the sun, one value per waveband.
+    pub sun_power: Vec<f64>,
+    /// The daylight that the sun was said to be, if it is any.
+    pub daylight: Option<Daylight>,
     /// Whether the colour of the sky is given.
     pub has_sky_illuminant: bool,
     /// The card in the place of one panel, if there is one.

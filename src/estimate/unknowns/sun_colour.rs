@@ -1,20 +1,25 @@
 //! The colour of the sun: daylight of unknown temperature.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{
+    Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown, Whose,
+};
+use crate::camera::CameraResponse;
+use crate::error::Result;
 use crate::estimate::photograph::conditions::Daylight;
+use crate::spectrum::{Outside, daylight_vectors, daylight_weights};
 
-/// Correlated colour temperature of the sun, K.
+/// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight takes the place of what was said.
 pub static SUN_COLOUR: Unknown = Unknown {
     name: "sun_cct_k",
     about: "Correlated colour temperature of the sun",
     unit: Some("K"),
-    flag: &AUTO,
+    flag: &Flag { value: "daylight", help: "Colour of the sun, where the illuminant is daylight" },
     range: 0.0..=f64::INFINITY,
     scale: Scale::Reciprocal,
-    role: Role::Photograph,
+    role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Photograph,
-        prior,
+        prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
             ideal: |told| 1e6 / told.daylight.map_or(ANY_MIRED, Daylight::mired),
@@ -30,10 +35,47 @@ const ANY_MIRED: f64 = 187.0;
 /// As much as a tenth more or less aerosol (optical depth at 500 nm) makes of it.
 const SD_MIRED: f64 = 7.0;
 
-fn prior(told: &Told) -> Option<Normal> {
-    let mean = match told.daylight? {
+fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
+    Ok(scene.daylight.map(of_daylight))
+}
+
+fn of_photograph(told: &Told) -> Option<Normal> {
+    told.daylight.map(of_daylight)
+}
+
+fn of_daylight(said: Daylight) -> Normal {
+    let mean = match said {
         Daylight::Cie { .. } => ANY_MIRED,
         Daylight::OfSun { mired } => mired,
     };
-    Some(Normal { mean, sd: SD_MIRED })
+    Normal { mean, sd: SD_MIRED }
+}
+
+/// Every sun becomes three of other colours.
+fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
+    let Some(said) = scene.daylight else { return Ok(()) };
+    let nodes = [mean - 2.0 * sd, mean, mean + 2.0 * sd];
+    let suns: Vec<_> = nodes.iter().map(|mired| sun(scene, said, *mired)).collect::<Result<_>>()?;
+    sources.replace(|source| match source.lamp {
+        Lamp::Sky { .. } => vec![source],
+        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => {
+            let of = |(at, sun): (usize, &CameraResponse)| {
+                source.seen_by(sun.clone()).with(&SUN_COLOUR, Factor::Node { nodes, at })
+            };
+            suns.iter().enumerate().map(of).collect()
+        }
+    });
+    Ok(())
+}
+
+/// The camera's response to the sun, as much redder or bluer than it was said to be as daylight of this reciprocal temperature is.
+fn sun(scene: &FoldInLight, said: Daylight, mired: f64) -> Result<CameraResponse> {
+    let [s0, s1, s2] = daylight_vectors()?.map(|vector| vector.on(&scene.grid, Outside::Refuse));
+    let (s0, s1, s2) = (s0?, s1?, s2?);
+    let [[now_1, now_2], [said_1, said_2]] = [mired, said.mired()].map(|mired| daylight_weights(1e6 / mired));
+    let power = scene.sun_power.iter().enumerate().map(|(band, power)| {
+        let of = |m1: f64, m2: f64| s0[band] + m1 * s1[band] + m2 * s2[band];
+        power * of(now_1, now_2) / of(said_1, said_2)
+    });
+    scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power.collect::<Vec<_>>())
 }

@@ -7,7 +7,7 @@ use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::model::MOST_MIRED;
 use crate::estimate::photograph::parts::Eye;
 use crate::scene::FoldSetting;
-use crate::spectrum::{Outside, daylight_vectors, daylight_weights};
+use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors, daylight_weights};
 
 /// Two laboratories that measure the same model of a camera differ by that share of the highest point of a curve, and over that many
 /// nanometres alike.
@@ -34,14 +34,18 @@ pub fn of(setting: &FoldSetting) -> Result<Eye> {
     });
     let sun = DVector::from_column_slice(&scene.illuminants()?[0].power);
     let sky = scene.sky_illuminant()?.map_or_else(|| sun.clone(), |sky| DVector::from_vec(sky.power));
-    let vectors = daylight_vectors()?.map(|vector| vector.on(&grid, Outside::Refuse));
-    let [s0, s1, s2] = vectors;
-    let daylight = DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec));
+    let daylight = vectors(&grid)?;
     let white = &sensitivities * &sun;
     // a camera that stands in for another is off by what such cameras were measured to be
     let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));
     let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, sd);
     Ok(Eye { wavelengths_nm, sensitivities, errors, sun, sky, daylight, reference: white.imax() })
+}
+
+/// Mean daylight and its two characteristic vectors: waveband by three.
+pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
+    let [s0, s1, s2] = daylight_vectors()?.map(|vector| vector.on(grid, Outside::Refuse));
+    Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
 }
 
 /// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow filter, and is right.
@@ -72,12 +76,13 @@ fn errors(
     all
 }
 
-/// The daylight that the sun was said to be, if it is any.
-pub fn daylight(eye: &Eye) -> Option<Daylight> {
-    let sun = &eye.sun / eye.sun.mean();
+/// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its two characteristic vectors, waveband
+/// by three.
+pub fn daylight(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Daylight> {
+    let sun = sun / sun.mean();
     let off = |mired: f64| {
         let [m1, m2] = daylight_weights(1e6 / mired);
-        let daylight = &eye.daylight * DVector::from_column_slice(&[1.0, m1, m2]);
+        let daylight = vectors * DVector::from_column_slice(&[1.0, m1, m2]);
         let daylight = &daylight / daylight.mean();
         ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
     };

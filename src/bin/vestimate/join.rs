@@ -1,0 +1,117 @@
+//! `--join`: photographs of one sheet, estimated together.
+
+use std::cell::RefCell;
+use std::str::FromStr;
+
+use vfold::estimate::photograph::{self, Parts};
+use vfold::stream::{Fields, Member, Reader, Record, Sample, Together, pipe_together};
+use vfold::{Error, Result};
+
+use super::estimator::{Context, Estimator};
+
+/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused.
+const LN_SEVERAL: f64 = 5.0;
+
+/// How records name their sheet.
+#[derive(Clone, Debug)]
+pub enum Join {
+    /// By the id without its suffix.
+    Id,
+    /// In a field.
+    Field(String),
+    /// In a list of ids.
+    Ids(Vec<String>),
+}
+
+impl FromStr for Join {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        if text.is_empty() {
+            return Err("write a field, or ids with commas between".to_owned());
+        }
+        let ids: Vec<String> = text.split(',').map(str::to_owned).collect();
+        Ok(match text {
+            "id" => Self::Id,
+            _ if ids.len() > 1 => Self::Ids(ids),
+            _ => Self::Field(text.to_owned()),
+        })
+    }
+}
+
+impl Join {
+    /// The sheet that a sample is of; none if it stands alone.
+    ///
+    /// # Errors
+    /// A sample that does not name its sheet where it should.
+    pub fn sheet(&self, sample: &Sample) -> Result<Option<String>> {
+        let id = sample.id();
+        match self {
+            Self::Id => {
+                let sheet = id.rsplit_once(['-', '_']).map_or(id.as_str(), |(sheet, _)| sheet);
+                Ok(Some(sheet.to_owned()))
+            }
+            Self::Field(field) => match sample.fields.text_at(field)? {
+                Some(sheet) => Ok(Some(sheet)),
+                None => Err(Error::field(field, format!("{id} has none; it names the sheet for --join"))),
+            },
+            Self::Ids(ids) => Ok(ids.contains(&id).then(|| ids.join(","))),
+        }
+    }
+}
+
+/// Passes all records of `reader` through the estimator, photographs of one sheet together.
+pub fn run(
+    join: &Join,
+    reader: &mut Reader,
+    estimator: &Estimator,
+    done: impl FnMut(Record, Option<Vec<Fields>>) -> Result<()>,
+) -> Result<()> {
+    let named = RefCell::new(match join {
+        Join::Ids(ids) => ids.clone(),
+        Join::Id | Join::Field(_) => Vec::new(),
+    });
+    let sheet = |sample: &Sample| {
+        named.borrow_mut().retain(|id| *id != sample.id());
+        join.sheet(sample)
+    };
+    pipe_together(reader, estimator, sheet, done)?;
+    match named.into_inner().as_slice() {
+        [] => Ok(()),
+        [id, ..] => Err(Error::usage(
+            "--join",
+            format!("no record has the id {id}"),
+            "give the ids as records have them",
+        )),
+    }
+}
+
+impl Together for Estimator<'_> {
+    fn samples(&self, members: &mut [Member<Context>]) -> Result<Vec<Vec<Fields>>> {
+        let photographs = members.iter().map(|one| self.photograph(&one.context, &one.sample));
+        let photographs: Vec<Parts> = photographs.collect::<Result<_>>()?;
+        let (context, rest) =
+            members.split_first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
+        if rest.iter().any(|other| !other.context.is_estimated_like(&context.context)) {
+            let problem = "photographs of one sheet have different wavelengths; give all scenes the same";
+            return Err(Error::field("wavelengths_nm", problem));
+        }
+        let prior = context.context.prior()?;
+        let together = photograph::estimate(&photographs, prior, self.model_error())?;
+        let mut apart = 0.0;
+        for one in &photographs {
+            apart += photograph::estimate(std::slice::from_ref(one), prior, self.model_error())?.ln_evidence;
+        }
+        let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
+        let more = apart - together.ln_evidence;
+        if more > LN_SEVERAL {
+            let problem = format!(
+                "{} are not photographs of one sheet: facets are e^{more:.0} times likelier as those of several; join those of one",
+                ids.join(", ")
+            );
+            return Err(Error::field("id", problem));
+        }
+        let estimates = members.iter_mut().zip(&together.photographs);
+        estimates.map(|(one, estimate)| self.joined(&one.context, &mut one.sample, estimate, &ids)).collect()
+    }
+}

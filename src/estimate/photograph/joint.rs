@@ -1,0 +1,152 @@
+//! Photographs of one sheet as one model: they share the spectrum, the sheet's own unknowns and variations, and the errors of a camera
+//! that took more than one of them; each has a fold, a light and a lens of its own.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::ModelError;
+use super::kinds::{Kind, Kinds};
+use super::model::PhotographModel;
+use super::parts::Parts;
+use crate::estimate::gaussian::Gaussian;
+use crate::solve::posterior::{Linearised, Model};
+
+/// A photograph with what does not depend on the kind of sheet nor on the class of spectra.
+pub struct Photograph<'a> {
+    /// What it is made of.
+    pub parts: &'a Parts,
+    /// The kinds of sheets as it shows them.
+    pub kinds: Kinds<'a>,
+    /// What makes residuals standard normal.
+    pub whitening: DMatrix<f64>,
+}
+
+impl<'a> Photograph<'a> {
+    /// Photographs of one sheet; none if facets are not finite.
+    #[must_use]
+    pub fn all(of: &'a [Parts], error: ModelError) -> Option<Vec<Self>> {
+        let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
+            let whitening = error.whitening(&parts.places, &parts.values, &parts.sd)?;
+            Some(Self { parts, kinds, whitening })
+        };
+        of.iter().zip(Kinds::of(of)).map(photograph).collect()
+    }
+}
+
+/// One of the photographs within the model of all.
+pub struct Member<'a> {
+    /// The model of this one alone.
+    pub model: PhotographModel<'a>,
+    /// Which of all numbers each of its own is.
+    places: Vec<usize>,
+}
+
+impl Member<'_> {
+    /// Which of all numbers the model's `n`-th is.
+    #[must_use]
+    pub fn place(&self, n: usize) -> usize {
+        self.places[n]
+    }
+
+    /// Its own numbers among all.
+    #[must_use]
+    pub fn own(&self, w: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.places.len(), self.places.iter().map(|place| w[*place]))
+    }
+}
+
+/// All photographs of a sheet under one kind of sheet and one Gaussian of albedos: numbers of the spectrum first.
+pub struct JointModel<'a> {
+    /// The photographs, one or more.
+    members: Vec<Member<'a>>,
+    gaussian: &'a Gaussian,
+    count: usize,
+}
+
+impl<'a> JointModel<'a> {
+    /// The model.
+    #[must_use]
+    pub fn new(photographs: &'a [Photograph<'a>], kind: Kind, gaussian: &'a Gaussian) -> Self {
+        let mut members: Vec<Member<'a>> = Vec::with_capacity(photographs.len());
+        let mut count = gaussian.basis().ncols();
+        for (photograph, Photograph { parts, kinds, whitening }) in photographs.iter().enumerate() {
+            let model = PhotographModel::new(parts, kinds, kind, gaussian, whitening);
+            let same_camera =
+                photographs[..photograph].iter().position(|other| other.parts.eye.is(&parts.eye));
+            let [scene, sheet, camera, end] = model.layout();
+            let is_shared = |n: usize| match n {
+                n if n < scene || (sheet..camera).contains(&n) => members.first(),
+                n if n < sheet && model.scene_unknowns()[n - scene].unknown.is_of_sheet() => members.first(),
+                n if n >= camera => same_camera.map(|other| &members[other]),
+                _ => None,
+            };
+            let place = |n: usize| match is_shared(n) {
+                Some(other) => other.place(n),
+                None if n < scene => n,
+                None => {
+                    count += 1;
+                    count - 1
+                }
+            };
+            let places = (0..end).map(place).collect();
+            members.push(Member { model, places });
+        }
+        Self { members, gaussian, count }
+    }
+
+    /// The photographs.
+    #[must_use]
+    pub fn members(&self) -> &[Member<'a>] {
+        &self.members
+    }
+
+    /// The Gaussian of logits of albedo.
+    #[must_use]
+    pub fn gaussian(&self) -> &'a Gaussian {
+        self.gaussian
+    }
+
+    /// Residuals of each photograph.
+    #[must_use]
+    pub fn each(&self, residuals: &DVector<f64>) -> Vec<DVector<f64>> {
+        let mut first = 0;
+        let of = |member: &Member| {
+            let count = member.model.values().len();
+            first += count;
+            residuals.rows(first - count, count).into_owned()
+        };
+        self.members.iter().map(of).collect()
+    }
+}
+
+impl Model for JointModel<'_> {
+    type Second = ();
+
+    fn unknowns(&self) -> usize {
+        self.count
+    }
+
+    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+        let each: Vec<_> = self.members.iter().map(|member| member.model.residuals(&member.own(w))).collect();
+        DVector::from_iterator(each.iter().map(DVector::len).sum(), each.iter().flatten().copied())
+    }
+
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        let each: Vec<_> = self.members.iter().map(|member| member.model.linearise(&member.own(w))).collect();
+        let values = each.iter().map(|one| one.residuals.len()).sum();
+        let residuals = each.iter().flat_map(|one| one.residuals.iter().copied());
+        let residuals = DVector::from_iterator(values, residuals);
+        let (mut jacobian, mut first) = (DMatrix::zeros(values, self.count), 0);
+        for (member, one) in self.members.iter().zip(&each) {
+            for (column, place) in one.jacobian.column_iter().zip(&member.places) {
+                jacobian.column_mut(*place).rows_mut(first, column.len()).copy_from(&column);
+            }
+            first += one.residuals.len();
+        }
+        Linearised { residuals, jacobian, second: () }
+    }
+
+    /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
+    fn curvature(&self, (): &(), _: &DVector<f64>) -> DMatrix<f64> {
+        DMatrix::zeros(self.count, self.count)
+    }
+}

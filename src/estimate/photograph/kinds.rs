@@ -1,0 +1,203 @@
+//! Kinds of sheets as photographs of one of them show it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::conditions::Conditions;
+use super::parts::{Parts, Radiance};
+use super::sheets::{Departure, FAMILY_NODES, FUZZ, FamilyNodes, Sheets};
+use crate::estimate::unknowns::Unknown;
+use crate::solve::Eigen;
+
+/// How far a sheet is from the mean of those that were measured, in standard deviations of these: more than one, as they are few.
+const MEASURED_VARIATION: f64 = 1.4;
+/// How far sheets of a family vary beyond its numbers, and matt ones from being that, in the same unit.
+const FAMILY_VARIATION: f64 = 0.4;
+const MATT_VARIATION: f64 = 0.2;
+
+/// Numbers by which measured sheets vary.
+const VARIATIONS: usize = 8;
+/// Least radiance that departures are compared with: what is added to the brightness of the facets.
+const FLOOR: f64 = 0.05;
+/// A sheet that departs from a Lambertian one by more than that in the mean, relative to the brightness of the facets, is taken to depart
+/// by that: measured far from grazing directions, it is not known there.
+const MOST: f64 = 0.6;
+
+/// The kind that a sheet is taken to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Perfectly matt, or nearly so.
+    Matt,
+    /// A family: its numbers are among the conditions.
+    Family,
+    /// Like those that were measured.
+    Measured,
+}
+
+/// The kinds that are known, as one photograph shows them.
+pub struct Kinds<'a> {
+    sheets: &'a Sheets,
+    /// The mean of measured sheets.
+    measured: Departure,
+    /// How measured sheets differ, in units of a standard deviation: differences of departures.
+    variations: Vec<Departure>,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Matt, Self::Family, Self::Measured];
+
+    /// Standard deviation of its variations, that of measured sheets from their mean being 1.
+    fn variation(self) -> f64 {
+        match self {
+            Self::Measured => MEASURED_VARIATION,
+            Self::Matt => MATT_VARIATION,
+            Self::Family => FAMILY_VARIATION,
+        }
+    }
+
+    /// Whether an unknown makes a difference to sheets of this kind: the numbers of a family make none to others.
+    #[must_use]
+    pub fn has(self, unknown: &Unknown) -> bool {
+        match self {
+            Self::Family => true,
+            Self::Matt | Self::Measured => !unknown.is_of_sheet(),
+        }
+    }
+}
+
+impl<'a> Kinds<'a> {
+    /// Those of photographs of one sheet: measured sheets vary in the same ways in all of them.
+    #[must_use]
+    pub fn of(photographs: &'a [Parts]) -> Vec<Self> {
+        let bounded = bounded(photographs);
+        let ways = ways(photographs, &bounded);
+        let of = |(parts, measured): (&'a Parts, &Vec<Departure>)| {
+            let mean = vec![1.0 / measured.len() as f64; measured.len()];
+            Self {
+                sheets: &parts.sheets,
+                measured: sum(measured, &mean),
+                variations: ways.iter().map(|shares| sum(measured, shares)).collect(),
+            }
+        };
+        photographs.iter().zip(&bounded).map(of).collect()
+    }
+
+    /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says beyond them.
+    #[must_use]
+    pub fn variation_count(&self) -> usize {
+        self.variations.len() + 1
+    }
+
+    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak.
+    pub fn by_variation(&self, kind: Kind) -> impl Iterator<Item = Radiance> + '_ {
+        self.variations.iter().map(move |own| kind.variation() * &own.radiance)
+    }
+
+    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
+    #[must_use]
+    pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
+        let mut sum = match kind {
+            Kind::Measured => {
+                let mut mean = self.measured.clone();
+                mean.reflectance[0] +=
+                    self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
+                mean
+            }
+            // of these two the formula tells what an instrument says
+            Kind::Matt => Departure::none(&self.measured.radiance),
+            Kind::Family => self.family(conditions),
+        };
+        for (own, size) in self.variations.iter().zip(variations) {
+            sum.add(kind.variation() * size, own, [0.0, 0.0]);
+        }
+        sum
+    }
+
+    fn family(&self, conditions: &Conditions) -> Departure {
+        let FamilyNodes { gloss, gloss_roughness, body_roughness_deg } = FAMILY_NODES;
+        let shares = [
+            lagrange(gloss, conditions.gloss),
+            lagrange(gloss_roughness, conditions.gloss_roughness),
+            lagrange(body_roughness_deg, conditions.body_roughness_deg),
+        ];
+        let mut sum = Departure::none(&self.measured.radiance);
+        for (n, departure) in self.sheets.families.iter().enumerate() {
+            let share = shares[0][n / 9] * shares[1][n / 3 % 3] * shares[2][n % 3];
+            sum.add(share, departure, [1.0, 0.0]);
+        }
+        let ([a, b], fuzz) = (FUZZ, conditions.fuzz);
+        sum.add(fuzz * (fuzz - b) / (a * (a - b)), &self.sheets.fuzz[0], [0.0, 0.0]);
+        sum.add(fuzz * (fuzz - a) / (b * (b - a)), &self.sheets.fuzz[1], [0.0, 0.0]);
+        sum
+    }
+}
+
+/// Shares of three nodes at `x`.
+fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
+    [0, 1, 2].map(|at| {
+        let [own, a, b] = [0, 1, 2].map(|n| nodes[(at + n) % 3]);
+        (x - a) * (x - b) / ((own - a) * (own - b))
+    })
+}
+
+/// The sum of departures, each times its share.
+fn sum(all: &[Departure], shares: &[f64]) -> Departure {
+    let mut sum = all[0].less(&all[0]);
+    all.iter().zip(shares).for_each(|(one, share)| sum.add(*share, one, [0.0; 2]));
+    sum
+}
+
+/// Measured sheets in each photograph, none of which departs too far in any.
+fn bounded(photographs: &[Parts]) -> Vec<Vec<Departure>> {
+    let count = photographs.first().map_or(0, |parts| parts.sheets.measured.len());
+    let share = |sheet: usize| {
+        let size = |parts: &Parts| {
+            let relative = relative(&parts.sheets.measured[sheet], &parts.sun.even);
+            relative.norm() / (relative.len() as f64).sqrt()
+        };
+        (MOST / photographs.iter().map(size).fold(0.0, f64::max)).min(1.0)
+    };
+    let shares: Vec<f64> = (0..count).map(share).collect();
+    let bounded = |(one, share): (&Departure, &f64)| {
+        let [slope, offset] = one.reflectance;
+        Departure {
+            radiance: *share * &one.radiance,
+            reflectance: [1.0 + share * (slope - 1.0), share * offset],
+        }
+    };
+    let of = |parts: &Parts| parts.sheets.measured.iter().zip(&shares).map(bounded).collect();
+    photographs.iter().map(of).collect()
+}
+
+fn relative(departure: &Departure, lambertian: &Radiance) -> DVector<f64> {
+    let relative = departure.radiance.zip_map(lambertian, |beyond, radiance| beyond / (radiance + FLOOR));
+    DVector::from_iterator(relative.len(), relative.iter().copied())
+}
+
+/// The directions in which measured sheets differ most, in units of a standard deviation: shares of each sheet, which add up to nothing.
+///
+/// # Source
+/// Principal components: Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer points than dimensions).
+fn ways(photographs: &[Parts], measured: &[Vec<Departure>]) -> Vec<Vec<f64>> {
+    let columns = |(parts, measured): (&Parts, &Vec<Departure>)| {
+        DMatrix::from_columns(&measured.iter().map(|one| relative(one, &parts.sun.even)).collect::<Vec<_>>())
+    };
+    let of_photographs: Vec<DMatrix<f64>> = photographs.iter().zip(measured).map(columns).collect();
+    let count = of_photographs.first().map_or(0, DMatrix::ncols);
+    let mut products = DMatrix::zeros(count, count);
+    for mut columns in of_photographs {
+        let middle = columns.column_mean();
+        columns.column_iter_mut().for_each(|mut column| column -= &middle);
+        products += columns.tr_mul(&columns);
+    }
+    let Eigen { values, vectors } = Eigen::of_symmetric(products);
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    let scale = 1.0 / (count as f64).sqrt();
+    let shares = |n: &usize| {
+        let own = vectors.column(*n);
+        let middle = own.mean();
+        own.iter().map(|share| scale * (share - middle)).collect()
+    };
+    order.iter().take(VARIATIONS.min(count.saturating_sub(1))).map(shares).collect()
+}

@@ -1,0 +1,158 @@
+//! Several photographs of one sheet, estimated together.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::real_sheets::{Outcome, numbers, outcome, print_table, real_records};
+use crate::common::{Ended, Workdir, left_out};
+
+const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/real");
+
+fn samples(run: &Ended) -> Vec<Value> {
+    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    records.filter(|record| record["kind"] == "sample").collect()
+}
+
+/// What comes of these photographs together, each record of them the same.
+fn together(paths: &[PathBuf]) -> Outcome {
+    let folder = Workdir::new();
+    let name = |path: &Path| path.file_stem().unwrap().to_string_lossy().into_owned();
+    let records: Vec<String> = paths.iter().map(|path| format!("{}.ndjson", name(path))).collect();
+    let made: String =
+        paths.iter().zip(&records).map(|(path, file)| real_records(path, file) + "\n").collect();
+    let join = match paths.len() {
+        1 => String::new(),
+        _ => format!("--join={}", paths.iter().map(|path| name(path)).collect::<Vec<_>>().join(",")),
+    };
+    let run = folder.sh(&format!("{made}cat {} | vestimate -q {join}", records.join(" ")));
+    assert!(run.status == 0, "{}", run.stderr);
+    let samples = samples(&run);
+    assert!(samples.len() == paths.len());
+    let spectrum = |sample: &Value| numbers(&sample["estimate"]["reflectance"]);
+    assert!(samples.iter().all(|sample| spectrum(sample) == spectrum(&samples[0])));
+    let joined = samples[0]["estimate"]["joined"].as_array().map_or(0, Vec::len);
+    assert!(joined == if paths.len() > 1 { paths.len() } else { 0 });
+    let sidecar = serde_json::from_str::<Value>(&std::fs::read_to_string(&paths[0]).unwrap()).unwrap();
+    let truth = numbers(&sidecar["reflectance"]);
+    outcome(&PathBuf::from(records.join("+").replace(".ndjson", "")), &samples[0], &truth, <[f64]>::to_vec)
+}
+
+/// One painted sheet at two angles and from two sides: path traced, with all that real sheets and cameras have.
+#[test]
+fn photographs_of_one_sheet_tell_more_together() {
+    let paths = ["all_green_paint", "pairs/green_paint_72", "pairs/green_paint_side"]
+        .map(|name| Path::new(SHARED).join(name).with_extension("json"));
+    if let Some(path) = paths.iter().find(|path| !path.exists()) {
+        return left_out(&format!("{}, which is not there", path.display()));
+    }
+    let [a, b, c] = paths;
+    let sets = [
+        vec![a.clone()],
+        vec![b.clone()],
+        vec![c.clone()],
+        vec![a.clone(), b.clone()],
+        vec![b.clone(), c.clone()],
+        vec![a, b, c],
+    ];
+    let all: Vec<Outcome> = sets.iter().map(|set| together(set)).collect();
+    print_table(&all);
+    let alone = |of: fn(&Outcome) -> f64| all[..3].iter().map(of).sum::<f64>() / 3.0;
+    for joint in &all[3..] {
+        assert!(joint.rmse < 1.6 * alone(|one| one.rmse), "{}", joint.rmse);
+        assert!(joint.within_two_sd > 0.85 && joint.bar < alone(|one| one.bar));
+    }
+}
+
+/// Shell lines that photograph a glossy sheet at two angles, as `sheet-45.ndjson` and `sheet-72.ndjson`, and another as `other-45.ndjson`.
+const GLOSSY: &str = r#"
+photograph() {
+    vkernel --angle-deg $2 > scene.json
+    vforward scene.json --reflectance $3 --gloss 0.6 --gloss-roughness 0.4 --exposure $4 --render $1.exr --render-size 320x240 -o $1.json 2>/dev/null
+    oiiotool $1.exr -d uint16 -o $1.tif
+    vextract $1.tif --regions $1.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -q -o $1.ndjson
+}
+photograph sheet-45 45 cc24:orange 0.5
+photograph sheet-72 72 cc24:orange 0.5
+photograph other-45 50 cc24:foliage 0.5
+"#;
+
+/// Standard deviations of gloss, exposure and, in the mean, reflectance.
+fn deviations(sample: &Value) -> [f64; 3] {
+    let estimate = &sample["estimate"];
+    let [gloss, exposure] = ["gloss", "exposure"].map(|name| &estimate["fit"][name]);
+    let sd = numbers(&estimate["reflectance_sd"]);
+    let of = |one: &Value| one["sd"].as_f64().unwrap();
+    [of(gloss), of(exposure) / exposure["value"].as_f64().unwrap(), sd.iter().sum::<f64>() / sd.len() as f64]
+}
+
+/// Gloss and exposure brighten a fold alike at one angle; at two they do not.
+#[test]
+fn two_angles_tell_gloss_and_exposure_apart() {
+    let run = Workdir::new().sh(&format!(
+        "{GLOSSY}\ncat sheet-45.ndjson sheet-72.ndjson > both.ndjson
+        vestimate -q --fit auto both.ndjson
+        vestimate -q --join both.ndjson"
+    ));
+    assert!(run.status == 0, "{}", run.stderr);
+    let samples = samples(&run);
+    let [one, other, both, again] = [0, 1, 2, 3].map(|n| deviations(&samples[n]));
+    println!(
+        "sd of gloss, exposure, reflectance: at 45 degrees {one:.4?}, at 72 {other:.4?}, together {both:.4?}"
+    );
+    assert!((0..3).all(|n| both[n] < one[n].min(other[n])));
+    assert!(both[0] == again[0] && both[2] == again[2]);
+}
+
+/// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.
+#[test]
+fn brackets_fill_what_clipped() {
+    let run = Workdir::new().sh(&format!(
+        "{GLOSSY}\nphotograph bright-45 45 cc24:orange 2.5
+        cat bright-45.ndjson | tail -n 1 | python3 -c 'import json,sys; f=json.load(sys.stdin)[\"facet_rgb\"]; print(sum(x is None for x in f))'
+        cat sheet-45.ndjson bright-45.ndjson | vestimate -q --join=sheet-45,bright-45"
+    ));
+    assert!(run.status == 0, "{}", run.stderr);
+    let clipped: usize = run.stdout.lines().next().unwrap().parse().unwrap();
+    let records = run.stdout.lines().skip(1).map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let samples: Vec<Value> = records.filter(|record| record["kind"] == "sample").collect();
+    let exposures: Vec<f64> =
+        samples.iter().map(|one| one["estimate"]["exposure"].as_f64().unwrap()).collect();
+    println!("{clipped} of 200 facets clipped; exposures {exposures:?}");
+    assert!(clipped > 10);
+    assert!((exposures[1] / exposures[0] / 5.0 - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn sheets_that_differ_are_not_taken_for_one() {
+    let run = Workdir::new().sh(&format!(
+        "{GLOSSY}\ncat sheet-45.ndjson other-45.ndjson | vestimate -q --join=sheet-45,other-45"
+    ));
+    assert!(run.status == 3, "{}", run.stderr);
+    for sample in samples(&run) {
+        let error = sample["error"].as_str().unwrap();
+        assert!(error.contains("sheet-45, other-45 are not photographs of one sheet"), "{error}");
+        assert!(sample["estimate"].is_null());
+    }
+}
+
+#[test]
+fn records_name_their_sheet() {
+    let run = Workdir::new().sh(&format!(
+        r#"{GLOSSY}
+        cat sheet-45.ndjson sheet-72.ndjson other-45.ndjson > all.ndjson
+        vestimate -q --join all.ndjson > by-id.ndjson
+        sed 's/"kind":"sample"/"kind":"sample","sheet":"a"/' sheet-45.ndjson sheet-72.ndjson | vestimate -q --join=sheet > by-field.ndjson
+        cat by-id.ndjson by-field.ndjson
+        ! vestimate -q --join=sheet-45,none all.ndjson -o failed.ndjson
+        ! vestimate -q --join=sheet all.ndjson -o failed.ndjson
+        ! ls failed.ndjson"#
+    ));
+    assert!(run.stderr.contains("--join: no record has the id none"), "{}", run.stderr);
+    assert!(run.stderr.contains("sheet-45 has none; it names the sheet for --join"), "{}", run.stderr);
+    let samples = samples(&run);
+    let joined = |n: usize| samples[n]["estimate"]["joined"].as_array().map_or(0, Vec::len);
+    assert_eq!([0, 1, 2, 3, 4].map(joined), [2, 2, 0, 2, 2]);
+    let ids: Vec<_> = samples.iter().map(|one| one["id"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["sheet-45", "sheet-72", "other-45", "sheet-45", "sheet-72"]);
+}
