@@ -28,5 +28,7 @@ mod ready;
 mod real_sheets;
 mod report;
 mod resume;
+mod silence;
 mod spectra_files;
 mod terminal;
+mod verdict;

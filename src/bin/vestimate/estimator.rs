@@ -8,6 +8,7 @@ use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SceneModel, Unknown};
+use vfold::estimate::verdict::{Doubt, EXPLAINED, Verdict, beyond_chance};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, photograph, smooth};
 use vfold::scene::{FoldSetting, PhotographedFold, Setting};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
@@ -16,16 +17,15 @@ use vfold::{Error, Result};
 
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
+use super::other_angle::OtherAngle;
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
 /// Least change that counts, in standard deviations.
-const CUTOFF: f64 = 1e-2;
+pub const CUTOFF: f64 = 1e-2;
 
-/// Residuals, in units of their expected size, below which a photograph is taken to be of an ideal fold.
-const IDEAL: f64 = 2.0;
 /// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
 const UNEXPLAINED: f64 = 0.3;
 
@@ -48,6 +48,9 @@ pub struct Context {
     start: Option<Vec<f64>>,
     /// The scene's record, if it is that of a fold.
     record: Option<Scene>,
+    other_angle: OtherAngle,
+    /// What no facet shows, in words.
+    untold: String,
 }
 
 /// The method on the wavelengths of a scene.
@@ -144,13 +147,15 @@ impl Transform for Estimator<'_> {
             None => None,
         };
         let record = scene.fold_if_one()?.map(|_| scene.clone());
+        let untold = untold(scene)?;
         let scene = Setting::of(scene)?.model_to_fit(&self.fit)?;
-        Ok(Context { grid, scene, method, start, record })
+        Ok(Context { grid, scene, method, start, record, other_angle: OtherAngle::default(), untold })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
         let exposure = self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known));
+        let mut doubts = Vec::new();
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 let deviations = Deviations::of(&noise, context.scene.facets(), &rgb)?;
@@ -158,10 +163,11 @@ impl Transform for Estimator<'_> {
                 let data = FacetData::new(&context.scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
                 let ideal = map::estimate(&data, prior, context.start.as_deref());
-                match self.of_photograph(context, sample, prior, exposure, &ideal)? {
-                    Some(real) => (real, how),
-                    None => (ideal, how),
+                if !sample.is_photograph() {
+                    doubts.extend(beyond_chance(&ideal, data.size().1));
                 }
+                let given = (&measured, exposure);
+                (self.of_photograph(context, sample, prior, given, ideal, &mut doubts)?, how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
@@ -179,6 +185,10 @@ impl Transform for Estimator<'_> {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
         };
+        let verdict = match context.method {
+            SceneMethod::Map(_) => Some(Verdict::of(&estimate, doubts, &context.untold)),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => None,
+        };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let is_weighed = match context.method {
             SceneMethod::Map(_) => true,
@@ -190,6 +200,7 @@ impl Transform for Estimator<'_> {
             wavelengths_nm: context.grid.wavelengths_nm(),
             estimate: &estimate,
             noise: is_weighed.then_some(&noise),
+            verdict: verdict.as_ref(),
             with_covariance,
         })?;
         if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
@@ -240,29 +251,45 @@ impl<'a> Estimator<'a> {
         Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
-    /// The estimate from a photograph of a real sheet, if the sample is one that an ideal fold does not explain, or that a camera took of
-    /// which the curves are another's.
+    /// The estimate of a photograph, `ideal` being that of an ideal fold as it was told: with the angle that the facets tell if another
+    /// explains them; of a real sheet if an ideal fold does not, or if a camera took it of which the curves are another's.
     fn of_photograph(
         &self,
         context: &Context,
         sample: &Sample,
         prior: &Prior,
-        exposure: Exposure,
-        ideal: &Estimate,
-    ) -> Result<Option<Estimate>> {
-        let known = match exposure {
+        given: (&Measured, Exposure),
+        ideal: Estimate,
+        doubts: &mut Vec<Doubt>,
+    ) -> Result<Estimate> {
+        let Some(record) = context.record.as_ref().filter(|_| sample.is_photograph()) else {
+            return Ok(ideal);
+        };
+        if sample.is_developed()? {
+            doubts.push(developed());
+        }
+        let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
+        let stands_in = record.camera()?.stands_in.as_ref().map(|one| one.camera.clone());
+        if let Some(camera) = &stands_in {
+            doubts.push(stand_in(camera));
+        }
+        match context.other_angle.better(&ideal, record, &self.fit, given, prior)? {
+            Some(turned) if is_auto && stands_in.is_none() => {
+                doubts.extend(turned.doubt_if_far());
+                let findings = vec![turned.finding()];
+                return Ok(Estimate { findings, ..turned.estimate });
+            }
+            Some(turned) if !is_auto => doubts.push(turned.doubt_if_kept()),
+            Some(_) | None => {}
+        }
+        let is_ideal = ideal.residual_rms < EXPLAINED && stands_in.is_none();
+        let known = match given.1 {
             Exposure::Known(exposure) => Some(exposure),
             Exposure::Free => None,
-            Exposure::Sum => return Ok(None),
+            Exposure::Sum => return Ok(ideal),
         };
-        let is_auto = self.args.fit.is_empty() || self.args.fit.contains(&&AUTO);
-        let Some(record) = context.record.as_ref().filter(|_| is_auto && sample.is_photograph()) else {
-            return Ok(None);
-        };
-        let (is_ideal, stands_in) =
-            (ideal.residual_rms < IDEAL, record.camera()?.stands_in.as_ref().map(|one| one.camera.clone()));
-        if is_ideal && stands_in.is_none() {
-            return Ok(None);
+        if !is_auto || is_ideal {
+            return Ok(ideal);
         }
         let setting = FoldSetting::of(record)?;
         let parts = match PhotographedFold::of(&setting).parts(sample, known)? {
@@ -270,7 +297,9 @@ impl<'a> Estimator<'a> {
             Err(why) => {
                 if !self.args.common.quiet {
                     let what = match stands_in {
-                        Some(camera) if is_ideal => format!("the curves of {camera} are another camera's"),
+                        Some(camera) if ideal.residual_rms < EXPLAINED => {
+                            format!("the curves of {camera} are another camera's")
+                        }
                         _ => format!("misfit {:.1}: this is no ideal fold", ideal.residual_rms),
                     };
                     let text = format!(
@@ -279,10 +308,10 @@ impl<'a> Estimator<'a> {
                     );
                     cli::say("vestimate", &text);
                 }
-                return Ok(None);
+                return Ok(ideal);
             }
         };
-        photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS).map(Some)
+        photograph::estimate(&parts, prior, ModelError::OF_PHOTOGRAPHS)
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
@@ -340,6 +369,27 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
         100.0 * estimate.unexplained
     );
     Err(Error::field("facet_rgb", problem))
+}
+
+/// Light and camera as the scene has them: no facet shows that they are others.
+fn untold(scene: &Scene) -> Result<String> {
+    let lights = scene.illuminants()?;
+    let names: Vec<_> = lights.iter().map(|light| light.name.as_str()).collect();
+    Ok(format!("the light {} and the camera {}", names.join(", "), scene.camera()?.name))
+}
+
+fn developed() -> Doubt {
+    Doubt::new(
+        "a camera developed this picture, and neither its white balance nor its matrix was undone",
+        "take the RAW file, or give vextract --undo",
+    )
+}
+
+fn stand_in(camera: &str) -> Doubt {
+    Doubt::new(
+        format!("nobody measured the curves of {camera}: another camera's stand in for them"),
+        "make them of a photograph of a colour chart (vextract --save-camera)",
+    )
 }
 
 /// The same standard deviation for every facet, white being 1.

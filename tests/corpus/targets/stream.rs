@@ -116,6 +116,7 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
         wavelengths_nm: grid.wavelengths_nm(),
         estimate: &estimate,
         noise: None,
+        verdict: None,
         with_covariance: true,
     };
     match sample.set_estimate(&new) {
