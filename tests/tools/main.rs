@@ -17,6 +17,8 @@ mod estimates;
 mod fit;
 mod flat_sheets;
 mod ill_posed;
+mod install;
+mod measure;
 mod photographs;
 mod picker;
 mod plots;
