@@ -23,7 +23,7 @@ pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
-use crate::stream::{CameraRecord, Optics, Output, SpectrumRecord};
+use crate::stream::{CameraRecord, Failures, Optics, Output, SpectrumRecord};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
 
@@ -109,11 +109,11 @@ pub trait ToolArgs: Parser {
 /// Runs one tool and turns its outcome into an exit status.
 ///
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
-/// carry an `error`.
+/// carry an `error`; standard error says how many, and why the first does.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
         Ok(args) => without_panic(|| frame(&args, tool)),
-        Err(help) if !help.use_stderr() => help.print().map(|()| 0).map_err(Error::Output),
+        Err(help) if !help.use_stderr() => help.print().map(|()| Failures::default()).map_err(Error::Output),
         Err(error) => {
             let name = A::command().get_name().to_owned();
             say(&name, &format!("{}; see {name} --help", misuse(&error.render().to_string())));
@@ -121,8 +121,11 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
         }
     };
     match done {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::from(3),
+        Ok(failures) if failures.any() => {
+            say(A::command().get_name(), &failures.to_string());
+            ExitCode::from(3)
+        }
+        Ok(_) => ExitCode::SUCCESS,
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
         Err(e) => {
             say(A::command().get_name(), &e.to_string());
@@ -131,8 +134,8 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
     }
 }
 
-/// The tool between opening and finishing its output; how many records carry an error.
-fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<usize> {
+/// The tool between opening and finishing its output; which samples carry an error.
+fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<Failures> {
     let common = args.common();
     start_threads(common.threads)?;
     let mut out = match &common.resume {

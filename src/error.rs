@@ -21,7 +21,7 @@ pub enum Error {
 
     // ---- files ----
     /// A file cannot be opened, read or written.
-    #[error("{path}: {source}")]
+    #[error("{path}: {}", in_words(source))]
     File {
         /// The file, `-` for standard input or output.
         path: String,
@@ -29,7 +29,7 @@ pub enum Error {
         source: io::Error,
     },
     /// Standard output cannot be written.
-    #[error("standard output: {0}")]
+    #[error("standard output: {}", in_words(.0))]
     Output(#[source] io::Error),
 
     // ---- the stream ----
@@ -242,6 +242,12 @@ impl Error {
     pub fn usage(flag: &'static str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Usage { flag, problem: problem.into(), remedy: remedy.into() }
     }
+}
+
+/// What the operating system says, without its number.
+fn in_words(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error ").next().unwrap_or(&text).to_owned()
 }
 
 /// A result whose error is the tools' own.

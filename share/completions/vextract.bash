@@ -23,7 +23,7 @@ _vextract() {
 
     case "${cmd}" in
         vextract)
-            opts="-o -j -q -v -h -V --files-from --scene --camera --illuminant --sky-illuminant --wavelengths-nm --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-reference --chart-grid --chart-cos --save-camera --white-reflectance --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --files-from --scene --wavelengths-nm --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-grid --chart-cos --save-camera --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --camera --illuminant --sky-illuminant --chart-reference --white-reflectance --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -34,18 +34,6 @@ _vextract() {
                     return 0
                     ;;
                 --scene)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --camera)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --illuminant)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --sky-illuminant)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -121,10 +109,6 @@ _vextract() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --chart-reference)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
                 --chart-grid)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -134,10 +118,6 @@ _vextract() {
                     return 0
                     ;;
                 --save-camera)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --white-reflectance)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -179,6 +159,26 @@ _vextract() {
                     ;;
                 --list)
                     COMPREPLY=($(compgen -W "cameras illuminants reflectances" -- "${cur}"))
+                    return 0
+                    ;;
+                --camera)
+                    COMPREPLY=($(compgen -f -W "canon-5d-mark-ii nikon-d5100 sigma-sd-merrill arashi-vision-insta360-x5 arri-d21 canon-digital-rebel-xti canon-eos-100d canon-eos-200d canon-eos-200d-ii canon-eos-5d canon-eos-5d-mark-ii canon-eos-5d-mark-iii canon-eos-5d-mark-iv canon-eos-5ds canon-eos-600d canon-eos-m canon-eos-r canon-eos-r10 canon-eos-r5 canon-eos-r5m2 canon-eos-r6 canon-eos-r6m2 canon-eos-rp canon-eos-1d-x-mark-ii canon-eos-1ds-mark-ii canon-eos-1ds-mark-iii canon-powershot-s90 fujifilm-gfx-100 fujifilm-x-t3 fujifilm-x-t4 hasselblad-l1d-20c hasselblad-l2d-20c nikon-d200 nikon-d3300 nikon-d5300 nikon-d70 nikon-d700 nikon-d7000 nikon-d800e nikon-d810 nikon-d850 nikon-z-f panasonic-dc-gx9 sony-dsc-rx100m4 sony-ilce-6400 sony-ilce-7cm2 sony-ilce-7m3 sony-ilce-7m4 sony-ilce-7rm2 sony-ilce-7rm3 sony-ilce-7rm4 sony-ilce-7sm2 sony-ilce-7sm3 sony-ilce-9" -- "${cur}"))
+                    return 0
+                    ;;
+                --illuminant)
+                    COMPREPLY=($(compgen -f -W "A D50 D55 D60 D65 D75 E FL1 FL2 FL3 FL4 FL5 FL6 FL7 FL8 FL9 FL10 FL11 FL12 FL3.1 FL3.2 FL3.3 FL3.4 FL3.5 FL3.6 FL3.7 FL3.8 FL3.9 FL3.10 FL3.11 FL3.12 FL3.13 FL3.14 FL3.15 LED-B1 LED-B2 LED-B3 LED-B4 LED-B5 LED-BH1 LED-RGB1 LED-V1 LED-V2 LCD-R LCD-G LCD-B" -- "${cur}"))
+                    return 0
+                    ;;
+                --sky-illuminant)
+                    COMPREPLY=($(compgen -f -W "A D50 D55 D60 D65 D75 E FL1 FL2 FL3 FL4 FL5 FL6 FL7 FL8 FL9 FL10 FL11 FL12 FL3.1 FL3.2 FL3.3 FL3.4 FL3.5 FL3.6 FL3.7 FL3.8 FL3.9 FL3.10 FL3.11 FL3.12 FL3.13 FL3.14 FL3.15 LED-B1 LED-B2 LED-B3 LED-B4 LED-B5 LED-BH1 LED-RGB1 LED-V1 LED-V2 LCD-R LCD-G LCD-B" -- "${cur}"))
+                    return 0
+                    ;;
+                --chart-reference)
+                    COMPREPLY=($(compgen -f -W "cc24 cc24-babelcolor cc24-iso17321 munsell" -- "${cur}"))
+                    return 0
+                    ;;
+                --white-reflectance)
+                    COMPREPLY=($(compgen -f -W "cc24 cc24-babelcolor cc24-iso17321 munsell" -- "${cur}"))
                     return 0
                     ;;
                 *)

@@ -23,20 +23,12 @@ _vscore() {
 
     case "${cmd}" in
         vscore)
-            opts="-o -j -q -v -h -V --truth --illuminant --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --help --version"
+            opts="-o -j -q -v -h -V --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --illuminant --truth --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
-                --truth)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --illuminant)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
                 --observer)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -99,6 +91,14 @@ _vscore() {
                     ;;
                 --list)
                     COMPREPLY=($(compgen -W "cameras illuminants reflectances" -- "${cur}"))
+                    return 0
+                    ;;
+                --illuminant)
+                    COMPREPLY=($(compgen -f -W "A D50 D55 D60 D65 D75 E FL1 FL2 FL3 FL4 FL5 FL6 FL7 FL8 FL9 FL10 FL11 FL12 FL3.1 FL3.2 FL3.3 FL3.4 FL3.5 FL3.6 FL3.7 FL3.8 FL3.9 FL3.10 FL3.11 FL3.12 FL3.13 FL3.14 FL3.15 LED-B1 LED-B2 LED-B3 LED-B4 LED-B5 LED-BH1 LED-RGB1 LED-V1 LED-V2 LCD-R LCD-G LCD-B" -- "${cur}"))
+                    return 0
+                    ;;
+                --truth)
+                    COMPREPLY=($(compgen -f -W "cc24 cc24-babelcolor cc24-iso17321 munsell" -- "${cur}"))
                     return 0
                     ;;
                 *)

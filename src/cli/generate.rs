@@ -2,13 +2,15 @@
 
 use std::io;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Command, ValueEnum};
 use clap_complete::Shell;
 use clap_mangen::Man;
-use roff::{Roff, roman};
+use roff::{Roff, bold, roman};
 
 use super::stream_page::stream_page;
 use crate::error::{Error, Result};
+use crate::spectrum::library::{What, built_in};
 use crate::stream::{Output, schema};
 
 /// What `--generate` prints.
@@ -42,7 +44,7 @@ impl Generate {
     ///
     /// # Errors
     /// [`Error::Output`] if it cannot be written.
-    pub(super) fn print(self, mut command: Command, out: &mut Output) -> Result<()> {
+    pub(super) fn print(self, command: Command, out: &mut Output) -> Result<()> {
         let name = command.get_name().to_owned();
         let mut text = Vec::new();
         let shell = match self {
@@ -56,9 +58,63 @@ impl Generate {
             Self::Zsh => Shell::Zsh,
             Self::Fish => Shell::Fish,
         };
-        clap_complete::generate(shell, &mut command, name, &mut text);
-        out.text(&String::from_utf8_lossy(&text))
+        clap_complete::generate(shell, &mut with_names(command)?, name, &mut text);
+        out.text(&with_files(String::from_utf8_lossy(&text).into_owned(), shell)?)
     }
+}
+
+/// Flags that take built-in spectra by their names, or a file.
+const NAMED: [(What, &[&str]); 3] = [
+    (What::Cameras, &["camera"]),
+    (What::Illuminants, &["illuminant", "sky_illuminant"]),
+    (
+        What::Reflectances,
+        &["reflectance", "truth", "reference_panel", "chart_reference", "white_reflectance"],
+    ),
+];
+
+/// The command, its flags knowing the names that they take.
+fn with_names(mut command: Command) -> Result<Command> {
+    for (what, flags) in NAMED {
+        let names = built_in(what)?;
+        for flag in flags {
+            if command.get_arguments().any(|arg| arg.get_id() == *flag) {
+                let names = PossibleValuesParser::new(names.clone());
+                command = command.mut_arg(flag, |arg| arg.value_parser(names));
+            }
+        }
+    }
+    Ok(command)
+}
+
+/// Completions in which such flags take files, too: clap knows names or files, not both.
+fn with_files(mut text: String, shell: Shell) -> Result<String> {
+    for (what, _) in NAMED {
+        let names = built_in(what)?;
+        let list = names.join(" ");
+        let first = names.first().map(String::as_str).unwrap_or_default();
+        text = match shell {
+            Shell::Bash => text.replace(&format!("-W \"{list}\""), &format!("-f -W \"{list}\"")),
+            Shell::Zsh => {
+                let both = format!(":{{_alternative \"names\\:name\\:({list})\" \"files\\:file\\:_files\"}}");
+                text.replace(&format!(":({list})"), &both)
+            }
+            _ => text.replace(&format!("-f -a \"{first}"), &format!("-F -a \"{first}")),
+        };
+    }
+    Ok(text)
+}
+
+/// What is written, in a line: all flags are below.
+fn synopsis(page: &mut Roff, command: &Command) {
+    let mut parts = vec![bold(command.get_name()), roman(" [OPTIONS]")];
+    for argument in command.get_positionals() {
+        let name = argument.get_value_names().map(|names| names.join(" ")).unwrap_or_default();
+        let several =
+            if argument.get_num_args().is_some_and(|count| count.max_values() > 1) { "..." } else { "" };
+        parts.push(roman(format!(" [{name}]{several}")));
+    }
+    page.control("SH", ["SYNOPSIS"]).text(parts);
 }
 
 /// The sections of man-pages(7), in its order; what `--help` ends with is EXAMPLES up to its first empty line, then NOTES.
@@ -66,6 +122,8 @@ fn man_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
     let title = command.get_name().to_uppercase();
     let help_end = command.get_after_help().map(ToString::to_string).unwrap_or_default();
     let (examples, notes) = help_end.split_once("\n\n").unwrap_or((&help_end, ""));
+    let mut short = Roff::new();
+    synopsis(&mut short, &command);
     // no date: pages would be stale by tomorrow
     let man = Man::new(command)
         .title(title)
@@ -74,7 +132,7 @@ fn man_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
         .manual("vfold");
     man.render_title(page)?;
     man.render_name_section(page)?;
-    man.render_synopsis_section(page)?;
+    short.to_writer(page)?;
     man.render_description_section(page)?;
     man.render_options_section(page)?;
     let mut rest = Roff::new();

@@ -21,5 +21,16 @@ pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
 pub(super) fn misuse(rendered: &str) -> String {
     let paragraphs = rendered.trim_start_matches("error: ").split("\n\n");
     let said = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
-    said.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ")
+    let said =
+        said.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ");
+    NUMBERS.iter().fold(said, |said, (theirs, ours)| said.replace(theirs, ours))
 }
+
+/// What Rust says of text that is no number, and what people say.
+const NUMBERS: [(&str, &str); 5] = [
+    ("invalid float literal", "that is no number"),
+    ("invalid digit found in string", "that is no whole number of 0 or more"),
+    ("cannot parse integer from empty string", "there is no number"),
+    ("cannot parse float from empty string", "there is no number"),
+    ("number too large to fit in target type", "that is too large"),
+];

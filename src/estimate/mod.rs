@@ -19,6 +19,7 @@ pub mod prior;
 pub mod smooth;
 mod starts;
 pub mod unknowns;
+pub mod verdict;
 
 use nalgebra::DMatrix;
 use unknowns::Unknown;

@@ -25,7 +25,8 @@ mod placing;
 mod reading;
 
 pub use drawing::{
-    Thumbnail, png_bytes, thumbnail, write_linear, write_overlay, write_preview, write_srgb_png,
+    Balance, Thumbnail, White, is_preview, png_bytes, thumbnail, write_linear, write_overlay, write_preview,
+    write_srgb_png,
 };
 pub use edges::{Marked, Refinement, refine};
 pub use measuring::{

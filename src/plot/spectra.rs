@@ -58,7 +58,9 @@ impl Figure for Spectra<'_> {
             }
             if let Some((wavelengths_nm, reflectance)) = &curve.truth {
                 let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
-                chart.draw_series(DashedLineSeries::new(line, 6, 4, BLACK.stroke_width(2)))?;
+                // of several sheets each truth is of its sheet's colour
+                let style = if curves.len() == 1 { BLACK.stroke_width(2) } else { colour.stroke_width(1) };
+                chart.draw_series(DashedLineSeries::new(line, 6, 4, style))?;
             }
             let style = colour.stroke_width(2);
             let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());

@@ -10,6 +10,7 @@ mod overlay;
 mod page;
 mod sample;
 mod scene;
+mod words;
 
 use std::path::{Path, PathBuf};
 

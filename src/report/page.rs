@@ -22,12 +22,20 @@ caption { text-align: left; font-weight: 600; padding: .3rem 0; }
 th, td { text-align: left; vertical-align: top; padding: .2rem 1rem .2rem 0; border-bottom: 1px solid #ccc; }
 th[scope=row] { font-weight: 400; }
 th, td { overflow-wrap: break-word; max-width: 36rem; }
+details { margin: 1rem 0; }
+summary { cursor: pointer; font-weight: 600; }
 nav ul { columns: 14rem; padding-left: 1.2rem; }
+.verdict { border-left: 6px solid #009e73; padding: .2rem 0 .2rem .8rem; font-size: 1.1rem; }
+.verdict.doubtful { border-color: #e69f00; }
+.verdict.wrong { border-color: #d55e00; }
 .doubt { border-left: 4px solid #d55e00; padding-left: .8rem; }
 @media print {
   body { font-size: 10.5pt; }
   main { max-width: none; padding: 0; }
   section.sample { break-before: page; }
+  section.sample:first-of-type { break-before: auto; }
+  section.sample > figure { margin: .4rem 0; }
+  section.sample > figure img, section.sample > figure svg { max-height: 8.5cm; width: auto; }
   section.sample h2 { margin-top: 0; border: 0; }
   tr { break-inside: avoid; }
   .table, figure { overflow: visible; }

@@ -1,28 +1,59 @@
 //! The section of one sample: drawings, scores, and what the tools decided.
 
 use super::html::Html;
+use super::words::{digits, with_sd, words};
 use super::{Shown, View, overlay};
 use crate::colorimetry::Observer;
 use crate::error::Result;
-use crate::stream::{EstimateRecord, Sample};
+use crate::estimate::unknowns::Unknown;
+use crate::estimate::verdict::Level;
+use crate::plot::sheet::Sheet;
+use crate::stream::{EstimateRecord, FittedRecord, Sample};
 
 /// Fields that have a table or a drawing of their own, or are what all records have.
 const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
+const TOLD_OF_ESTIMATE: [&str; 5] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd"];
 
-/// All that is known of a sample.
+/// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, view: &View) -> Result<Html> {
     let sample = &shown.sample;
     let mut parts = vec![Html::element("h2", &[], sample.id())];
     let estimate = sample.estimate()?;
-    let doubts = estimate.as_ref().map(EstimateRecord::doubts).unwrap_or_default();
-    parts.extend(doubts.into_iter().map(|doubt| Html::element("p", &[("class", "doubt")], doubt)));
-    parts.extend(estimate.and_then(|estimate| findings(&estimate)));
-    parts.extend(drawings(shown, view)?);
+    parts.extend(estimate.iter().flat_map(judged));
+    let sheet = shown.sheet(view)?;
+    parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
     parts.extend(overlay::figure(shown, view)?);
-    parts.extend(tables(sample));
-    parts.extend(numbers(sample)?);
+    parts.extend(table("Scores", sample.fields.leaves("metrics")));
+    parts.extend(estimate.as_ref().and_then(findings));
+    parts.extend(estimate.as_ref().and_then(fitted));
+    parts.extend(estimate.as_ref().map(|estimate| numbers(estimate, sample)).transpose()?);
+    if let Some(residuals) = sheet.as_ref().map(residuals).transpose()?.flatten() {
+        parts.push(folded("What the estimate leaves of the facets", residuals));
+    }
+    let rest: Vec<Html> = rest(sample);
+    if !rest.is_empty() {
+        parts.push(folded("All numbers of the record", rest.into()));
+    }
     let id = format!("sample-{number}");
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
+}
+
+/// The verdict; of a record without one what speaks against it.
+fn judged(estimate: &EstimateRecord) -> Vec<Html> {
+    match &estimate.verdict {
+        Some(verdict) => {
+            let class = format!("verdict {}", Level::from(verdict.level).name());
+            vec![Html::element("p", &[("class", &class)], verdict.to_string())]
+        }
+        None => {
+            let doubt = |doubt| Html::element("p", &[("class", "doubt")], Html::from(doubt));
+            estimate.doubts().into_iter().map(doubt).collect()
+        }
+    }
+}
+
+fn folded(summary: &str, what: Html) -> Html {
+    Html::element("details", &[], vec![Html::element("summary", &[], summary), what])
 }
 
 /// What of the photograph is not ideal.
@@ -32,9 +63,7 @@ fn findings(estimate: &EstimateRecord) -> Option<Html> {
     (!estimate.findings.is_empty()).then(|| Html::table("What the facets show", &headings, rows))
 }
 
-fn drawings(shown: &Shown, view: &View) -> Result<Vec<Html>> {
-    let Some(sheet) = shown.sheet(view)? else { return Ok(Vec::new()) };
-    let name = &sheet.curve.name;
+fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
     let observer = match view.observer {
         Observer::Cie1931_2deg => "2°",
         Observer::Cie1964_10deg => "10°",
@@ -43,35 +72,41 @@ fn drawings(shown: &Shown, view: &View) -> Result<Vec<Html>> {
         "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {observer} observer.",
         view.illuminant.name()
     );
-    let words = format!("spectral reflectance of {name}, and what it looks like");
-    let mut figures = vec![Html::figure(Html::drawing(&sheet.spectrum_svg()?, &words), &caption)];
-    if let Some(svg) = sheet.residuals_svg()? {
-        let words = format!("residuals of the facets of {name}");
-        let caption = "What the estimate leaves of the facets: patternless where the model is right.";
-        figures.push(Html::figure(Html::drawing(&svg, &words), caption));
-    }
-    Ok(figures)
+    let words = format!("spectral reflectance of {}, and what it looks like", sheet.curve.name);
+    Ok(Html::figure(Html::drawing(&sheet.spectrum_svg()?, &words), &caption))
 }
 
-fn tables(sample: &Sample) -> Vec<Html> {
+fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
+    let Some(svg) = sheet.residuals_svg()? else { return Ok(None) };
+    let words = format!("residuals of the facets of {}", sheet.curve.name);
+    Ok(Some(Html::figure(Html::drawing(&svg, &words), "Patternless where the model is right.")))
+}
+
+/// What was fitted, each number with its standard deviation, in its unit.
+fn fitted(estimate: &EstimateRecord) -> Option<Html> {
+    let row = |one: (&Unknown, &FittedRecord)| {
+        let (unknown, FittedRecord { value, sd, supported }) = one;
+        let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
+        let by = if *supported { "the facets" } else { "what is usual: the facets do not tell it" };
+        vec![format!("{}{unit}", unknown.about).into(), with_sd(*value, *sd).into(), by.into()]
+    };
+    let rows: Vec<_> = estimate.fits().map(row).collect();
+    let headings = ["what", "value ± standard deviation", "told by"];
+    (!rows.is_empty()).then(|| Html::table("Fitted along with the spectrum", &headings, rows))
+}
+
+/// Numbers that have neither a drawing nor a table of their own.
+fn rest(sample: &Sample) -> Vec<Html> {
     let leaves = |path| sample.fields.leaves(path);
-    let (fit, estimate): (Vec<_>, Vec<_>) =
-        leaves("estimate").into_iter().partition(|(name, _)| name.starts_with("fit."));
-    let rest = leaves("")
-        .into_iter()
-        .filter(|(name, _)| !TOLD.contains(&name.split('.').next().unwrap_or_default()));
-    let estimate = estimate.into_iter().filter(|(name, _)| !name.starts_with("findings")).collect();
-    let tables = [
-        ("Scores", leaves("metrics")),
-        ("Fitted along with the spectrum", fit),
-        ("Estimate", estimate),
-        ("Measurement", rest.collect()),
-    ];
-    tables
-        .into_iter()
-        .filter(|(_, rows)| !rows.is_empty())
-        .map(|(caption, rows)| pairs(caption, rows))
-        .collect()
+    let is_told = |name: &str, told: &[&str]| told.contains(&name.split('.').next().unwrap_or_default());
+    let estimate = leaves("estimate").into_iter().filter(|(name, _)| !is_told(name, &TOLD_OF_ESTIMATE));
+    let rest = leaves("").into_iter().filter(|(name, _)| !is_told(name, &TOLD));
+    let tables = [table("Estimate", estimate.collect()), table("Measurement", rest.collect())];
+    tables.into_iter().flatten().collect()
+}
+
+fn table(caption: &str, rows: Vec<(String, String)>) -> Option<Html> {
+    (!rows.is_empty()).then(|| pairs(caption, rows))
 }
 
 /// Names and values.
@@ -79,23 +114,20 @@ pub(super) fn pairs(caption: &str, rows: Vec<(String, String)>) -> Html {
     Html::table(
         caption,
         &["what", "value"],
-        rows.into_iter().map(|(name, value)| vec![name.into(), value.into()]),
+        rows.into_iter().map(|(name, value)| vec![words(&name).into(), value.into()]),
     )
 }
 
 /// The spectrum in numbers.
-fn numbers(sample: &Sample) -> Result<Option<Html>> {
-    let Some(estimate) = sample.estimate()? else { return Ok(None) };
+fn numbers(estimate: &EstimateRecord, sample: &Sample) -> Result<Html> {
     let truth = sample.truth()?.map(|truth| truth.reflectance);
-    let columns = [Some(&estimate.reflectance), estimate.reflectance_sd.as_ref(), truth.as_ref()];
     let row = |(n, wavelength_nm): (usize, &f64)| {
-        let cell = |column: Option<&Vec<f64>>| {
-            column.and_then(|column| column.get(n)).map_or(String::new(), f64::to_string).into()
-        };
-        std::iter::once(wavelength_nm.to_string().into()).chain(columns.map(cell)).collect()
+        let (value, sd) = (estimate.reflectance[n], estimate.reflectance_sd.as_ref().map(|sd| sd[n]));
+        let truth = truth.as_ref().and_then(|truth| truth.get(n)).map(|truth| digits(*truth, 0.0));
+        let value = sd.map_or_else(|| digits(value, 0.0), |sd| with_sd(value, sd));
+        vec![wavelength_nm.to_string().into(), value.into(), truth.unwrap_or_default().into()]
     };
-    let headings = ["wavelength, nm", "reflectance", "standard deviation", "true reflectance"];
+    let headings = ["wavelength, nm", "reflectance ± standard deviation", "true reflectance"];
     let table = Html::table("Spectrum", &headings, estimate.wavelengths_nm.iter().enumerate().map(row));
-    let summary = Html::element("summary", &[], "Spectrum in numbers");
-    Ok(Some(Html::element("details", &[], vec![summary, table])))
+    Ok(folded("Spectrum in numbers", table))
 }

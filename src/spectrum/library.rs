@@ -96,6 +96,14 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
     Ok(rows)
 }
 
+/// Names of what is built in; those that stand for any of a kind, such as `daylight:CCT`, are none.
+///
+/// # Errors
+/// Only if the embedded tables are damaged.
+pub fn built_in(what: What) -> Result<Vec<String>> {
+    Ok(listed(what)?.into_iter().map(|(name, _)| name).filter(|name| !name.contains(':')).collect())
+}
+
 /// What is built in.
 fn listed(what: What) -> Result<Vec<(String, String)>> {
     Ok(match what {

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
 use crate::estimate::photograph::Finding;
 use crate::estimate::unknowns::Unknown;
+use crate::estimate::verdict::{Level, Verdict};
 use crate::estimate::{Estimate, Fitted, MISFIT};
 use crate::plot::spectra::Curve;
 use crate::solve::Termination;
@@ -65,6 +66,9 @@ pub struct EstimateRecord {
     /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FindingRecord>,
+    /// Whether it can be believed; absent from a method that does not know how far off it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<VerdictRecord>,
     /// What was not tried, or not told by the facets of a photograph.
     #[serde(default, skip_serializing_if = "Vec::is_empty", skip_deserializing)]
     skipped: Vec<SkippedRecord>,
@@ -91,6 +95,8 @@ pub struct NewEstimate<'a> {
     pub noise: Option<&'a Noise>,
     /// Ids of all samples that it was made of, if there were several.
     pub joined: &'a [String],
+    /// Whether it can be believed, by a method that knows how far off it is.
+    pub verdict: Option<&'a Verdict>,
     /// Whether to record the covariance, waveband by waveband.
     pub with_covariance: bool,
 }
@@ -118,14 +124,14 @@ enum TerminationRecord {
 
 /// A number of the scene as found, in the unit that its name says.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub(super) struct FittedRecord {
+pub struct FittedRecord {
     /// Value.
-    value: f64,
+    pub value: f64,
     /// Standard deviation.
     #[schemars(range(min = 0))]
-    sd: f64,
+    pub sd: f64,
     /// Whether the facets say more of it than was known before.
-    supported: bool,
+    pub supported: bool,
 }
 
 /// Something that is not ideal about a photograph.
@@ -135,6 +141,63 @@ pub struct FindingRecord {
     pub what: String,
     /// What to do about it.
     pub remedy: String,
+}
+
+/// Whether an estimate can be believed.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct VerdictRecord {
+    /// How far: good, doubtful or wrong.
+    pub level: LevelRecord,
+    /// Why.
+    pub because: String,
+    /// What to do; absent if it is good.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<String>,
+}
+
+/// How far an estimate can be believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LevelRecord {
+    /// Nothing speaks against it.
+    Good,
+    /// It may be further off than its error bars.
+    Doubtful,
+    /// It means nothing.
+    Wrong,
+}
+
+impl From<Level> for LevelRecord {
+    fn from(level: Level) -> Self {
+        match level {
+            Level::Good => Self::Good,
+            Level::Doubtful => Self::Doubtful,
+            Level::Wrong => Self::Wrong,
+        }
+    }
+}
+
+impl From<LevelRecord> for Level {
+    fn from(level: LevelRecord) -> Self {
+        match level {
+            LevelRecord::Good => Self::Good,
+            LevelRecord::Doubtful => Self::Doubtful,
+            LevelRecord::Wrong => Self::Wrong,
+        }
+    }
+}
+
+impl From<&Verdict> for VerdictRecord {
+    fn from(Verdict { level, because, remedy }: &Verdict) -> Self {
+        Self { level: (*level).into(), because: because.clone(), remedy: remedy.clone() }
+    }
+}
+
+impl fmt::Display for VerdictRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", Level::from(self.level).name(), self.because)?;
+        self.remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
+    }
 }
 
 impl From<&Finding> for FindingRecord {
@@ -180,6 +243,11 @@ impl EstimateRecord {
         self.fit.iter().flat_map(Quantities::iter).map(|(unknown, fitted)| (unknown, fitted.value))
     }
 
+    /// What was fitted along, with its standard deviation.
+    pub fn fits(&self) -> impl Iterator<Item = (&'static Unknown, &FittedRecord)> {
+        self.fit.iter().flat_map(Quantities::iter)
+    }
+
     /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
@@ -205,7 +273,8 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn set_estimate(&mut self, new: &NewEstimate) -> Result<()> {
-        let NewEstimate { method, prior, wavelengths_nm, estimate, noise, joined, with_covariance } = *new;
+        let NewEstimate { method, prior, wavelengths_nm, estimate, noise, joined, verdict, with_covariance } =
+            *new;
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
@@ -232,6 +301,7 @@ impl Sample {
                 fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
                 joined: joined.to_vec(),
                 findings: estimate.findings.iter().map(FindingRecord::from).collect(),
+                verdict: verdict.map(VerdictRecord::from),
                 skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
                 covariance: covariance.map(rows),
                 noise: noise.map(NoiseRecord::of).transpose()?,

@@ -33,6 +33,9 @@ pub struct ImageRecord {
     /// What the camera did to the picture, and was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
+    /// Whether a camera developed the picture, it seems, and nothing of that was undone.
+    #[serde(skip_serializing_if = "is_false")]
+    developed: bool,
     /// How many neighbouring pixels make one independent number, per channel; 1 where noise is not shared.
     pixels_sharing_noise: Vec<f64>,
     /// The camera's maker.
@@ -135,6 +138,7 @@ impl ImageRecord {
                 .as_ref()
                 .map(|sensor| SensorRecord { mosaic: sensor.mosaic.clone(), area: sensor.area }),
             undone: info.undone.as_ref().map(DevelopmentRecord::from),
+            developed: info.is_developed(),
             pixels_sharing_noise: pixels_sharing_noise.to_vec(),
             make: info.camera.make.clone(),
             model: info.camera.model.clone(),
@@ -162,6 +166,10 @@ impl ImageRecord {
     }
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 /// Where the panels are in a photograph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Framing {
@@ -179,7 +187,23 @@ struct FramingRecord {
     panels: Vec<Option<[[f64; 2]; 4]>>,
 }
 
+/// What is read of how a photograph was made.
+#[derive(Deserialize)]
+struct MakingRecord {
+    #[serde(default)]
+    developed: bool,
+}
+
 impl Sample {
+    /// Whether a camera developed the photograph, it seems, and nothing of that was undone.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn is_developed(&self) -> Result<bool> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.is_some_and(|record| record.developed))
+    }
+
     /// Where the panels are in the photograph; none if the sample is not one of two panels.
     ///
     /// # Errors

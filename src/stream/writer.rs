@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::failures::Failures;
 use super::resume::Resumed;
 use super::{Fields, Kept, Record, Sample, Saves, Scene};
 use crate::error::{Error, Result};
@@ -15,7 +16,7 @@ pub struct Output {
     /// Fields that are also written as arrays.
     pub saves: Saves,
     progress: Option<Progress>,
-    failed: usize,
+    failures: Failures,
 }
 
 enum Sink {
@@ -48,7 +49,7 @@ impl Output {
     }
 
     fn into(sink: Sink, saves: &[(String, PathBuf)]) -> Self {
-        Self { sink, saves: Saves::new(saves), progress: None, failed: 0 }
+        Self { sink, saves: Saves::new(saves), progress: None, failures: Failures::default() }
     }
 
     /// The records of the interrupted run, none if there was none.
@@ -87,7 +88,7 @@ impl Output {
     /// # Errors
     /// As [`Output::fields`].
     pub fn sample(&mut self, sample: &Sample) -> Result<()> {
-        self.failed += usize::from(sample.error()?.is_some());
+        self.failures.count(sample)?;
         if let Some(progress) = &mut self.progress {
             progress.tick();
         }
@@ -129,12 +130,12 @@ impl Output {
         self.bytes(format!("{line}\n").as_bytes())
     }
 
-    /// Writes a line of plain text about a sample that failed.
+    /// Writes a line of plain text about a sample, which counts as the sample does.
     ///
     /// # Errors
     /// As [`Output::fields`].
-    pub fn failed_text(&mut self, line: &str) -> Result<()> {
-        self.failed += 1;
+    pub fn row(&mut self, sample: &Sample, line: &str) -> Result<()> {
+        self.failures.count(sample)?;
         self.text(line)
     }
 
@@ -148,12 +149,12 @@ impl Output {
         }
     }
 
-    /// Makes all that was written last: flushes, and gives files their names. Only once every record is written, so that a
+    /// Makes all that was written last, and tells which samples failed: flushes, and gives files their names. Only once every record is written, so that a
     /// full disk does not leave arrays of records that are nowhere.
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.
-    pub fn finish(mut self) -> Result<usize> {
+    pub fn finish(mut self) -> Result<Failures> {
         if let Some(progress) = &mut self.progress {
             progress.finish();
         }
@@ -167,6 +168,6 @@ impl Output {
             }
             Sink::Resumed(out) => out.finish().and_then(|()| self.saves.finish())?,
         }
-        Ok(self.failed)
+        Ok(self.failures)
     }
 }

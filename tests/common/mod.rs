@@ -78,6 +78,21 @@ pub fn left_out(what: &str) {
     said.unwrap();
 }
 
+impl Ended {
+    /// Whether all records were written, and nothing was said but how many samples failed, and why the first did: a line from each tool.
+    #[allow(dead_code)] // for the tests in which samples fail
+    pub fn says_what_failed(&self) -> bool {
+        let lines = self.stderr.lines().count();
+        self.status == 3 && lines > 0 && self.said_otherwise().is_empty()
+    }
+
+    /// What was said beside how many samples failed.
+    #[allow(dead_code)] // for the tests in which samples fail
+    pub fn said_otherwise(&self) -> Vec<&str> {
+        self.stderr.lines().filter(|line| !line.contains(" failed; first: ")).collect()
+    }
+}
+
 impl From<Output> for Ended {
     fn from(run: Output) -> Self {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();

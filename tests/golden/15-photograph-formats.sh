@@ -20,7 +20,7 @@ for photo in photo.exr linear.tif linear.png srgb.png srgb.jpg turned.tif croppe
         *) dx=0 dy=0 ;;
     esac
     corners() { echo "$@" | tr ' ' '\n' | awk -F, -v dx=$dx -v dy=$dy '{ printf "%s%.2f,%.2f", s, $1 - dx, $2 - dy; s = " " }'; }
-    vextract $photo --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$(corners $crease 155.42,55.00 166.27,426.90)" \
+    vextract -q $photo --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$(corners $crease 155.42,55.00 166.27,426.90)" \
         --panel1 "$(corners $crease 469.63,38.40 484.58,413.42)" --save facet_rgb=$photo.npy \
         --save facet_clipped=clipped.npy --save facet_not_finite=nan.npy >/dev/null
     python3 - $photo <<'END'

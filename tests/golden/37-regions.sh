@@ -32,6 +32,7 @@ oiiotool fold.exr --resize 640x400 -o squeezed.exr
 cp fold.exr unknown.exr
 status=0
 vextract fold.exr squeezed.exr unknown.exr fold.exr --regions list.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
-    -o batch.ndjson || status=$?
+    -o batch.ndjson 2> said || status=$?
+cat said
 echo "exit status $status"
 sed 's/.*"id":"\([^"]*\)".*\("error":.*\)/\1 \2/; s/.*"id":"\([^"]*\)".*/\1/' batch.ndjson

@@ -10,7 +10,7 @@ for threads in 1 2 3; do
     status=0
     batch -j $threads --progress always -o $threads.ndjson 2> progress || status=$?
     echo "exit status $status"
-    tr '\r' '\n' < progress | tail -n 1
+    tr '\r' '\n' < progress | tail -n 2
 done
 cmp 1.ndjson 2.ndjson
 cmp 1.ndjson 3.ndjson

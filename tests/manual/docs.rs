@@ -1,5 +1,5 @@
-//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a folder that has what the
-//! page speaks of; links lead to files. What needs pictures or machines of the reader's stands in blocks of `console`.
+//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with no file that no page
+//! makes; links lead to files. What needs pictures or machines of the reader's stands in blocks of `console`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,17 +8,10 @@ use crate::common::{Ended, Workdir};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// A photograph and its corners, photographs in a folder, a room: what pages take for granted.
+/// A clone, as far as pages need it: nothing that they do not make themselves.
 const SETUP: &str = r#"
 export LC_ALL=C.UTF-8
-ln -s "$ROOT/tests" tests
-cp tests/data/photos/a_ideal_magenta_50.exr photo.exr
-mkdir photos
-cp photo.exr photos/1.exr
-cp photo.exr photos/2.exr
-echo '{"panel0": [[332,462],[345,77],[122,12],[104,442]], "panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
-printf 'v %s\n' '0 0 0' '2 0 0' '2 2 0' '0 2 0' '0 2 2' '0 0 2' '2 0 2' > room.obj
-printf '%s\n' 'g floor' 'f 1 2 3 4' 'g left' 'f 1 4 5 6' 'g right' 'f 1 6 7 2' >> room.obj
+for part in tests share examples; do ln -s "$ROOT/$part" $part; done
 "#;
 
 /// The fenced blocks of a kind.

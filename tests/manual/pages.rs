@@ -76,6 +76,47 @@ fn every_shell_loads_its_completions() {
     }
 }
 
+/// How each shell completes `FLAG BEGIN` of a tool: built-in names, and files, of which the folder has one that begins so, too.
+const NAMES: [(&str, &str); 3] = [
+    (
+        "bash",
+        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T $F $B); COMP_CWORD=2; _$T $T $B $F; printf '%s\\n' \\${COMPREPLY[@]}\"",
+    ),
+    // as it is defined: who completes is at a terminal
+    (
+        "zsh",
+        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -e \"^'$F=\" -e \"$F=\" | tr ' (' '\\n\\n' | sed 's/)*\".*//; s/_files/'$B'-file/' | grep -e \"^$B\"; echo $B-file",
+    ),
+    ("fish", "fish --no-config -c \"source $C/$T.fish; complete -C '$T $F $B'\" | cut -f 1"),
+];
+
+#[test]
+fn every_shell_completes_names_and_files() {
+    let folder = Workdir::new();
+    for (shell, complete) in NAMES {
+        if !folder.can(&format!("command -v {shell}"), "its completions") {
+            continue;
+        }
+        for (tool, flag, begin, name) in [
+            ("vextract", "--camera", "nikon-d51", "nikon-d5100"),
+            ("vforward", "--illuminant", "D6", "D65"),
+            ("vforward", "--reflectance", "cc2", "cc24"),
+            ("vscore", "--truth", "mun", "munsell"),
+        ] {
+            let run = folder.sh(&format!(
+                "C='{}/share/completions' T={tool} F={flag} B={begin}\n: > {begin}-file\n{complete}",
+                env!("CARGO_MANIFEST_DIR")
+            ));
+            for wanted in [name, &format!("{begin}-file")] {
+                assert!(
+                    run.stdout.lines().any(|line| line == wanted),
+                    "{shell} {tool} {flag}: {wanted}: {run:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn man_shows_every_page() {
     if !Workdir::new().can("command -v groff", "how man pages are set") {

@@ -40,28 +40,55 @@ fn clicks_in_a_preview_measure_the_photograph() {
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let said: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(said["problems"], json!([]));
+    assert_eq!(said["fields"], json!(["photo.exr", "3200", "2400"]));
     assert_eq!(said["prompts"][0], "Panel 0: click crease end 0 (corner 1 of 4).");
     assert_eq!(said["prompts"][1], "Panel 1: click outer end 1 (corner 3 of 4).");
     nudged_by_twelve_pixels(&said);
-    let regions: Value = serde_json::from_str(said["regions"].as_str().unwrap()).unwrap();
+    let regions = |of: &Value| -> Value { serde_json::from_str(of.as_str().unwrap()).unwrap() };
+    let marked = regions(&said["regions"]);
     assert_eq!(
-        (&regions["image"], &regions["width"], &regions["height"]),
-        (&json!("photo.png"), &json!(3200), &json!(2400))
+        (&marked["image"], &marked["width"], &marked["height"]),
+        (&json!("photo.exr"), &json!(3200), &json!(2400))
     );
-    for region in ["panel0", "panel1", "chart"] {
+    are_near(&marked, &truth, &["panel0", "panel1", "chart"], 4.0);
+    assert_eq!(regions(&said["loaded"]), marked);
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| &truth["panel0"][k]);
+    let [_, _, e, f] = [0, 1, 2, 3].map(|k| &truth["panel1"][k]);
+    let turned = json!({"panel0": [b, a, d, c], "panel1": [b, a, f, e]});
+    // a pixel of a telephone is eight of the photograph
+    are_near(&regions(&said["turned"]), &turned, &["panel0", "panel1"], 10.0);
+    assert!(said["withChart"].as_str().unwrap().contains("--chart \""), "{said}");
+    measures(&folder, said["command"].as_str().unwrap());
+    is_read(&folder, marked);
+    measures_two(&folder, &said["list"]);
+}
+
+/// Corners within so many px.
+fn are_near(found: &Value, truth: &Value, regions: &[&str], px: f64) {
+    for region in regions {
         for k in 0..8 {
             let at = |of: &Value| of[region][k / 2][k % 2].as_f64().unwrap();
-            // the mouse is placed to a pixel of the screen, which is three of the photograph
-            assert!(
-                (at(&regions) - at(&truth)).abs() < 4.0,
-                "{region}: {} not {}",
-                regions[region],
-                truth[region]
-            );
+            assert!((at(found) - at(truth)).abs() < px, "{region}: {} not {}", found[region], truth[region]);
         }
     }
-    measures(&folder, said["command"].as_str().unwrap());
-    is_read(&folder, regions);
+}
+
+/// The lists of the page are those of the tools; a name that they do not know would be a command that fails.
+#[test]
+fn names_are_those_of_the_tools() {
+    let page = std::fs::read_to_string(format!("{ROOT}/share/picker.html")).unwrap();
+    for (what, list) in
+        [("cameras", "<datalist id=\"cameras\">"), ("illuminants", "<datalist id=\"lights\">")]
+    {
+        let (_, rest) = page.split_once(list).unwrap();
+        let (options, _) = rest.split_once("</datalist>").unwrap();
+        let listed: Vec<&str> =
+            options.split("<option>").skip(1).map(|option| option.split('<').next().unwrap()).collect();
+        let known = Workdir::new().sh(&format!("vextract --list {what}")).stdout;
+        let known: Vec<&str> = known.lines().filter_map(|line| line.split_whitespace().next()).collect();
+        let known: Vec<&str> = known.into_iter().filter(|name| !name.contains(':')).collect();
+        assert_eq!(listed, known, "share/picker.html, {what}");
+    }
 }
 
 /// Arrow keys moved the chart's second corner by 10 + 1 + 1 px to the right and 0.1 down.
@@ -77,12 +104,26 @@ fn nudged_by_twelve_pixels(said: &Value) {
     );
 }
 
-/// The page's command with the photograph's own name and angle; the chart is another matter.
+/// The page's command, as it is pasted.
 fn measures(folder: &Workdir, command: &str) {
-    let command = command.replace("photo.png", "photo.exr").replace("-deg 45", "-deg 50");
-    let command: Vec<_> = command.lines().filter(|line| !line.contains("--chart")).collect();
-    let command = command.join("\n").replace(" | vestimate", " --camera canon-5d-mark-ii --illuminant D65");
-    finds_the_panel(folder, &command);
+    let run = folder.sh(&format!("{command}\ncat result.ndjson"));
+    assert_eq!(run.status, 0, "{command}: {}", run.stderr);
+    is_the_panel(&run.stdout);
+    let written = folder.sh("ls overlay.png spectrum.csv");
+    assert_eq!(written.status, 0, "{written:?}");
+}
+
+/// The command and the regions of two pictures.
+fn measures_two(folder: &Workdir, list: &Value) {
+    let (regions, command) = (list["regions"].as_str().unwrap(), list["command"].as_str().unwrap());
+    std::fs::write(folder.path().join("regions.json"), regions).unwrap();
+    let run = folder.sh(&format!(
+        "ln -s photo.exr second.exr\n{command}\nwc -l < result.ndjson; head -n 2 result.ndjson"
+    ));
+    assert_eq!(run.status, 0, "{command}: {}", run.stderr);
+    let (count, records) = run.stdout.split_once('\n').unwrap();
+    assert_eq!(count.trim(), "3");
+    is_the_panel(records);
 }
 
 /// The page's file of regions, but for the chart.
@@ -100,7 +141,11 @@ fn is_read(folder: &Workdir, mut regions: Value) {
 fn finds_the_panel(folder: &Workdir, command: &str) {
     let run = folder.sh(command);
     assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{command}");
-    let sample: Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
+    is_the_panel(&run.stdout);
+}
+
+fn is_the_panel(records: &str) {
+    let sample: Value = serde_json::from_str(records.lines().last().unwrap()).unwrap();
     assert_eq!(sample["image"]["refined"]["sides_without_edge"], json!([]));
     let corners = [CREASE, OUTER[0]].concat();
     for k in 0..8 {

@@ -100,7 +100,10 @@ const PLOT: &str = "vestimate samples.ndjson --plot - -o out.ndjson";
 fn a_plot_is_as_wide_as_the_terminal_and_coloured() {
     let shown = on_terminal("", PLOT).stdout;
     assert!(shown.contains("\x1b[34m") && shown.contains('⠒'), "{shown}");
-    let widest = plain(&shown).lines().map(|line| line.chars().count()).max();
+    // what is said of the estimate is a line of text below
+    let drawn = plain(&shown);
+    let widest =
+        drawn.lines().filter(|line| !line.starts_with("vestimate: ")).map(|line| line.chars().count()).max();
     assert!(widest.is_some_and(|widest| (77..=80).contains(&widest)), "{widest:?} {shown}");
 }
 
@@ -135,4 +138,19 @@ fn help_is_coloured_on_a_terminal_alone() {
         assert!(!on_terminal(setup, "vkernel --help").stdout.contains('\x1b'), "{setup}");
     }
     assert!(!Workdir::new().sh("vkernel --help").stdout.contains('\x1b'));
+}
+
+/// A line a sample where somebody reads it, at the end, and none elsewhere.
+#[test]
+fn verdicts_stand_at_the_end() {
+    let shown = plain(&on_terminal("", "vestimate samples.ndjson -o out.ndjson").stdout);
+    assert!(shown.contains("vestimate: cc24:red: good: facets within "), "{shown:?}");
+    assert!(shown.contains("the light D65 and the camera canon-5d-mark-ii"), "{shown:?}");
+    let many =
+        "vforward scene.json --reflectance munsell --noise-sd 1e-3 2>/dev/null | head -n 40 > many.ndjson";
+    let shown = plain(&on_terminal(many, "vestimate many.ndjson -o out.ndjson").stdout);
+    let counted = shown.lines().filter(|line| line.contains(" good, ") && line.contains(" wrong")).count();
+    assert!(counted == 1 && !shown.contains(": good: "), "{shown:?}");
+    assert_eq!(on_terminal("", "vestimate samples.ndjson -q -o out.ndjson").stdout, "");
+    assert_eq!(on_terminal("", "vestimate samples.ndjson -o out.ndjson 2> said; cat said").stdout, "");
 }

@@ -5,28 +5,29 @@ use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
-use vfold::estimate::photograph::Parts;
-use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SUN_COLOUR, SceneModel, Unknown};
-use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, photograph, smooth};
-use vfold::scene::{FoldSetting, PhotographedFold, Setting, Unmodelled};
+use vfold::estimate::verdict::{Doubt, Verdict};
+use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
+use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
+use vfold::stream::{
+    Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, SpectrumRecord, Transform, trace,
+};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::flat::{FlatContext, FlatEstimator};
+use super::other_angle::OtherAngle;
+use super::photographed::{Given, doubts_of_taking};
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
 /// Least change that counts, in standard deviations.
-const CUTOFF: f64 = 1e-2;
+pub const CUTOFF: f64 = 1e-2;
 
-/// Residuals, in units of their expected size, below which a photograph is taken to be of an ideal fold.
-const IDEAL: f64 = 2.0;
 /// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
 const UNEXPLAINED: f64 = 0.3;
 
@@ -51,6 +52,9 @@ pub struct Context {
     start: Option<Vec<f64>>,
     /// The scene's record, if it is that of a fold.
     record: Option<Scene>,
+    other_angle: OtherAngle,
+    /// What no facet shows, in words.
+    untold: String,
 }
 
 /// The method on the wavelengths of a scene.
@@ -61,6 +65,21 @@ enum SceneMethod {
 }
 
 impl Context {
+    /// The scene's record, if it is that of a fold.
+    pub fn record(&self) -> Option<&Scene> {
+        self.record.as_ref()
+    }
+
+    /// The reflectance to set out from, if one was given.
+    pub fn start(&self) -> Option<&[f64]> {
+        self.start.as_deref()
+    }
+
+    /// The same scene with its angle unknown.
+    pub fn other_angle(&self) -> &OtherAngle {
+        &self.other_angle
+    }
+
     /// What is known of spectra.
     ///
     /// # Errors
@@ -173,15 +192,26 @@ impl Transform for Estimator<'_> {
             && matches!(method, SceneMethod::Map(_))
             && scene.has_camera()
             && scene.illuminants()?.iter().any(|light| light.is_assumed);
+        let untold = untold(scene)?;
         let setting = Setting::of(scene)?;
         let in_any_daylight = is_assumed.then(|| setting.model_to_fit(&[&SUN_COLOUR])).transpose()?;
         let scene = setting.model_to_fit(&self.fit)?;
-        Ok(Context { grid, scene, in_any_daylight, method, start, record })
+        Ok(Context {
+            grid,
+            scene,
+            in_any_daylight,
+            method,
+            start,
+            record,
+            other_angle: OtherAngle::default(),
+            untold,
+        })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
         let exposure = self.exposure_of(sample)?;
+        let mut doubts = Vec::new();
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 // a chart or a card has made the channels those of the light that was assumed
@@ -193,7 +223,8 @@ impl Transform for Estimator<'_> {
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
                 let data = FacetData::new(scene, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                (self.by_prior(context, sample, &data, prior, exposure)?, how)
+                let given = Given { measured: &measured, exposure, data: &data };
+                (self.by_prior(context, sample, &given, prior, &mut doubts)?, how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
@@ -202,7 +233,7 @@ impl Transform for Estimator<'_> {
                 (flat.estimate(&sheet)?, flat.to_string())
             }
         };
-        self.finish(context, sample, &estimate, &how, &[])
+        self.finish(context, sample, &estimate, &how, (doubts, &[]))
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -247,28 +278,33 @@ impl<'a> Estimator<'a> {
             return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
         };
         let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
-        Ok(map::estimate(&data, prior, context.start.as_deref()))
+        Ok(map::estimate(&data, prior, context.start()))
+    }
+
+    /// What is fitted beside the spectrum.
+    pub fn fit(&self) -> &[&'static Unknown] {
+        &self.fit
     }
 
     /// Whether what is fitted is up to the photograph.
-    fn is_auto(&self) -> bool {
+    pub fn is_auto(&self) -> bool {
         self.args.fit.is_empty() || self.args.fit.contains(&&AUTO)
     }
 
     /// How the exposure of a sample enters.
-    fn exposure_of(&self, sample: &Sample) -> Result<Exposure> {
+    pub fn exposure_of(&self, sample: &Sample) -> Result<Exposure> {
         Ok(self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known)))
     }
 
-    /// Adds an estimate that was made `how`, with all ids of `joined` if there were several; records of the iterations, if they are
-    /// asked for.
+    /// Adds an estimate that was made `how`, with what speaks against it, and all ids of `joined` if there were several; records of the
+    /// iterations, if they are asked for.
     fn finish(
         &self,
         context: &Context,
         sample: &mut Sample,
         estimate: &Estimate,
         how: &str,
-        joined: &[String],
+        (doubts, joined): (Vec<Doubt>, &[String]),
     ) -> Result<Vec<Fields>> {
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
         if self.args.common.verbose {
@@ -279,6 +315,10 @@ impl<'a> Estimator<'a> {
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
+        };
+        let verdict = match context.method {
+            SceneMethod::Map(_) => Some(Verdict::of(estimate, doubts, &context.untold)),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => None,
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let is_weighed = match context.method {
@@ -292,91 +332,10 @@ impl<'a> Estimator<'a> {
             estimate,
             noise: is_weighed.then_some(&noise),
             joined,
+            verdict: verdict.as_ref(),
             with_covariance,
         })?;
         if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
-    }
-
-    /// The estimate under a prior. A photograph that an ideal fold does not explain, or that a camera took of which the curves are
-    /// another's, is taken to be of a real sheet.
-    fn by_prior(
-        &self,
-        context: &Context,
-        sample: &Sample,
-        data: &FacetData,
-        prior: &Prior,
-        exposure: Exposure,
-    ) -> Result<Estimate> {
-        let ideal = || map::estimate(data, prior, context.start.as_deref());
-        let Some(record) = context.record.as_ref().filter(|_| self.is_auto() && sample.is_photograph())
-        else {
-            return Ok(ideal());
-        };
-        if exposure == Exposure::Sum {
-            return Ok(ideal());
-        }
-        let stands_in = record.camera()?.stands_in.as_ref().map(|one| one.camera.clone());
-        let is_light_assumed =
-            record.illuminants()?.iter().any(|light| light.is_assumed) && !sample.fields.has("calibration");
-        let mut misfit = map::least_misfit(data, prior);
-        if misfit < IDEAL {
-            let ideal = ideal();
-            misfit = ideal.residual_rms;
-            if misfit < IDEAL && stands_in.is_none() {
-                return Ok(ideal);
-            }
-        }
-        match self.parts(record, sample)? {
-            Ok(parts) => {
-                let found = photograph::estimate(&[parts], prior, self.model_error())?;
-                Ok(found.photographs.into_iter().next().unwrap_or_else(ideal))
-            }
-            Err(why) => {
-                if !self.args.common.quiet {
-                    let what = match stands_in {
-                        Some(camera) if misfit < IDEAL => {
-                            format!("the curves of {camera} are another camera's")
-                        }
-                        _ => format!("misfit {misfit:.1}: this is no ideal fold"),
-                    };
-                    let text = format!(
-                        "{}: {what}, and as {why}, what that changes is not estimated; expect errors beyond the bars",
-                        sample.id()
-                    );
-                    cli::say("vestimate", &text);
-                }
-                Ok(ideal())
-            }
-        }
-    }
-
-    /// What a photograph of the scene of `record` is made of, or why that is not modelled.
-    fn parts(&self, record: &Scene, sample: &Sample) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let known = match self.exposure_of(sample)? {
-            Exposure::Known(exposure) => Some(exposure),
-            Exposure::Free | Exposure::Sum => None,
-        };
-        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, known)
-    }
-
-    /// What a photograph that is estimated with others is made of.
-    ///
-    /// # Errors
-    /// A sample that is no photograph of a real sheet.
-    pub fn photograph(&self, context: &Context, sample: &Sample) -> Result<Parts> {
-        let alone = |why: String| {
-            Error::field(
-                "id",
-                format!("{}: {why}; only photographs of folds are estimated together", sample.id()),
-            )
-        };
-        let Some(record) = &context.record else { return Err(alone("the scene is no fold".to_owned())) };
-        self.parts(record, sample)?.map_err(|why| alone(why.to_string()))
-    }
-
-    /// What no unknown of a photograph explains.
-    pub fn model_error(&self) -> ModelError {
-        ModelError::OF_PHOTOGRAPHS
     }
 
     /// Adds what a photograph's share of an estimate from several is.
@@ -388,7 +347,8 @@ impl<'a> Estimator<'a> {
         ids: &[String],
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        self.finish(context, sample, estimate, &how, ids)
+        let doubts = context.record().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
+        self.finish(context, sample, estimate, &how, (doubts, ids))
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
@@ -446,6 +406,17 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
         100.0 * estimate.unexplained
     );
     Err(Error::field("facet_rgb", problem))
+}
+
+/// Light and camera as the scene has them: no facet shows that they are others.
+fn untold(scene: &Scene) -> Result<String> {
+    let lights = scene.illuminants()?;
+    let name = |light: &SpectrumRecord| match light.is_assumed {
+        true => format!("{}, which nobody told,", light.name),
+        false => light.name.clone(),
+    };
+    let names: Vec<_> = lights.iter().map(name).collect();
+    Ok(format!("the light {} and the camera {}", names.join(", "), scene.camera()?.name))
 }
 
 /// The same standard deviation for every facet, white being 1.

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::str::FromStr;
 
+use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::stream::{Fields, Member, Reader, Record, Sample, Together, pipe_together};
 use vfold::{Error, Result};
@@ -97,10 +98,11 @@ impl Together for Estimator<'_> {
             return Err(Error::field("wavelengths_nm", problem));
         }
         let prior = context.context.prior()?;
-        let together = photograph::estimate(&photographs, prior, self.model_error())?;
+        let together = photograph::estimate(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
         let mut apart = 0.0;
         for one in &photographs {
-            apart += photograph::estimate(std::slice::from_ref(one), prior, self.model_error())?.ln_evidence;
+            apart += photograph::estimate(std::slice::from_ref(one), prior, ModelError::OF_PHOTOGRAPHS)?
+                .ln_evidence;
         }
         let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
         let more = apart - together.ln_evidence;

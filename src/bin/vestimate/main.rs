@@ -4,9 +4,12 @@ mod drawing;
 mod estimator;
 mod flat;
 mod join;
+mod other_angle;
+mod photographed;
 mod plan;
 mod said;
 mod settings;
+mod verdicts;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -18,6 +21,7 @@ use flat::{MethodArgs, MethodName};
 use join::Join;
 use plan::PlanArgs;
 use settings::{NoiseSd, Smoothness};
+use verdicts::Verdicts;
 use vfold::Result;
 use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
@@ -128,12 +132,14 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         return args.planning.run(&estimator, &mut reader, out);
     }
     let mut drawing = args.plot.as_deref().map(Drawing::new).transpose()?;
+    let mut verdicts = (!args.common.quiet).then(Verdicts::on_terminal).flatten();
     let mut measured = Vec::new();
     let mut traces = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     let kept = out.kept()?;
     let done = |record: Record, trace: Option<Vec<Fields>>| {
         if let Record::Sample(sample) = &record {
-            warn(args, sample)?;
+            warn(args, sample, verdicts.is_some())?;
+            verdicts.as_mut().map_or(Ok(()), |verdicts| verdicts.add(sample))?;
             if let Some(file) = &mut traces {
                 trace.iter().flatten().try_for_each(|line| file.fields(line))?;
             }
@@ -148,14 +154,16 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         Some(join) => join::run(join, &mut reader, &estimator, done)?,
         None => pipe(&mut reader, &estimator, kept, done)?,
     }
-    traces.map_or(Ok(0), Output::finish)?;
+    traces.map(Output::finish).transpose()?;
     drawing.as_ref().map_or(Ok(()), Drawing::write)?;
-    args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
+    args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
+    verdicts.iter().for_each(Verdicts::say);
+    Ok(())
 }
 
 /// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,
-/// and when they say nothing of what was to be fitted.
-fn warn(args: &Args, sample: &Sample) -> Result<()> {
+/// and when they say nothing of what was to be fitted; where verdicts are said at the end, these say it.
+fn warn(args: &Args, sample: &Sample, is_judged: bool) -> Result<()> {
     if args.common.quiet || !args.has_prior() {
         return Ok(());
     }
@@ -164,7 +172,7 @@ fn warn(args: &Args, sample: &Sample) -> Result<()> {
         let all: Vec<_> = estimate.findings.iter().map(ToString::to_string).collect();
         cli::say("vestimate", &format!("{}: allowed for: {}", sample.id(), all.join("; ")));
     }
-    for doubt in estimate.doubts() {
+    for doubt in estimate.doubts().into_iter().filter(|_| !is_judged) {
         cli::say("vestimate", &format!("{}: {doubt}", sample.id()));
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! `vextract`: the mean colour of every facet in photographs of a fold.
 
+mod balance;
 mod batch;
 mod calibration;
 mod camera;
@@ -22,7 +23,7 @@ use calibration::CalibrationArgs;
 use clap::Parser;
 use pictures::PictureArgs;
 use placing::PlacingArgs;
-use reading::ReadingArgs;
+use reading::{ReadingArgs, open};
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
@@ -110,7 +111,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let options = args.reading.options()?;
     let images = list::images(args)?;
     args.pictures.check(&images)?;
-    if args.pictures.preview(&images, |path| Photograph::open(path, &options))? {
+    let balance = |photograph: &Photograph| balance::of_photograph(args, photograph);
+    if args.pictures.preview(&images, |path| open(path, &options), balance)? {
         return Ok(());
     }
     args.placing.check()?;
@@ -119,11 +121,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
     if let Some(file) = &args.calibration.save_camera {
-        let first = Photograph::open(&images[0], &options);
+        let first = open(&images[0], &options);
         return chart_camera::save(args, file, &images, first, (&regions, &calibration), flat_field);
     }
     let mut scene = read_scene(&args.scene)?;
-    let first = Photograph::open(&images[0], &options);
+    let first = open(&images[0], &options);
     let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());

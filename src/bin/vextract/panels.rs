@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use vfold::geometry::sight::Sight;
 use vfold::geometry::{Panel, joints};
-use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Marked, camera_position};
+use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, camera_position};
 use vfold::stream::Regions;
 use vfold::{Error, Result};
 
@@ -29,6 +29,7 @@ impl<'a> MarkedPanels<'a> {
         let marked: Vec<_> = marked
             .map(|((panel, corners), joints)| Marked { panel: *panel, corners: *corners, joints })
             .collect();
+        meet(&marked)?;
         apart(&marked)?;
         Ok(Self { panels, marked })
     }
@@ -78,6 +79,35 @@ fn unknown(number: usize, scene: &BTreeMap<usize, Panel>) -> Error {
     let known: Vec<_> = scene.keys().map(usize::to_string).collect();
     let problem = format!("the scene has no flat panel {number} of rows and columns");
     Error::usage("--panel", problem, format!("its panels are {}", known.join(", ")))
+}
+
+/// Part of a panel's longest side by which marks of one corner may differ.
+const SAME_CORNER: f64 = 0.05;
+
+/// Checks that panels which share a corner of the sheet have it marked in one place.
+fn meet(marked: &[Marked]) -> Result<()> {
+    for (n, b) in marked.iter().enumerate() {
+        let longest = (0..4).map(|k| distance(b.corners[k], b.corners[(k + 1) % 4])).fold(0.0, f64::max);
+        for a in &marked[..n] {
+            for (k, joint) in b.joints.iter().enumerate() {
+                let Some(l) = a.joints.iter().position(|other| other == joint) else { continue };
+                let (of_a, of_b) = (a.corners[l], b.corners[k]);
+                if distance(of_a, of_b) > SAME_CORNER * longest {
+                    let problem = format!(
+                        "{} of panel {} is at {},{} and {} of panel {} at {},{}: they are one point of the sheet",
+                        PANEL_CORNERS[l], a.panel, of_a.x, of_a.y, PANEL_CORNERS[k], b.panel, of_b.x, of_b.y
+                    );
+                    let remedy = format!("mark all panels from the same end: {}", PANEL_CORNERS.join(", "));
+                    return Err(Error::usage("--panel", problem, remedy));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    (a.x - b.x).hypot(a.y - b.y)
 }
 
 /// Checks that no two panels are marked in one place.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FacetMeasurement, Grid, Photograph, PixelRun, write_overlay, write_preview};
+use vfold::image::{Balance, FacetMeasurement, Grid, Photograph, PixelRun, write_overlay, write_preview};
 use vfold::{Error, Result};
 
 #[derive(Args)]
@@ -34,10 +34,16 @@ impl PictureArgs {
     ///
     /// # Errors
     /// As `open` and [`write_preview`].
-    pub fn preview(&self, images: &[PathBuf], open: impl Fn(&Path) -> Result<Photograph>) -> Result<bool> {
+    pub fn preview(
+        &self,
+        images: &[PathBuf],
+        open: impl Fn(&Path) -> Result<Photograph>,
+        balance: impl Fn(&Photograph) -> Balance,
+    ) -> Result<bool> {
         let Some(file) = &self.preview else { return Ok(false) };
         for image in images {
-            write_preview(&for_image(file, &name(image)), &open(image)?)?;
+            let photograph = open(image)?;
+            write_preview(&for_image(file, &name(image)), &photograph, image, &balance(&photograph))?;
         }
         Ok(true)
     }
@@ -52,10 +58,11 @@ impl PictureArgs {
         photograph: &Photograph,
         grids: &[Grid],
         facets: &[FacetMeasurement],
+        balance: &Balance,
     ) -> Result<()> {
         let Some(file) = &self.overlay else { return Ok(()) };
         let left_out: Vec<PixelRun> = facets.iter().flat_map(|facet| facet.left_out.clone()).collect();
-        write_overlay(&for_image(file, &name(image)), photograph, grids, &left_out)
+        write_overlay(&for_image(file, &name(image)), photograph, grids, &left_out, balance)
     }
 }
 

@@ -1,9 +1,9 @@
 //! How photographs are read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FlatField, Photograph, ReadOptions, Transfer};
+use vfold::image::{FlatField, Photograph, ReadOptions, Transfer, is_preview};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
 
@@ -25,6 +25,18 @@ pub struct ReadingArgs {
     /// Undo the white balance and the matrix with which the camera made an sRGB picture
     #[arg(long, value_name = "FILE.json")]
     undo: Option<String>,
+}
+
+/// Opens a photograph.
+///
+/// # Errors
+/// As [`Photograph::open`]; [`Error::Picture`] if it is a preview or an overlay, in which nothing can be measured.
+pub fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
+    if is_preview(path) {
+        let problem = "this is a picture for the eye that vextract made of a photograph";
+        return Err(Error::picture(path, problem, "give the photograph itself"));
+    }
+    Photograph::open(path, options)
 }
 
 impl ReadingArgs {

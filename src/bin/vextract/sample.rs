@@ -13,12 +13,12 @@ use vfold::image::{
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
 
-use super::Args;
 use super::calibration::{GivenCalibration, apply};
 use super::panels::MarkedPanels;
 use super::pictures::name;
 use super::placing;
 use super::regions::GivenRegions;
+use super::{Args, balance};
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
@@ -60,7 +60,8 @@ impl Setup<'_> {
         let mut facets = panels.in_scene(measured, self.facet_count);
         let mut grids = placed.grids.clone();
         grids.extend(self.calibration.grid(&regions, placed.lens)?);
-        args.pictures.overlay(path, &photograph, &grids, &facets)?;
+        let balance = balance::of_scene(self.scene, &photograph);
+        args.pictures.overlay(path, &photograph, &grids, &facets, &balance)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
             let remedy = "check the panels' corners, --margin and the white level";
             return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
@@ -79,6 +80,9 @@ impl Setup<'_> {
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
             placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
+        }
+        if photograph.info().is_developed() && !args.common.quiet {
+            cli::say("vextract", &developed(path, &photograph));
         }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
@@ -134,4 +138,14 @@ impl Setup<'_> {
         }
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
+}
+
+/// What is said of a picture that a camera developed.
+fn developed(path: &Path, photograph: &Photograph) -> String {
+    format!(
+        "warning: {} ({}) was developed by a camera, and neither its white balance nor its matrix is undone: expect a wrong spectrum; \
+         give the RAW file, or --undo",
+        path.display(),
+        photograph.info().format
+    )
 }

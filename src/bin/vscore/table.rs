@@ -46,11 +46,11 @@ impl Table {
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
         let id = one_line(&sample.id());
         if let Some(error) = sample.error()? {
-            return out.failed_text(&self.named(&id, &format!(" {}", one_line(&error))));
+            return out.row(sample, &self.named(&id, &format!(" {}", one_line(&error))));
         }
         let scores = sample.scores()?.unwrap_or_default();
         let value = |name: &str| scores.iter().find(|score| score.name == name).map(|score| score.value);
-        out.text(&self.line(&id, value))
+        out.row(sample, &self.line(&id, value))
     }
 
     /// Mean, median and worst of each group and of all.

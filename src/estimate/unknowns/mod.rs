@@ -34,7 +34,7 @@ mod vignetting;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use angle::ANGLE;
+pub use angle::ANGLE;
 use body_roughness::BODY_ROUGHNESS;
 use bow::BOW;
 use bow_difference::BOW_DIFFERENCE;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::balance::Balance;
 use super::preview::Canvas;
 use crate::Result;
 use crate::image::measuring::PixelRun;
@@ -23,26 +24,30 @@ const THIN_PX: f64 = 1.0;
 const THICK_PX: f64 = 2.5;
 /// Side of the square on the first corner of a grid, px.
 const FIRST_CORNER_PX: f64 = 11.0;
-/// Height of a number, px.
-const DIGIT_PX: f64 = 36.0;
+/// Colour and width of the crease, px.
+const CREASE: [f64; 3] = [1.0; 3];
+const CREASE_PX: f64 = 4.0;
+/// How far an end's name stands from the end, towards the other, in lengths of the crease.
+const END_INWARDS: f64 = 0.06;
 
 /// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px per side.
 ///
-/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, and a square marks the first corner of each.
-/// Pixels that were left out are red.
+/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, the crease is white, with the number of either end, and a
+/// square marks the first corner of each grid. Pixels that were left out are red. Colours are balanced for the eye, which the picture says.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, write_linear, write_overlay};
+/// use vfold::image::{Balance, Grid, Homography, Photograph, Point, ReadOptions, write_linear, write_overlay};
 /// let folder = tempfile::tempdir().unwrap();
 /// let (path, overlay) = (folder.path().join("grey.tif"), folder.path().join("overlay.png"));
 /// write_linear(&path, 40, 30, &[0.5; 40 * 30 * 3])?;
 /// let corners = [(5.0, 5.0), (35.0, 5.0), (35.0, 25.0), (5.0, 25.0)].map(|(x, y)| Point::new(x, y));
 /// let grid = Grid::even(Homography::from_unit_square(corners)?, [2, 3]);
-/// write_overlay(&overlay, &Photograph::open(&path, &ReadOptions::default())?, &[grid], &[])?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// write_overlay(&overlay, &photograph, &[grid], &[], &Balance::of(&photograph, None))?;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn write_overlay(
@@ -50,9 +55,10 @@ pub fn write_overlay(
     photograph: &Photograph,
     grids: &[Grid],
     left_out: &[PixelRun],
+    balance: &Balance,
 ) -> Result<()> {
     let scale = LONGEST_PX / photograph.width().max(photograph.height()) as f64;
-    let mut canvas = Canvas::new(photograph, if scale > 1.0 { scale.floor() } else { scale });
+    let mut canvas = Canvas::new(photograph, if scale > 1.0 { scale.floor() } else { scale }, balance);
     for run in left_out {
         let (x, y) = ([run.columns.start, run.columns.end], [run.row, run.row + 1]);
         let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
@@ -64,27 +70,19 @@ pub fn write_overlay(
     }
     for grid in grids {
         if let Some(number) = grid.panel {
-            canvas.draw_number(number, canvas.at(grid.outline.to_image(0.5, 0.5)));
+            canvas.draw_crease(grid);
+            canvas.say(&format!("panel {number}"), canvas.at(grid.outline.to_image(0.5, 0.5)));
         }
     }
+    // panels that meet have the same crease: its names are set once, over all lines
+    if let Some(grid) = grids.iter().find(|grid| grid.panel.is_some()) {
+        for (name, u) in [("end 0", END_INWARDS), ("crease", 0.5), ("end 1", 1.0 - END_INWARDS)] {
+            canvas.say(name, canvas.at(grid.outline.to_image(u, 0.0)));
+        }
+    }
+    canvas.note(&balance.said);
     canvas.write(path)
 }
-
-/// Digits as lines in a box of width 0.6 and height 1 about its centre.
-const DIGITS: [&[[f64; 2]]; 10] = [
-    &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5], [-0.3, -0.5]],
-    &[[-0.15, -0.3], [0.05, -0.5], [0.05, 0.5]],
-    &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.0], [-0.3, 0.0], [-0.3, 0.5], [0.3, 0.5]],
-    &[[-0.3, -0.5], [0.3, -0.5], [0.3, 0.0], [-0.2, 0.0], [0.3, 0.0], [0.3, 0.5], [-0.3, 0.5]],
-    &[[-0.3, -0.5], [-0.3, 0.0], [0.3, 0.0], [0.3, -0.5], [0.3, 0.5]],
-    &[[0.3, -0.5], [-0.3, -0.5], [-0.3, 0.0], [0.3, 0.0], [0.3, 0.5], [-0.3, 0.5]],
-    &[[0.3, -0.5], [-0.3, -0.5], [-0.3, 0.5], [0.3, 0.5], [0.3, 0.0], [-0.3, 0.0]],
-    &[[-0.3, -0.5], [0.3, -0.5], [0.0, 0.5]],
-    &[[-0.3, 0.0], [-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5], [-0.3, 0.0], [0.3, 0.0]],
-    &[[0.3, 0.0], [-0.3, 0.0], [-0.3, -0.5], [0.3, -0.5], [0.3, 0.5], [-0.3, 0.5]],
-];
-/// From one digit to the next, in heights.
-const DIGIT_STEP: f64 = 0.9;
 
 impl Canvas {
     /// Where a point of the photograph is on the canvas.
@@ -115,19 +113,10 @@ impl Canvas {
         self.fill(&square(first, FIRST_CORNER_PX), colour, 1.0);
     }
 
-    fn draw_number(&mut self, number: usize, middle: Point) {
-        let digits: Vec<usize> = number.to_string().bytes().map(|digit| usize::from(digit - b'0')).collect();
-        for (k, digit) in digits.iter().enumerate() {
-            let right = DIGIT_PX * DIGIT_STEP * (k as f64 - (digits.len() - 1) as f64 / 2.0);
-            self.draw_digit(DIGITS[*digit], Point::new(middle.x + right, middle.y));
-        }
-    }
-
-    fn draw_digit(&mut self, digit: &[[f64; 2]], middle: Point) {
-        let line: Vec<_> =
-            digit.iter().map(|[x, y]| Point::new(middle.x + DIGIT_PX * x, middle.y + DIGIT_PX * y)).collect();
-        self.draw_line(&line, 9.0, BLACK, 1.0);
-        self.draw_line(&line, 4.0, [1.0; 3], 1.0);
+    fn draw_crease(&mut self, grid: &Grid) {
+        let ends = [0.0, 1.0].map(|u| self.at(grid.outline.to_image(u, 0.0)));
+        self.draw_line(&ends, CREASE_PX + 2.0, BLACK, 1.0);
+        self.draw_line(&ends, CREASE_PX, CREASE, 1.0);
     }
 
     fn draw_line(&mut self, points: &[Point], width: f64, colour: [f64; 3], opacity: f64) {
@@ -139,7 +128,7 @@ impl Canvas {
     }
 
     /// Paints a quadrilateral; pixels on its sides by the part that it covers.
-    fn fill(&mut self, corners: &[Point; 4], colour: [f64; 3], opacity: f64) {
+    pub(super) fn fill(&mut self, corners: &[Point; 4], colour: [f64; 3], opacity: f64) {
         let quadrilateral = Quadrilateral::new(corners);
         let (height, width) = self.rgb.dim();
         for y in quadrilateral.rows(height) {

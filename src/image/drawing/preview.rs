@@ -1,10 +1,13 @@
 //! A picture for the eye of any photograph: small, bright enough, sRGB.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use ndarray::Array2;
 
-use super::write::write_srgb_png_with_text;
+use super::balance::Balance;
+use super::write::{Texts, write_srgb_png_with_texts};
 use crate::Result;
 use crate::colorimetry::encode_srgb;
 use crate::image::photograph::{Photograph, Pixel};
@@ -13,8 +16,9 @@ use crate::image::photograph::{Photograph, Pixel};
 const LONGEST_PX: usize = 1600;
 /// Part of the pixels that are darker than the one shown as white.
 const DARKER_THAN_WHITE: f64 = 0.995;
-/// Keyword of the PNG text that tells the photograph's own size, as `6000x4000`; `share/picker.html` reads it.
+/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, and its file; `share/picker.html` reads them.
 const SIZE_KEYWORD: &str = "vfold photograph size";
+const NAME_KEYWORD: &str = "vfold photograph name";
 
 /// A picture to look at and draw on.
 #[derive(Debug, Clone)]
@@ -28,11 +32,14 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// The photograph's light averaged over each pixel of the canvas, `scale` of which there are for one of its own.
-    pub fn new(photograph: &Photograph, scale: f64) -> Self {
+    /// The photograph's light averaged over each pixel of the canvas, `scale` of which there are for one of its own, and balanced.
+    pub fn new(photograph: &Photograph, scale: f64, balance: &Balance) -> Self {
         let photographed = [photograph.width(), photograph.height()];
         let [width, height] = photographed.map(|side| ((side as f64 * scale).round() as usize).max(1));
-        let light = |(y, x)| mean_light(photograph, [x, y], [width, height]);
+        let light = |(y, x)| {
+            let [r, g, b] = mean_light(photograph, [x, y], [width, height]);
+            [r * balance.gains[0], g * balance.gains[1], b * balance.gains[2]]
+        };
         let light = Array2::from_shape_fn((height, width), light);
         let white = white(&light);
         let rgb = light.mapv_into(|rgb| rgb.map(|y| encode_srgb(y / white)));
@@ -41,33 +48,53 @@ impl Canvas {
 
     /// Writes it as PNG that tells the photograph's size.
     pub fn write(&self, path: &Path) -> Result<()> {
+        self.write_naming(path, None)
+    }
+
+    /// Writes it as PNG that tells the photograph's size, and its file if that is named.
+    fn write_naming(&self, path: &Path, photograph: Option<&Path>) -> Result<()> {
         let size = self.photographed.map(|side| side.to_string()).join("x");
+        let name = photograph.map(|photograph| (NAME_KEYWORD, photograph.display().to_string()));
+        let texts = Texts { plain: (SIZE_KEYWORD, size), international: name };
         let (height, width) = self.rgb.dim();
         let rgb: Vec<f64> = self.rgb.iter().flatten().copied().collect();
-        write_srgb_png_with_text(path, [width, height], &rgb, [SIZE_KEYWORD, &size])
+        write_srgb_png_with_texts(path, [width, height], &rgb, texts)
     }
 }
 
 /// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts white.
 ///
-/// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the photograph's pixels.
+/// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the photograph's pixels, and `name`, its
+/// file, in another.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Photograph, ReadOptions, write_linear, write_preview};
+/// use vfold::image::{Balance, Photograph, ReadOptions, is_preview, write_linear, write_preview};
 /// let folder = tempfile::tempdir().unwrap();
 /// let (path, preview) = (folder.path().join("wide.tif"), folder.path().join("preview.png"));
 /// write_linear(&path, 3200, 2, &vec![0.1; 3200 * 2 * 3])?;
-/// write_preview(&preview, &Photograph::open(&path, &ReadOptions::default())?)?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// write_preview(&preview, &photograph, &path, &Balance::of(&photograph, None))?;
+/// assert!(is_preview(&preview) && !is_preview(&path));
 /// assert_eq!(Photograph::open(&preview, &ReadOptions::default())?.width(), 1600);
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn write_preview(path: &Path, photograph: &Photograph) -> Result<()> {
+pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance: &Balance) -> Result<()> {
     let longest = photograph.width().max(photograph.height());
-    Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0)).write(path)
+    let mut canvas = Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0), balance);
+    canvas.note(&format!("preview, {}", balance.said));
+    canvas.write_naming(path, Some(name))
+}
+
+/// Whether a file is a preview or an overlay, made for the eye: what it shows was measured in another. A file that cannot be read is none.
+#[must_use]
+pub fn is_preview(path: &Path) -> bool {
+    let Ok(file) = File::open(path) else { return false };
+    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
+    reader.info().uncompressed_latin1_text.iter().any(|text| text.keyword == SIZE_KEYWORD)
 }
 
 /// Mean light of the photograph's pixels that pixel `at` of a canvas of this `size` shows; clipped ones count as white.

@@ -84,12 +84,18 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
     Ok(png)
 }
 
-/// As [`write_srgb_png`], with a keyword and a text that belongs to it, both ASCII, for programs that read the file.
-pub(super) fn write_srgb_png_with_text(
+/// What a PNG tells programs that read it: a keyword and its text, ASCII; and, if there is one, a keyword and a text of any letters.
+pub(super) struct Texts<'a> {
+    pub plain: (&'a str, String),
+    pub international: Option<(&'a str, String)>,
+}
+
+/// As [`write_srgb_png`], with texts.
+pub(super) fn write_srgb_png_with_texts(
     path: &Path,
     [width, height]: [usize; 2],
     rgb: &[f64],
-    [keyword, text]: [&str; 2],
+    texts: Texts,
 ) -> Result<()> {
     let failed = |error| match error {
         png::EncodingError::IoError(source) => Error::file(path.display(), source),
@@ -99,7 +105,11 @@ pub(super) fn write_srgb_png_with_text(
     let mut saved = Saved::new(path)?;
     let mut encoder = png::Encoder::new(BufWriter::new(saved.file_mut()), picture.width(), picture.height());
     encoder.set_color(png::ColorType::Rgb);
-    encoder.add_text_chunk(keyword.to_owned(), text.to_owned()).map_err(failed)?;
+    let (keyword, text) = texts.plain;
+    encoder.add_text_chunk(keyword.to_owned(), text).map_err(failed)?;
+    if let Some((keyword, text)) = texts.international {
+        encoder.add_itxt_chunk(keyword.to_owned(), text).map_err(failed)?;
+    }
     let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(picture.as_bytes()).map_err(failed)?;
     writer.finish().map_err(failed)?;

@@ -36,6 +36,14 @@ pub struct SensorInfo {
 }
 
 impl PhotographInfo {
+    /// Whether a camera developed the picture, it seems, and nothing of that was undone: sRGB that is a JPEG or names a camera.
+    #[must_use]
+    pub fn is_developed(&self) -> bool {
+        let of_camera =
+            self.format.starts_with("JPEG") || self.camera.make.is_some() || self.camera.model.is_some();
+        of_camera && self.transfer_used == Transfer::Srgb && self.undone.is_none()
+    }
+
     /// Of a linear picture of `stored_size` from 0 to 1, with what the camera wrote.
     pub(in crate::image) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
         let (width, height) = camera.orientation.upright_size(stored_size);

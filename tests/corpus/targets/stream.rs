@@ -117,6 +117,7 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
         estimate: &estimate,
         noise: None,
         joined: &[],
+        verdict: None,
         with_covariance: true,
     };
     match sample.set_estimate(&new) {

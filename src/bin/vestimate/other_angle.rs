@@ -1,0 +1,97 @@
+//! Whether another angle explains a photograph of an ideal fold better than the one that was told.
+//!
+//! A wrong angle makes another spectrum of nearly the same facets: what is left of them says little of it, the angle that they tell much.
+
+use std::sync::OnceLock;
+
+use vfold::Result;
+use vfold::estimate::data::FacetData;
+use vfold::estimate::measured::Measured;
+use vfold::estimate::photograph::Finding;
+use vfold::estimate::prior::Prior;
+use vfold::estimate::unknowns::{ANGLE, SceneModel, Unknown};
+use vfold::estimate::verdict::{Doubt, EXPLAINED};
+use vfold::estimate::{Estimate, Exposure, map};
+use vfold::scene::Setting;
+use vfold::stream::Scene;
+
+use super::estimator::CUTOFF;
+
+/// Standard deviations between an angle and the one that was told that are no chance.
+const SURE: f64 = 3.0;
+/// An angle that is told is known to that, degrees: whose fold is open by so much more told something else wrong, too.
+const TOLD_DEG: f64 = 4.0;
+
+/// A scene with its angle unknown, made when a sample first asks for it.
+#[derive(Default)]
+pub struct OtherAngle(OnceLock<Option<SceneModel>>);
+
+/// An estimate with the angle that the facets tell.
+pub struct Turned {
+    pub estimate: Estimate,
+    told_deg: f64,
+    value_deg: f64,
+    sd_deg: f64,
+}
+
+impl OtherAngle {
+    /// The estimate under another angle, if the `misfit` under the angle that was told is worse.
+    pub fn better(
+        &self,
+        misfit: f64,
+        scene: &Scene,
+        fit: &[&'static Unknown],
+        (measured, exposure): (&Measured, Exposure),
+        prior: &Prior,
+    ) -> Result<Option<Turned>> {
+        let Some(told_deg) = scene.fold_if_one()?.map(|fold| fold.angle_deg()) else { return Ok(None) };
+        if fit.contains(&&ANGLE) {
+            return Ok(None);
+        }
+        let fit: Vec<_> = fit.iter().copied().chain([&ANGLE]).collect();
+        // a flat fold, or one that was given facet by facet, has no other angle
+        let Some(model) = self.0.get_or_init(|| Setting::of(scene).ok()?.model_to_fit(&fit).ok()) else {
+            return Ok(None);
+        };
+        let data = FacetData::new(model, measured, exposure, CUTOFF)?;
+        let estimate = map::estimate(&data, prior, None);
+        let Some(angle) = estimate.fitted.iter().find(|one| one.unknown == &ANGLE) else { return Ok(None) };
+        let (value_deg, sd_deg) = (angle.value, angle.sd);
+        let is_better =
+            estimate.residual_rms < misfit.min(EXPLAINED) && (value_deg - told_deg).abs() > SURE * sd_deg;
+        Ok(is_better.then_some(Turned { estimate, told_deg, value_deg, sd_deg }))
+    }
+}
+
+impl Turned {
+    /// The estimate with the angle that the facets tell, which is said.
+    pub fn into_estimate(self, doubts: &mut Vec<Doubt>) -> Estimate {
+        doubts.extend(self.doubt_if_far());
+        let findings = vec![self.finding()];
+        Estimate { findings, ..self.estimate }
+    }
+
+    /// What is said of it where the estimate takes the angle of the facets.
+    fn finding(&self) -> Finding {
+        let Self { told_deg, value_deg, sd_deg, .. } = self;
+        let what = format!("the fold is open by {value_deg:.1} ± {sd_deg:.1}°, not {told_deg}° as told");
+        Finding { what, remedy: "measure the angle again" }
+    }
+
+    /// Why the estimate is doubtful where that angle is far from the one that was told.
+    fn doubt_if_far(&self) -> Option<Doubt> {
+        let is_far = (self.value_deg - self.told_deg).abs() > TOLD_DEG;
+        is_far.then(|| {
+            Doubt::new(self.finding().what, "measure the angle again, and look at all else that was told")
+        })
+    }
+
+    /// Why the estimate is doubtful where it keeps the angle that was told.
+    pub fn doubt_if_kept(&self) -> Doubt {
+        let Self { told_deg, value_deg, sd_deg, .. } = self;
+        let because = format!(
+            "a fold open by {value_deg:.1} ± {sd_deg:.1}°, not {told_deg}° as told, explains the facets better"
+        );
+        Doubt::new(because, "measure the angle again, or leave --fit out")
+    }
+}

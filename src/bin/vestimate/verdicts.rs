@@ -1,0 +1,56 @@
+//! What is thought of the estimates, on a terminal, once all records are written.
+
+use std::io::{self, IsTerminal};
+
+use vfold::Result;
+use vfold::cli;
+use vfold::stream::{LevelRecord, Sample};
+
+/// Most samples that have a line of their own.
+const LINES: usize = 24;
+
+/// The verdicts of a stream.
+#[derive(Default)]
+pub struct Verdicts {
+    /// A line for each of the first samples.
+    lines: Vec<String>,
+    good: usize,
+    doubtful: usize,
+    wrong: usize,
+    /// The first that is not good.
+    first: Option<String>,
+}
+
+impl Verdicts {
+    /// None where nobody reads them: standard error is no terminal.
+    pub fn on_terminal() -> Option<Self> {
+        io::stderr().is_terminal().then(Self::default)
+    }
+
+    pub fn add(&mut self, sample: &Sample) -> Result<()> {
+        let Some(verdict) = sample.estimate()?.and_then(|estimate| estimate.verdict) else { return Ok(()) };
+        let line = format!("{}: {verdict}", sample.id());
+        match verdict.level {
+            LevelRecord::Good => self.good += 1,
+            LevelRecord::Doubtful => self.doubtful += 1,
+            LevelRecord::Wrong => self.wrong += 1,
+        }
+        if verdict.level != LevelRecord::Good && self.first.is_none() {
+            self.first = Some(line.clone());
+        }
+        if self.lines.len() <= LINES {
+            self.lines.push(line);
+        }
+        Ok(())
+    }
+
+    /// A line each, or how many there are of each kind where they would fill the terminal.
+    pub fn say(&self) {
+        if self.lines.len() <= LINES {
+            return self.lines.iter().for_each(|line| cli::say("vestimate", line));
+        }
+        let Self { good, doubtful, wrong, .. } = self;
+        let first = self.first.as_ref().map(|line| format!("; first: {line}")).unwrap_or_default();
+        cli::say("vestimate", &format!("{good} good, {doubtful} doubtful, {wrong} wrong{first}"));
+    }
+}
