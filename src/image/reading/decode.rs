@@ -115,11 +115,17 @@ fn is_named_raw(path: &Path) -> bool {
     ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str()))
 }
 
-/// First bytes of the RAW files that are not, or not only, laid out as TIFF: where they stand, and what they are.
-const RAW_MARKS: [(usize, &[u8]); 3] = [
+/// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark: where they stand, and what they are.
+const RAW_MARKS: [(usize, &[u8]); 9] = [
     (0, b"FUJIFILMCCD-RAW"), // RAF
     (4, b"ftypcrx "),        // CR3
     (8, b"CR\x02"),          // CR2
+    (6, b"HEAPCCDR"),        // CRW
+    (0, b"IIRO"),            // ORF, and two older kinds
+    (0, b"IIRS"),
+    (0, b"MMOR"),
+    (0, b"IIU\0"), // RW2
+    (0, b"\0MRM"), // MRW
 ];
 
 fn begins_like_raw(head: &[u8]) -> bool {
