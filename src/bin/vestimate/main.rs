@@ -137,8 +137,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         out.record(&record)
     })?;
     traces.map_or(Ok(0), Output::finish)?;
-    drawing.as_ref().map_or(Ok(()), Drawing::write)?;
-    args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))
+    args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
+    drawing.as_ref().map_or(Ok(()), Drawing::write)
 }
 
 /// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,
