@@ -14,6 +14,7 @@ use super::openexr::{self, Kind};
 use super::stated::Statement;
 use super::{icc, png_chunks};
 use crate::image::photograph::CameraNotes;
+use crate::room;
 use crate::{Error, Result};
 
 /// What a file turned out to hold.
@@ -51,6 +52,8 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     if length > MAX_BYTES {
         return Err(Error::picture(path, "the file is larger than 2 GiB", TOO_LARGE));
     }
+    // the directories of a TIFF file are read with all of it
+    room::ask(length, &path.display().to_string(), TOO_LARGE)?;
     let mut file = BufReader::new(file);
     let head = file.fill_buf().map_err(failed)?;
     if head.is_empty() {
@@ -174,6 +177,8 @@ fn decode_whole(
         let problem = format!("{width} x {height} px cannot be in its {length} bytes");
         return Err(Error::picture(path, problem, DAMAGED));
     }
+    let light = 3 * size_of::<f32>() as u64 * u64::from(width) * u64::from(height);
+    room::ask(decoder.total_bytes() + light, &path.display().to_string(), TOO_LARGE)?;
     if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
         return Err(inks(path));
     }
