@@ -151,6 +151,13 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     };
     match done {
         Err(e) if !e.is_finding() => Err(e),
+        Err(e @ Error::NothingToDraw(_)) => match out.finish()? {
+            0 => Err(e),
+            failed => {
+                say(A::command().get_name(), &e.to_string());
+                Ok(failed)
+            }
+        },
         done => out.finish().and_then(|failed| done.map(|()| failed)),
     }
 }

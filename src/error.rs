@@ -164,6 +164,20 @@ pub enum Error {
     #[error("{0}")]
     Numeric(String),
 
+    /// No sample has what a drawing shows; the records are whole.
+    #[error("--plot: {0}; check the samples' errors")]
+    NothingToDraw(&'static str),
+    /// There is no room for what a computation takes.
+    #[error("{what}: no room for {megabytes} MB; {remedy}, or allow more memory (ulimit -v)")]
+    Memory {
+        /// What it is for.
+        what: String,
+        /// How much it takes.
+        megabytes: u64,
+        /// What to do without more memory.
+        remedy: &'static str,
+    },
+
     // ---- ours ----
     /// The tool came upon something that it was not written for.
     #[error("a fault of this program: {0}; report it with what it was given")]
@@ -181,10 +195,10 @@ impl Error {
         }
     }
 
-    /// Whether this is what a check found: its report is whole, and kept.
+    /// Whether this is what a check found, or what records lack for a drawing: what was written is whole, and kept.
     #[must_use]
     pub fn is_finding(&self) -> bool {
-        matches!(self, Self::BrokenLaw(_))
+        matches!(self, Self::BrokenLaw(_) | Self::NothingToDraw(_))
     }
 
     /// Whether the reader of our output has gone, which is no failure of ours.

@@ -34,15 +34,15 @@
 //! scene                -> stream, estimate, forward, transport, sheet, kernel, response, solve, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
-//! stream               -> score, plot, colorimetry, progress, parallel, files
+//! stream               -> score, plot, colorimetry, progress, parallel, files, room
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum
 //! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
 //! transport            -> sheet, kernel, geometry, image
 //! sheet                -> kernel
-//! kernel               -> response, solve, geometry
+//! kernel               -> response, solve, geometry, room
 //! response             -> solve
 //! plot                 -> image, geometry, files, markup
-//! image                -> colorimetry, files
+//! image                -> colorimetry, files, room
 //! score, camera        -> colorimetry
 //! camera, colorimetry  -> spectrum
 //! spectrum             -> files, markup
@@ -70,6 +70,7 @@ pub mod plot;
 pub mod progress;
 pub mod report;
 pub mod response;
+pub mod room;
 pub mod scene;
 pub mod score;
 pub mod sheet;

@@ -6,7 +6,9 @@ use nalgebra::DMatrix;
 use ndarray::Array3;
 use rayon::prelude::*;
 
+use crate::error::Result;
 use crate::geometry::{FacetGrid, Fold};
+use crate::room;
 
 /// Entries that are worth a thread of their own: a few thousand are done before a second one has started.
 const ENTRIES_A_THREAD: usize = 2000;
@@ -46,6 +48,17 @@ impl FoldKernel {
         let all = pairs.into_par_iter().zip(of_pairs).with_min_len(pairs_a_thread);
         let said = all.map(|((i, j), shifts)| exchange(i, j, shifts)).collect();
         (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, said)
+    }
+
+    /// Whether there is room for the kernel of `fold`.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::Error::Memory) if there is not.
+    pub fn check_room(fold: &Fold) -> Result<()> {
+        let FacetGrid { rows, cols } = fold.facets();
+        let pairs = if fold.is_symmetric() { rows * (rows + 1) / 2 } else { rows * rows };
+        let bytes = pairs * cols * size_of::<f64>();
+        room::ask(bytes as u64, "form factors", "take fewer facets")
     }
 
     /// The same from a function of the two rows' extents away from the crease that takes a microsecond per entry.

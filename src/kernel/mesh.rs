@@ -6,6 +6,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::check::spectral_radius;
 use crate::kernel::facets::FacetOperator;
+use crate::kernel::fold_kernel::FoldKernel;
 use crate::kernel::method::Method;
 use crate::kernel::refinement::{Refined, refine};
 use crate::response::Response;
@@ -123,7 +124,9 @@ fn respond_patches(
             "give multiples of the facets, or auto",
         ));
     }
-    let (kernel, entry_sd) = method.form_factors(&fold.with_facets(patches)?);
+    let divided = fold.with_facets(patches)?;
+    FoldKernel::check_room(&divided)?;
+    let (kernel, entry_sd) = method.form_factors(&divided);
     let operator = FacetOperator::new(&kernel, facets);
     if method != Method::Exact {
         check_convergence(method, &operator)?;

@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::geometry::Fold;
 use crate::kernel::continuum::{Continuum, Resolution};
 use crate::response::{ModeLight, Modes, Response};
+use crate::room;
 
 /// Most unknowns of one solution: its matrix then takes 800 MB.
 const UNKNOWNS_MAX: usize = 10_000;
@@ -90,6 +91,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     if unknowns > UNKNOWNS_MAX || (unknowns as f64).powi(2) * poles as f64 > PRODUCTS_MAX {
         return Ok(None);
     }
+    room::ask(8 * (unknowns as u64).pow(2), "the exchange between undivided panels", "take fewer facets")?;
     let (response, residual) = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim * loss(fold))?;
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }

@@ -94,10 +94,10 @@ impl Figure for Batch {
 /// Draws a batch, as SVG or PNG.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be written, [`Error::Usage`] if no sample was scored.
+/// [`Error::File`] if it cannot be written, [`Error::NothingToDraw`] if no sample was scored.
 pub fn draw(path: &Path, batch: &Batch) -> Result<()> {
     if batch.scored == 0 {
-        return Err(Error::usage("--plot", "no sample was scored", "check the samples' errors"));
+        return Err(Error::NothingToDraw("no sample was scored"));
     }
     save(path, batch)
 }

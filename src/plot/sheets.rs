@@ -52,14 +52,11 @@ impl Sheet {
 /// Draws up to [`CURVES_MAX`] sheets, as SVG or PNG, a single one with its residuals; `-` is the terminal, which shows spectra alone.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be written, [`Error::Usage`] if there is nothing to draw.
+/// [`Error::File`] if it cannot be written, [`Error::NothingToDraw`] if there is nothing to draw.
 pub fn draw(path: &Path, sheets: &[Sheet]) -> Result<()> {
     let shown = &sheets[..sheets.len().min(CURVES_MAX)];
     let maps = match shown {
-        [] => {
-            let problem = "no sample has an estimate to draw";
-            return Err(Error::usage("--plot", problem, "check the samples' errors"));
-        }
+        [] => return Err(Error::NothingToDraw("no sample has an estimate to draw")),
         [one] => one.residual_maps(),
         _ => None,
     };

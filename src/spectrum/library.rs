@@ -190,8 +190,18 @@ fn illuminant(name: &str) -> Result<Option<Spectrum>> {
     let named = |spectrum: Spectrum| Some(spectrum.renamed(|_| name.to_owned()));
     match name.split_once(':') {
         Some(("sun", place)) => clear_sky(place)?.direct().map(named),
-        Some(("sky", place)) => clear_sky(place)?.diffuse().map(named),
+        Some(("sky", place)) => clear_sky(place).map_err(of_sky)?.diffuse().map(named),
         _ => cie_illuminant(name),
+    }
+}
+
+/// An error of the sun's place that calls it the sky's, as it was given.
+fn of_sky(error: Error) -> Error {
+    match error {
+        Error::Spectrum { name, problem, remedy } => {
+            Error::Spectrum { name: name.replacen("sun:", "sky:", 1), problem, remedy }
+        }
+        other => other,
     }
 }
 

@@ -5,12 +5,16 @@ use std::io::{self, BufRead, BufReader, Read};
 
 use super::{Fields, Sample, Scene};
 use crate::error::{Error, Result};
+use crate::room;
 
 /// Longest line that is read: the scene of a 5° fold of 512 x 512 facets has 900 MB.
 const LINE_MAX: u64 = 1 << 30;
 
 /// What is not the beginning of a record after so many bytes is not read to its end.
 const BEGINNING: u64 = 1 << 16;
+
+const NO_ROOM: &str =
+    "no room for a line this long; take fewer facets or wavelengths, or allow more memory (ulimit -v)";
 
 /// One line of the stream.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,6 +96,11 @@ impl Reader {
                 }
             });
         }
+        room::ask(
+            bytes.len() as u64,
+            &format!("{}:{}", self.path, self.line),
+            "take fewer facets or wavelengths",
+        )?;
         let fields = serde_json::from_slice(&bytes)
             .map_err(|e| self.wrong(&format!("not a JSON object ({e})"), "each line must be one record"))?;
         self.typed(fields).map(Some)
@@ -103,7 +112,7 @@ impl Reader {
         source.read_until(b'\n', &mut bytes)?;
         if is_record(&bytes) && !bytes.ends_with(b"\n") {
             source.set_limit(LINE_MAX - bytes.len() as u64);
-            source.read_until(b'\n', &mut bytes)?;
+            read_line(&mut source, &mut bytes)?;
         }
         Ok(bytes)
     }
@@ -149,6 +158,22 @@ impl Reader {
             remedy: remedy.to_owned(),
         }
     }
+}
+
+/// Adds the rest of a line, its end with it. `read_until` would end the program where there is no room for it.
+fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
+    while !line.ends_with(b"\n") {
+        let piece = source.fill_buf()?;
+        let length = piece.iter().position(|byte| *byte == b'\n').map_or(piece.len(), |end| end + 1);
+        if length == 0 {
+            break;
+        }
+        let no_room = |_| io::Error::new(io::ErrorKind::OutOfMemory, NO_ROOM);
+        line.try_reserve(length).map_err(no_room)?;
+        line.extend_from_slice(&piece[..length]);
+        source.consume(length);
+    }
+    Ok(())
 }
 
 /// Whether a line begins as a record does.

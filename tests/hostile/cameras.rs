@@ -93,6 +93,48 @@ END
     );
 }
 
+/// `--save-camera`, and what it wrote, spoiled.
+#[test]
+fn cameras_from_charts() {
+    let setup = format!(
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        cp '{PHOTOS}/f_srgb_blue_flower_50.jpg' photo.jpg
+        oiiotool photo.jpg --ch 0 -o grey.png
+        cat > camera <<'END'
+        photo=$1 file=$2
+        shift 2
+        vextract $photo --save-camera $file --chart '20,20 120,20 120,90 20,90' "$@"
+END
+        printf 'wavelength_nm,R,R_sd,G,G_sd,B,B_sd\n' > head
+        {{ cat head; printf '400,1,0.1,1,0.1,1,0.1\n700,1,0.1,1,0.1,1,0.1\n'; }} > good.csv
+        {{ cat head; printf '400,1,0.1,1,0.1,1\n700,1,0.1,1,0.1,1,0.1\n'; }} > short.csv
+        {{ cat head; printf '400,NaN,0.1,1,0.1,1,0.1\n700,1,0.1,1,0.1,1,0.1\n'; }} > nan.csv
+        {{ cat head; printf '400,-1,0.1,1,0.1,1,0.1\n700,1,0.1,1,0.1,1,0.1\n'; }} > negative.csv
+        {{ cat head; printf '400,0,0.1,1,0.1,1,0.1\n700,0,0.1,1,0.1,1,0.1\n'; }} > dark.csv
+        cp head empty.csv
+        "#
+    );
+    assert_refused(
+        &setup,
+        &[
+            case("sh camera photo.jpg mine.txt", 2, &["--save-camera", "mine.txt", ".csv"]),
+            case("sh camera missing.jpg mine.csv", 1, &["missing.jpg", "No such file"]),
+            case("sh camera 'photo.jpg photo.jpg' mine.csv", 2, &["--save-camera", "2 photographs"]),
+            case("sh camera grey.png mine.csv", 1, &["grey.png"]),
+            case("sh camera photo.jpg mine.csv", 1, &["photo.jpg", "chart"]),
+            case("sh camera photo.jpg mine.csv --chart-grid 0x4", 2, &["--chart-grid"]),
+            case("sh camera photo.jpg mine.csv --illuminant D65 --illuminant A", 2, &["--illuminant"]),
+            case("vextract photo.jpg --save-camera mine.csv", 2, &["--chart", "--regions"]),
+            case("vforward scene.json --reflectance 0.5 --camera short.csv", 1, &["short.csv:2"]),
+            case("vforward scene.json --reflectance 0.5 --camera nan.csv", 1, &["nan.csv:2", "NaN"]),
+            case("vforward scene.json --reflectance 0.5 --camera negative.csv", 1, &["-1 is below 0"]),
+            case("vforward scene.json --reflectance 0.5 --camera dark.csv", 1, &["zero at every wavelength"]),
+            case("vforward scene.json --reflectance 0.5 --camera empty.csv", 1, &["empty.csv"]),
+        ],
+    );
+}
+
 #[test]
 fn cameras_that_are_not_known() {
     let setup = format!(

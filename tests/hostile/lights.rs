@@ -70,3 +70,40 @@ fn scenes() {
         ],
     );
 }
+
+/// `sun:` and `sky:`: places, times and angles at which no sun shines.
+#[test]
+fn computed_daylight() {
+    assert_refused(
+        "
+        vkernel --facets 1x1 -o scene.json
+        cat > lit <<'END'
+        vforward scene.json --reflectance 0.5 --illuminant \"$@\"
+END
+        ",
+        &[
+            case("sh lit sun:", 1, &["sun:", "no place and time", "sun:40deg"]),
+            case("sh lit sun:40", 1, &["sun:40", "no place and time"]),
+            case("sh lit sun:deg", 1, &["no angle"]),
+            case("sh lit sun:NaNdeg", 1, &["NaN° is no angle"]),
+            case("sh lit sun:-5deg", 1, &["-5° is no angle"]),
+            case("sh lit sun:90deg", 1, &["below the horizon", "less than 90"]),
+            case("sh lit sun:1e308deg", 1, &["below the horizon"]),
+            case("sh lit sun:91,0,2024-06-01T12:00Z", 1, &["'91,0' is no place", "-90 to 90"]),
+            case("sh lit sun:50,NaN,2024-06-01T12:00Z", 1, &["is no place"]),
+            case("sh lit sun:50,8,yesterday", 1, &["'yesterday' is no time"]),
+            case("sh lit sun:50,8,2024-02-30T12:00Z", 1, &["is no time"]),
+            case("sh lit sun:50,8,2024-06-01T12:00", 1, &["is no time", "UTC"]),
+            case("sh lit sun:50,8,999999999999-06-01T12:00Z", 1, &["is no time"]),
+            case("sh lit sun:50,8,2024-06-01T12:00+99:00", 1, &["is no time"]),
+            case("sh lit sun:50,8,2024-06-01T00:00Z", 1, &["below the horizon", "check the time"]),
+            case("sh lit sky:", 1, &["sky:"]),
+            case("sh lit D65 --sky-illuminant sky", 2, &["--sky-illuminant", "which sun", "sky:40deg"]),
+            case("sh lit D65 --sky-illuminant sky:99deg", 1, &["sky:99deg", "below the horizon"]),
+            case("vkernel --sky sun:95deg", 2, &["--sky", "below the horizon"]),
+            case("vkernel --sky sun:", 2, &["--sky", "no place and time"]),
+            case("vkernel --sky sky:40deg", 2, &["--sky"]),
+            case("vkernel --sky sun:50,8,2024-12-21T23:00Z", 2, &["--sky", "below the horizon"]),
+        ],
+    );
+}

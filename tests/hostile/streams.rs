@@ -98,6 +98,13 @@ fn streams() {
             case("vestimate good.ndjson --prior munsel", 1, &["munsel", "munsell"]),
             case("vestimate good.ndjson --prior 0.5", 2, &["--prior", "one spectrum", "two or more"]),
             case("vestimate good.ndjson --fit colour", 2, &["--fit", "tilt"]),
+            case("vestimate good.ndjson --fit auto,angle", 2, &["--fit", "auto stands alone"]),
+            case("vestimate good.ndjson --fit none,tilt", 2, &["--fit", "none stands alone"]),
+            case("vestimate good.ndjson --fit auto,auto", 2, &["--fit", "auto stands alone"]),
+            case("vestimate good.ndjson --fit ''", 2, &["--fit", "auto"]),
+            case("vestimate good.ndjson --fit gloss", 2, &["--fit", "gloss", "auto"]),
+            case("vestimate good.ndjson --fit auto --prior smooth", 2, &["--fit", "--prior"]),
+            case("vestimate good.ndjson --fit auto --method park", 2, &["--fit", "--method"]),
             case("vestimate good.ndjson --fit exposure --exposure 1", 2, &["--fit", "--exposure"]),
             case("vestimate good.ndjson --fit sky --prior smooth", 2, &["--fit", "--prior"]),
             case(

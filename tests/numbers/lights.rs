@@ -120,7 +120,7 @@ fn the_cornell_box_keeps_its_energy() {
     let faces = (0..walls.len()).flat_map(halves).collect();
     let shape = shape(vertices, faces);
     let lamp = Vec3::new(278.0, 273.0, 280.0);
-    let patches = patches(&shape, Division { cells: 3, strips: 0 });
+    let patches = patches(&shape, Division { cells: 3, graded: false });
     let sources = [LightSource::point(lamp.into(), 1.0, 100.0).unwrap()];
     let lit = LitSurface::new(&shape, &sources, &patches, 1e-3).unwrap();
     let areas: Vec<f64> = lit.kernel.root_areas().iter().map(|root| root * root).collect();

@@ -13,7 +13,7 @@ use vfold::geometry::{FacetGrid, Fold, LightSource, Shape, Vec3, obj};
 use vfold::kernel::exact;
 use vfold::kernel::mesh::{Mesh, respond};
 use vfold::kernel::surface::patches::{Division, patches};
-use vfold::kernel::surface::refinement::solve;
+use vfold::kernel::surface::refinement::{Solved, solve};
 use vfold::kernel::surface::sunlight::sunlight;
 use vfold::kernel::surface::{Census, SurfaceKernel};
 use vfold::response::{ModeLight, SurfaceResponse};
@@ -198,7 +198,20 @@ fn a_v_of_facets_has_the_irradiance_of_the_fold() {
     }
 }
 
-/// Both lights, reflectances 0.2, 0.5 and 0.9: facet means within 0.3 % rms of random walks.
+/// A facet's irradiance at a reflectance.
+fn irradiances(solved: &Solved, r: f64) -> Vec<f64> {
+    let response = &solved.responses[0];
+    (0..response.facets()).map(|facet| response.irradiance(facet, r)).collect()
+}
+
+/// How far every facet is off, relative to itself or, in the dark, to a tenth of the mean: what `facet_mean_error` is about.
+fn errors(found: &[f64], want: &[f64]) -> Vec<f64> {
+    let dark = 0.1 * want.iter().sum::<f64>() / want.len() as f64;
+    found.iter().zip(want).map(|(found, want)| (found - want).abs() / want.max(dark)).collect()
+}
+
+/// Both lights, reflectances 0.2, 0.5 and 0.9: facet means within 0.3 % rms of random walks, and each within what is stated but for four
+/// standard errors of the walks.
 #[test]
 fn irradiances_are_those_of_the_random_walks() {
     for name in ["corner", "w_60_60", "w_60_100"] {
@@ -222,9 +235,68 @@ fn irradiances_are_those_of_the_random_walks() {
                     100.0 * rms_flat
                 );
                 assert!(rms < 3e-3 && rms < rms_flat, "{name} {towards:?} r = {r}: {rms} {rms_flat}");
+                let stated = fine.accuracy.facet_mean_error.unwrap();
+                let walks = numbers(case["E_se"].get(n).unwrap_or_else(|| &case["E_se"][r.to_string()]));
+                let errors = errors(&irradiances(&fine, r), &want);
+                let off: Vec<_> = errors.iter().map(|error| format!("{:.2}", 1e3 * error)).collect();
+                println!("    stated {:.2}e-3; facets, e-3: {}", 1e3 * stated, off.join(" "));
+                for (facet, error) in errors.iter().enumerate() {
+                    let walks = 4.0 * walks[facet] / want[facet];
+                    assert!(*error < stated + walks, "{name} {towards:?} r = {r}, facet {facet}: {error}");
+                }
             }
         }
     }
+}
+
+/// Five unit squares, each divided into n x n: a box without a lid.
+fn open_box(n: usize) -> Shape {
+    let (shape, side) = (box_within([1.0; 3], n), n * n);
+    // the last of the six is the lid
+    let faces = (0..5 * side).map(|facet| shape.corners(facet).to_vec()).collect();
+    Shape::new(shape.vertices().to_vec(), faces, vec![]).unwrap().0
+}
+
+/// Each facet is within the error that is stated of a solution with a quarter of it, whose own error counts as well. Slanted light, and
+/// shadows that end inside facets, but for a single V.
+#[test]
+fn stated_errors_hold_beside_finer_solutions() {
+    let w = |angle_deg: f64, ridge_deg: f64, n: usize| {
+        let valley = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: n, cols: n }).unwrap();
+        Accordion { valley, creases: 3, ridge_deg, bow_deg: 0.0 }.shape().unwrap()
+    };
+    let slanted = [0.3, 0.8, 1.0];
+    let cases = [
+        ("W of 50 and 80 degrees", w(50.0, 80.0, 2), slanted),
+        ("W of 60 and 100 degrees", w(60.0, 100.0, 2), slanted),
+        ("W of 30 and 60 degrees", w(30.0, 60.0, 1), [0.5, 0.2, 0.8]),
+        ("V of 45 degrees", v(45.0, 1, 1).1, [0.0, 0.0, 1.0]),
+        ("V of 45 degrees", v(45.0, 3, 3).1, slanted),
+        ("open box", open_box(1), slanted),
+        ("open box", open_box(2), [0.2, 0.5, 1.0]),
+    ];
+    for (name, shape, towards) in cases {
+        let sun = LightSource::directional(towards, 1.0).unwrap();
+        let [coarse, fine] =
+            [4e-2, 1e-2].map(|tolerance| solve(&shape, &[sun], Mesh::Auto, tolerance).unwrap());
+        let [stated, left] = [&coarse, &fine].map(|solved| solved.accuracy.facet_mean_error.unwrap());
+        assert!(stated <= 4e-2 && left <= 1e-2, "{name}: {stated} {left}");
+        for r in [0.2, 0.5, 0.9] {
+            let errors = errors(&irradiances(&coarse, r), &irradiances(&fine, r));
+            let off: Vec<_> = errors.iter().map(|error| format!("{:.1}", 1e3 * error)).collect();
+            println!("{name}, r = {r}: stated {:.1}e-3; facets, e-3: {}", 1e3 * stated, off.join(" "));
+            let worst = errors.into_iter().fold(0.0, f64::max);
+            assert!(worst < stated + left, "{name} r = {r}: off by {worst}, stated {stated}");
+        }
+    }
+}
+
+/// Shadows that end inside facets, valleys on all sides.
+#[test]
+fn an_open_box_with_shadows_reaches_a_thousandth() {
+    let sun = LightSource::directional([0.3, 0.8, 1.0], 1.0).unwrap();
+    let solved = solve(&open_box(2), &[sun], Mesh::Auto, 1e-3).unwrap();
+    assert!(solved.accuracy.facet_mean_error.unwrap() <= 1e-3, "{:?}", solved.accuracy);
 }
 
 /// Of facets in which a shadow ends the reference has a grid of 3000 x 3000 points.

@@ -26,6 +26,8 @@ mod plots;
 mod python;
 #[cfg(feature = "raw")]
 mod raw;
+#[cfg(feature = "raw")]
+mod raw_files;
 #[path = "../common/ready.rs"]
 mod ready;
 mod real_sheets;

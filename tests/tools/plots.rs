@@ -150,3 +150,25 @@ fn other_endings_are_refused() {
         "{run:?}"
     );
 }
+
+/// Samples without a spectrum carry their error, and what else there is goes out whole.
+#[test]
+fn where_no_sample_can_be_drawn_the_records_are_whole() {
+    let folder = Workdir::new();
+    let made = folder.sh(
+        "vkernel --facets 2x2 | vforward --reflectance cc24:red | sed 's/\"facet_rgb\":/\"facet\":/' >bad",
+    );
+    assert_eq!(made.status, 0, "{}", made.stderr);
+    for (command, lines) in [("vestimate bad", 2), ("vscore bad", 3), ("vestimate bad | vscore", 3)] {
+        let run =
+            folder.sh(&format!("{command} --plot none.svg || echo $?; ls none.svg 2>/dev/null || true"));
+        let said =
+            run.stderr.lines().filter(|line| line.contains("no sample has an estimate to draw")).count();
+        assert!(
+            run.stdout.ends_with("\n3\n") && run.stdout.lines().count() == lines + 1 && said == 1,
+            "{run:?}"
+        );
+    }
+    let run = folder.sh("head -n 1 bad | vestimate --plot none.svg || echo $?");
+    assert!(run.stdout.ends_with("\n1\n") && run.stderr.contains("to draw"), "{run:?}");
+}

@@ -330,6 +330,25 @@ fn changed_bytes_never_panic() {
     }
 }
 
+/// Olympus and Panasonic write TIFF under marks of their own, older Canon and Minolta cameras something else. All are known by their first
+/// bytes; without them ORF, RW2, CRW and MRW files were called no pictures.
+#[test]
+fn files_that_begin_in_a_way_of_their_own_are_raw() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("photo");
+    for mark in ["IIRO", "IIRS", "IIU\0"] {
+        let mut bytes = Dng::new(8, even(8, 8)).bytes();
+        bytes[..4].copy_from_slice(mark.as_bytes());
+        std::fs::write(&path, bytes).unwrap();
+        assert_light(&open(&path).unwrap(), (4, 4), [0.2, 0.4, 0.8]);
+    }
+    for begin in ["II\x1a\0\0\0HEAPCCDR", "\0MRM\0\0\0\x08", "MMOR\0\0\0\x08"] {
+        std::fs::write(&path, [begin.as_bytes(), &[0; 100]].concat()).unwrap();
+        let message = open(&path).unwrap_err().to_string();
+        assert!(!message.contains("not a PNG") && !message.contains('\n'), "{begin:?}: {message}");
+    }
+}
+
 #[test]
 fn files_that_only_begin_like_raw_are_refused_in_one_line() {
     let run = Workdir::new().sh(

@@ -155,10 +155,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         None => pipe(&mut reader, &estimator, kept, done)?,
     }
     traces.map(Output::finish).transpose()?;
-    drawing.as_ref().map_or(Ok(()), Drawing::write)?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
     verdicts.iter().for_each(Verdicts::say);
-    Ok(())
+    drawing.as_ref().map_or(Ok(()), Drawing::write)
 }
 
 /// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,

@@ -44,6 +44,7 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
     scene.set_accuracy(&mesh.to_string(), tolerance, &accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = out.saves.take("kernel") {
+        FoldKernel::check_room(fold)?;
         save(&path, &method.form_factors(fold).0)?;
     }
     args.plot.as_ref().map_or(Ok(()), |path| draw(path, &FoldSetting::of(&scene)?.facet_light()?))?;
@@ -59,6 +60,7 @@ fn report(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<
         Some(Mesh::Patches(patches)) => fold.with_facets(patches)?,
         _ => *fold,
     };
+    FoldKernel::check_room(&fold)?;
     let (kernel, entry_sd) = method.form_factors(&fold);
     warn_of_spread(args, method, entry_sd);
     if let Some(path) = out.saves.take("kernel") {

@@ -128,13 +128,13 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             (None, record) => out.record(record),
         }
     })?;
-    gallery.as_ref().map_or(Ok(()), |gallery| draw(args, gallery, groups.all(), &scorer))?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
     let by = groups.found()?;
     match table {
-        Some(table) => table.footer(out, groups.all(), by),
-        None => out.fields(&summary(groups.all(), by)?),
+        Some(table) => table.footer(out, groups.all(), by)?,
+        None => out.fields(&summary(groups.all(), by)?)?,
     }
+    gallery.as_ref().map_or(Ok(()), |gallery| draw(args, gallery, groups.all(), &scorer))
 }
 
 /// Where samples are kept for drawings, if there are any.
@@ -149,14 +149,14 @@ fn gallery(args: &Args) -> Option<Gallery> {
 fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Result<()> {
     let overlay = args.overlay.clone();
     let view = View { illuminant: scorer.first_illuminant(), observer: args.observer, overlay };
+    args.report.as_ref().map_or(Ok(()), |path| report::write(path, gallery, all, &view))?;
     match &args.plot {
         Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {
-            batch::draw(path, &gallery.batch(all)?)?;
+            batch::draw(path, &gallery.batch(all)?)
         }
-        Some(path) => sheets::draw(path, &gallery.sheets(&view)?)?,
-        None => {}
+        Some(path) => sheets::draw(path, &gallery.sheets(&view)?),
+        None => Ok(()),
     }
-    args.report.as_ref().map_or(Ok(()), |path| report::write(path, gallery, all, &view))
 }
 
 fn page(text: &str) -> std::result::Result<PathBuf, String> {

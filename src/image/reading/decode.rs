@@ -14,6 +14,7 @@ use super::openexr::{self, Kind};
 use super::stated::Statement;
 use super::{icc, png_chunks};
 use crate::image::photograph::CameraNotes;
+use crate::room;
 use crate::{Error, Result};
 
 /// What a file turned out to hold.
@@ -51,6 +52,8 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     if length > MAX_BYTES {
         return Err(Error::picture(path, "the file is larger than 2 GiB", TOO_LARGE));
     }
+    // the directories of a TIFF file are read with all of it
+    room::ask(length, &path.display().to_string(), TOO_LARGE)?;
     let mut file = BufReader::new(file);
     let head = file.fill_buf().map_err(failed)?;
     if head.is_empty() {
@@ -115,11 +118,17 @@ fn is_named_raw(path: &Path) -> bool {
     ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str()))
 }
 
-/// First bytes of the RAW files that are not, or not only, laid out as TIFF: where they stand, and what they are.
-const RAW_MARKS: [(usize, &[u8]); 3] = [
+/// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark: where they stand, and what they are.
+const RAW_MARKS: [(usize, &[u8]); 9] = [
     (0, b"FUJIFILMCCD-RAW"), // RAF
     (4, b"ftypcrx "),        // CR3
     (8, b"CR\x02"),          // CR2
+    (6, b"HEAPCCDR"),        // CRW
+    (0, b"IIRO"),            // ORF, and two older kinds
+    (0, b"IIRS"),
+    (0, b"MMOR"),
+    (0, b"IIU\0"), // RW2
+    (0, b"\0MRM"), // MRW
 ];
 
 fn begins_like_raw(head: &[u8]) -> bool {
@@ -168,6 +177,8 @@ fn decode_whole(
         let problem = format!("{width} x {height} px cannot be in its {length} bytes");
         return Err(Error::picture(path, problem, DAMAGED));
     }
+    let light = 3 * size_of::<f32>() as u64 * u64::from(width) * u64::from(height);
+    room::ask(decoder.total_bytes() + light, &path.display().to_string(), TOO_LARGE)?;
     if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
         return Err(inks(path));
     }

@@ -1,12 +1,13 @@
-//! The patches into which facets are divided: even cells, narrower towards edges where facets meet in a valley.
+//! The patches into which facets are divided: even cells, more and narrower ones towards edges where facets meet in a valley.
+//!
+//! Beside a valley irradiance goes with a power of the distance, often below one. Cells as wide as the root of their distance, so that their
+//! ends are squares, make the error of facet means fall with the square of their number there as elsewhere; cells of equal ratios do not.
 
 use std::collections::HashMap;
 
 use crate::geometry::polygon::{Polygon, Vec3};
 use crate::geometry::shape::Shape;
 
-/// How much narrower a cell is than its neighbour that is further from a valley.
-const GRADING: f64 = 0.35;
 /// Corners nearer to each other than this share of the surface's size are one.
 const SAME: f64 = 1e-7;
 
@@ -24,13 +25,13 @@ pub struct Patch {
 pub struct Division {
     /// Cells along each side of a quadrilateral; a triangle is three quadrilaterals unless it is not divided at all.
     pub cells: usize,
-    /// How often a cell beside a valley is divided again.
-    pub strips: usize,
+    /// Whether there are twice as many towards a valley, narrower the nearer they are.
+    pub graded: bool,
 }
 
 impl Division {
     /// One patch per facet.
-    pub const NONE: Self = Self { cells: 1, strips: 0 };
+    pub const NONE: Self = Self { cells: 1, graded: false };
 }
 
 /// All patches of a surface, facet by facet.
@@ -41,8 +42,8 @@ impl Division {
 /// use vfold::kernel::surface::patches::{Division, patches};
 /// let valley = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 2, cols: 2 })?;
 /// let v = Accordion { valley, creases: 1, ridge_deg: 60.0, bow_deg: 0.0 }.shape()?;
-/// // 8 facets in 2 x 2 cells, 4 of them with one more strip of 2 along the crease
-/// assert_eq!(patches(&v, Division { cells: 2, strips: 1 }).len(), 32 + 8);
+/// // 8 facets in 2 x 2 cells, 4 of them with twice as many away from the crease
+/// assert_eq!(patches(&v, Division { cells: 2, graded: true }).len(), 4 * 4 + 4 * 8);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]
@@ -140,15 +141,16 @@ fn cells(quad: &Polygon, [low_v, high_u, high_v, low_u]: [bool; 4], division: Di
     out
 }
 
-/// Where cells begin and end, from 0 to 1.
-fn cuts(Division { cells, strips }: Division, low: bool, high: bool) -> Vec<f64> {
-    let cell = 1.0 / cells as f64;
-    let fine = |wanted: bool| {
-        (0..if wanted { strips } else { 0 }).map(|n| 0.5 * cell.min(0.9) * GRADING.powi(n as i32))
+/// Where cells begin and end, from 0 to 1, on a side of which either end may be at a valley.
+fn cuts(Division { cells, graded }: Division, low: bool, high: bool) -> Vec<f64> {
+    let (low, high) = (graded && low, graded && high);
+    let count = cells << (u32::from(low) + u32::from(high));
+    let narrower = |x: f64| match (low, high) {
+        (false, false) => x,
+        (true, false) => x * x,
+        (false, true) => 1.0 - (1.0 - x).powi(2),
+        (true, true) if x < 0.5 => 2.0 * x * x,
+        (true, true) => 1.0 - 2.0 * (1.0 - x).powi(2),
     };
-    let mut cuts: Vec<f64> = (0..=cells).map(|n| n as f64 * cell).collect();
-    cuts.extend(fine(low));
-    cuts.extend(fine(high).map(|x| 1.0 - x));
-    cuts.sort_by(f64::total_cmp);
-    cuts
+    (0..=count).map(|n| narrower(n as f64 / count as f64)).collect()
 }

@@ -5,29 +5,31 @@ use super::direct::DirectLight;
 use super::patches::{Division, Patch, patches, patches_by};
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
-use crate::geometry::shape::Shape;
+use crate::geometry::shape::{FACETS_MAX, Shape};
 use crate::kernel::mesh::{Accuracy, KernelSource, Mesh};
 use crate::kernel::method::Method;
 use crate::response::Exchange;
 use crate::response::SurfaceResponse;
 
-/// Ever finer divisions: cells halve, and so do the strips beside valleys.
-const LADDER: [Division; 4] = [
-    Division { cells: 1, strips: 1 },
-    Division { cells: 2, strips: 2 },
-    Division { cells: 4, strips: 3 },
-    Division { cells: 8, strips: 4 },
-];
+/// Cells along a side in ever finer meshes.
+const LADDER: [usize; 6] = [1, 2, 4, 8, 16, 32];
 /// How many times as many cells a side has on a facet in which a shadow ends.
-const SHADOW: usize = 4;
+const SHADOW: usize = 2;
 /// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
 const UNEVEN: f64 = 0.01;
 /// Most cells along a side that anybody asks for: of one facet they are all the patches that there may be.
 const CELLS_MAX: usize = 316;
-/// Most patches of a mesh that was not asked for.
-const PATCHES_MAX: usize = 8000;
-/// The error that is believed, relative to the difference from the coarser mesh, which falls at least by half from one to the next.
-const BELIEVED: f64 = 0.5;
+/// Most patches of the first mesh, and of others but for one that should reach the tolerance.
+const FIRST_MAX: usize = 8000;
+const PATCHES_MAX: usize = 40_000;
+/// Most pairs of patches that may hide parts of each other, which take most of the time where there are any: half a minute or so.
+const HIDDEN_MAX: f64 = 2e6;
+/// What the difference between two meshes falls to in the next finer one. Cells being halved it should be a quarter; on coarse meshes, and
+/// where a shadow ends, it falls as far once and less the next time.
+const FALL: f64 = 0.45;
+/// What it falls to where only two meshes tell, and where it did not fall at all.
+const FIRST_FALL: f64 = 0.6;
+const LEAST_FALL: f64 = 0.75;
 /// Reflectances at which two meshes are compared.
 const PROBES: [f64; 2] = [0.5, 0.9];
 /// Facets that are darker than this share of the mean are compared with it instead of with themselves.
@@ -47,8 +49,9 @@ pub struct Solved {
 
 /// Solves the bounces on `shape` under each of `sources` for every reflectance, on `mesh`.
 ///
-/// [`Mesh::Auto`] divides facets until no facet mean changes by more than twice `tolerance`, relative to itself or, in the dark, to a
-/// tenth of the mean, at reflectances up to 0.9; it stops earlier, and the accuracy says so, at 8000 patches.
+/// [`Mesh::Auto`] divides facets until no facet mean should be further off than `tolerance`, relative to itself or, in the dark, to a
+/// tenth of the mean, at reflectances up to 0.9; it stops earlier, and the accuracy says so, at 40 000 patches or two million pairs of patches
+/// that are partly hidden from each other.
 ///
 /// # Errors
 /// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns, which a shape does not have.
@@ -70,7 +73,7 @@ pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64)
     match mesh {
         Mesh::Auto => scene.refined(),
         Mesh::Facets => scene.on(&patches(shape, Division::NONE)),
-        Mesh::Cells(cells) => scene.on(&patches(shape, Division { cells, strips: 0 })),
+        Mesh::Cells(cells) => scene.on(&patches(shape, Division { cells, graded: false })),
         Mesh::Patches(_) => Err(Error::usage(
             "--mesh",
             "a shape has no rows and columns",
@@ -83,10 +86,10 @@ pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64)
 #[must_use]
 pub fn patches_again(shape: &Shape, sources: &[LightSource], unknowns: usize) -> Option<Vec<Patch>> {
     let scene = Scene { shape, sources, tolerance: 0.0 };
-    let even = (1..=CELLS_MAX).map(|cells| patches(shape, Division { cells, strips: 0 }));
+    let even = (1..=CELLS_MAX).map(|cells| patches(shape, Division { cells, graded: false }));
     let once = std::iter::once_with(|| patches(shape, Division::NONE));
     let uneven = scene.uneven();
-    let ladder = LADDER.iter().map(|division| scene.divided(*division, &uneven));
+    let ladder = LADDER.iter().map(|cells| scene.divided(*cells, &uneven));
     let mut meshes = once.chain(ladder).chain(even.take_while(|patches| patches.len() <= unknowns));
     meshes.find(|patches| patches.len() == unknowns)
 }
@@ -101,18 +104,25 @@ impl Scene<'_> {
     fn refined(&self) -> Result<Solved> {
         let uneven = self.uneven();
         let first = self.divided(LADDER[0], &uneven);
-        if first.len() > PATCHES_MAX {
+        if first.len() > FIRST_MAX {
             return self.on(&patches(self.shape, Division::NONE));
         }
-        let mut solved = self.on(&first)?;
-        for division in &LADDER[1..] {
-            let patches = self.divided(*division, &uneven);
-            if patches.len() > PATCHES_MAX {
+        let (mut solved, mut before) = (self.on(&first)?, None);
+        for cells in &LADDER[1..] {
+            let patches = self.divided(*cells, &uneven);
+            let growth = patches.len() as f64 / solved.accuracy.unknowns as f64;
+            let hidden = solved.kernel.census().hidden as f64 * growth.powi(2);
+            let reaches =
+                solved.accuracy.facet_mean_error.is_some_and(|error| FALL * error <= self.tolerance);
+            let patches_max = if reaches { FACETS_MAX } else { PATCHES_MAX };
+            if patches.len() > patches_max || hidden > HIDDEN_MAX {
                 break;
             }
-            let finer = self.on(&patches)?;
-            let error = BELIEVED * difference(&solved.responses, &finer.responses);
-            solved = finer;
+            // What does not fit into memory leaves the solution that did.
+            let Ok(finer) = self.on(&patches) else { break };
+            let last = difference(&solved.responses, &finer.responses);
+            let error = left(before, last);
+            (solved, before) = (finer, Some(last));
             solved.accuracy.facet_mean_error = Some(error);
             if error <= self.tolerance {
                 break;
@@ -122,14 +132,14 @@ impl Scene<'_> {
     }
 
     /// Finer patches where shadows end.
-    fn divided(&self, division: Division, uneven: &[bool]) -> Vec<Patch> {
-        let cells = |facet: usize| if uneven[facet] { SHADOW * division.cells } else { division.cells };
-        patches_by(self.shape, |facet| Division { cells: cells(facet), ..division })
+    fn divided(&self, cells: usize, uneven: &[bool]) -> Vec<Patch> {
+        let cells = |facet: usize| if uneven[facet] { SHADOW * cells } else { cells };
+        patches_by(self.shape, |facet| Division { cells: cells(facet), graded: true })
     }
 
     /// Facets in which a shadow ends: parts of them get unlike light from a source other than the sky.
     fn uneven(&self) -> Vec<bool> {
-        let patches = patches(self.shape, Division { cells: 2, strips: 0 });
+        let patches = patches(self.shape, Division { cells: 2, graded: false });
         let mut uneven = vec![false; self.shape.len()];
         for source in self.sources.iter().filter(|source| !source.is_sky()) {
             let light = DirectLight::of_lamp(source, self.shape, &patches);
@@ -159,6 +169,12 @@ impl Scene<'_> {
         let accuracy = Accuracy { unknowns, facet_mean_error: None, residual, kernel: kernel_source };
         Ok(Solved { responses, accuracy, kernel, direct_error })
     }
+}
+
+/// What all finer meshes together would change, after the `last` difference between two and the one `before` it.
+fn left(before: Option<f64>, last: f64) -> f64 {
+    let fall = before.map_or(FIRST_FALL, |before| (last / before).clamp(FALL, LEAST_FALL));
+    last * fall / (1.0 - fall)
 }
 
 /// Largest difference of a facet's irradiance between two meshes, over sources and [`PROBES`].

@@ -27,7 +27,7 @@ pub fn surface(bytes: &[u8]) {
     let Some(shape) = taken(shape) else { return };
     let two_sided = drawn.below(4) == 0;
     let Some(shape) = (if two_sided { taken(shape.with_backs()) } else { Some(shape) }) else { return };
-    let patches = patches(&shape, Division { cells: 1 + drawn.below(3), strips: drawn.below(3) });
+    let patches = patches(&shape, Division { cells: 1 + drawn.below(3), graded: drawn.below(2) == 1 });
     if patches.len() <= PATCHES_MAX {
         assert_lawful(&shape, &patches, &mut drawn);
     }
@@ -38,7 +38,7 @@ pub fn clusters(bytes: &[u8]) {
     let mut drawn = Drawn::from(bytes);
     let Some(shape) = taken(pit(&mut drawn)) else { return };
     let cells = (1..).find(|cells| 3 * shape.len() * cells * cells >= CLUSTERED).unwrap();
-    let patches = patches(&shape, Division { cells, strips: drawn.below(2) });
+    let patches = patches(&shape, Division { cells, graded: drawn.below(2) == 1 });
     let by = [SurfaceKernel::by_clusters, SurfaceKernel::by_pairs];
     let [clusters, pairs] = by.map(|by| taken(by(&shape, &patches, TOLERANCE)));
     let (Some(clusters), Some(pairs)) = (&clusters, &pairs) else {

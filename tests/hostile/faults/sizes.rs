@@ -164,3 +164,30 @@ fn a_stream_of_empty_samples_loses_none() {
     );
     assert_eq!((ended.status, ended.stdout, ended.stderr.as_str()), (3, format!("{records}\n"), ""));
 }
+
+/// Pictures, kernels and records that do not fit say so in one line.
+#[test]
+fn what_does_not_fit_into_memory_is_refused() {
+    let folder = ready();
+    let made = sh(
+        &folder,
+        "oiiotool --pattern constant:color=0.5,0.5,0.5 12000x10000 3 -d uint16 --compression zip -o large.tif
+        vkernel --facets 1x1 -o one.json",
+    );
+    assert_eq!((made.status, made.stderr.as_str()), (0, ""));
+    let panels = "--panel0 '0,0 9,0 9,9 0,9' --panel1 '0,0 9,0 9,9 0,9' --camera canon-5d-mark-ii";
+    for (command, says) in [
+        (format!("vextract large.tif --scene one.json {panels}"), "large.tif: no room for "),
+        ("vkernel --facets 512x512 --mesh facets".to_owned(), "form factors: no room for "),
+        ("vkernel --facets 512x512 --check".to_owned(), "form factors: no room for "),
+        ("vkernel --angle-deg 10 --facets 200x200".to_owned(), "undivided panels: no room for "),
+        (
+            "{ printf '{\"kind\":\"remark\",\"x\":\"'; head -c 700M /dev/zero | tr '\\0' x; echo '\"}'; } | vestimate -j 2".to_owned(),
+            "no room for ",
+        ),
+    ] {
+        let ended = sh(&folder, &format!("(export RAYON_NUM_THREADS=2; {}; {command})", within(100)));
+        let line = ended.stderr.lines().count() == 1 && ended.stderr.contains(says) && ended.stderr.contains("ulimit");
+        assert!(ended.status == 1 && ended.stdout.is_empty() && line, "{command}: {ended:?}");
+    }
+}

@@ -22,6 +22,7 @@ use self::sensor::Sensor;
 use super::decode::{DAMAGED, MAX_BYTES, TOO_LARGE, one_line};
 use crate::image::numbers::{ReadOptions, Transfer};
 use crate::image::photograph::{CameraNotes, Orientation, Photograph};
+use crate::room;
 use crate::{Error, Result};
 
 /// Reads a RAW file.
@@ -94,6 +95,7 @@ fn check_size(path: &Path, image: &RawImage) -> Result<()> {
         let problem = format!("{width} x {height} px would take more than 2 GiB");
         return Err(Error::picture(path, problem, TOO_LARGE));
     }
+    room::ask(samples as u64 * size_of::<f32>() as u64, &path.display().to_string(), TOO_LARGE)?;
     if samples == 0 || samples != width.saturating_mul(*height).saturating_mul(*cpp) {
         let problem = format!("{samples} numbers do not fill {width} x {height} px");
         return Err(Error::picture(path, problem, DAMAGED));

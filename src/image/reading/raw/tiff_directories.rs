@@ -15,6 +15,9 @@ const ENTRY_BYTES: usize = 12;
 
 /// Why no decoder should see this file; none if it may, or is no TIFF.
 pub(super) fn fault(file: &[u8]) -> Option<String> {
+    if !(file.starts_with(b"II") || file.starts_with(b"MM")) {
+        return None;
+    }
     let tiff = Tiff { file, is_little: file.starts_with(b"II") };
     let mut waiting = vec![tiff.u32(4)?];
     let mut seen = 0;
