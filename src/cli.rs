@@ -151,14 +151,15 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     };
     match done {
         Err(e) if !e.is_finding() => Err(e),
-        Err(e @ Error::NothingToDraw(_)) => match out.finish()? {
-            0 => Err(e),
-            failed => {
-                say(A::command().get_name(), &e.to_string());
-                Ok(failed)
+        Err(e @ Error::NothingToDraw(_)) => {
+            let failures = out.finish()?;
+            if !failures.any() {
+                return Err(e);
             }
-        },
-        done => out.finish().and_then(|failed| done.map(|()| failed)),
+            say(A::command().get_name(), &e.to_string());
+            Ok(failures)
+        }
+        done => out.finish().and_then(|failures| done.map(|()| failures)),
     }
 }
 
