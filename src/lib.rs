@@ -29,7 +29,7 @@
 //! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
-//! report               -> scene, stream, score, plot, image, colorimetry, spectrum, files, markup
+//! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message
 //! scene                -> stream, estimate, forward, transport, sheet, kernel, response, solve, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
