@@ -84,7 +84,7 @@ fn no_sample_stops_a_batch() {
         ));
         let passed: usize = ended.stdout.trim().parse().unwrap();
         assert!(
-            ended.stderr.is_empty() && passed >= samples.len(),
+            ended.said_otherwise().is_empty() && passed >= samples.len(),
             "{run}: {passed} of {}, {ended:?}",
             samples.len()
         );

@@ -44,7 +44,12 @@ fn a_photograph_tells_its_sun() {
     );
     assert!(run.stdout.contains(r#""name":"sky:48.14,11.58,2026-06-21T10:00:00Z""#));
     let run = folder.sh("sh extract --illuminant D55");
-    assert_eq!((illuminant(&run).as_str(), run.stderr.as_str()), ("D55", ""));
+    assert_eq!((illuminant(&run).as_str(), of_light(&run).as_str()), ("D55", ""));
+}
+
+/// What is said of the light; that a camera developed the picture is said of all of these.
+fn of_light(run: &Ended) -> String {
+    run.stderr.lines().filter(|line| !line.contains("was developed by a camera")).collect()
 }
 
 #[test]
@@ -60,7 +65,7 @@ fn daylight_is_assumed_aloud() {
     ] {
         let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
         assert_eq!(illuminant(&run), "D65", "{picture}");
-        assert!(run.stderr.starts_with("vextract: daylight assumed, D65: "), "{}", run.stderr);
+        assert!(of_light(&run).starts_with("vextract: daylight assumed, D65: "), "{}", run.stderr);
         assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
     }
 }

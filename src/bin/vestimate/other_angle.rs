@@ -49,10 +49,7 @@ impl OtherAngle {
             return Ok(None);
         }
         let fit: Vec<_> = fit.iter().copied().chain([&ANGLE]).collect();
-        // a flat fold, or one that was given facet by facet, has no other angle
-        let Some(model) = self.0.get_or_init(|| Setting::of(scene).ok()?.model_to_fit(&fit).ok()) else {
-            return Ok(None);
-        };
+        let Some(model) = self.model(scene, &fit) else { return Ok(None) };
         let data = FacetData::new(model, measured, exposure, CUTOFF)?;
         let estimate = map::estimate(&data, prior, None);
         let Some(angle) = estimate.fitted.iter().find(|one| one.unknown == &ANGLE) else { return Ok(None) };
@@ -60,6 +57,20 @@ impl OtherAngle {
         let is_better =
             estimate.residual_rms < misfit.min(EXPLAINED) && (value_deg - told_deg).abs() > SURE * sd_deg;
         Ok(is_better.then_some(Turned { estimate, told_deg, value_deg, sd_deg }))
+    }
+}
+
+impl OtherAngle {
+    /// The scene with these unknowns; none if it has no other angle, as of a flat fold, or of one that was given facet by facet.
+    ///
+    /// Who finds none makes one: to wait for another thread that makes it would be for ever, since while that thread waits for the parts of its
+    /// own work it may take up the sample that waits.
+    fn model(&self, scene: &Scene, fit: &[&'static Unknown]) -> Option<&SceneModel> {
+        if self.0.get().is_none() {
+            let made = Setting::of(scene).and_then(|setting| setting.model_to_fit(fit)).ok();
+            self.0.get_or_init(|| made);
+        }
+        self.0.get()?.as_ref()
     }
 }
 
