@@ -31,4 +31,5 @@ mod real_sheets;
 mod report;
 mod resume;
 mod spectra_files;
+mod tables;
 mod terminal;
