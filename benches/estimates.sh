@@ -7,6 +7,7 @@ target=${CARGO_TARGET_DIR:-target}
 cargo build --quiet --release --bins --benches
 bin=$target/release
 . benches/peers.sh
+. benches/machine.sh
 table=benches/results/estimates.md
 
 rows() {
@@ -39,7 +40,9 @@ scipy() {
 {
     echo '# Estimates'
     echo
-    echo "45°, 10 x 10 facets a panel, D65, exposure known; $(rustc --version | cut -d' ' -f1,2), one thread of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(date +%F)."
+    machine "$bin/vkernel"
+    echo
+    echo '45°, 10 x 10 facets a panel, D65, exposure known, one thread.'
     echo 'Means of RMSE and CIEDE2000 (10°, D65), medians of the processor's time and of iterations; the four columns on the right are the'
     echo "paper's estimator (\`--prior smooth\`)."
     echo

@@ -1,16 +1,33 @@
 #!/bin/sh
-# Mean RMSE on sets that the prior was not made of, with the Munsell chips alone and with all kinds.
+# Mean RMSE on sets that the prior was not made of, with the Munsell chips alone and with all kinds: benches/results/priors.md.
 # Further sets are CSV files given as arguments.
 set -eu
 cd "$(dirname "$0")/.."
+. benches/machine.sh
 cargo build --quiet --release --bins
 bin=${CARGO_TARGET_DIR:-target}/release
-echo '| set | facet noise | chips alone | all kinds |'
-echo '|---|---|---|---|'
-for set in cc24 "$@"; do
-    for noise in 0 1e-3 1e-2; do
-        printf '| %s | %s | ' "$(basename "$set" .csv)" $noise
-        "$bin/vkernel" | "$bin/vforward" --reflectance "$set" --camera canon-5d-mark-ii --noise-sd $noise |
-            cargo bench --quiet --bench priors | sed 's/$/ |/'
+page=benches/results/priors.md
+
+rows() {
+    for set in cc24 "$@"; do
+        for noise in 0 1e-3 1e-2; do
+            printf '| %s | %s | ' "$(basename "$set" .csv)" $noise
+            "$bin/vkernel" | "$bin/vforward" --reflectance "$set" --camera canon-5d-mark-ii --noise-sd $noise |
+                cargo bench --quiet --bench priors | sed 's/$/ |/'
+        done
     done
-done
+}
+
+{
+    echo '# Priors'
+    echo
+    machine "$bin/vkernel"
+    echo
+    echo '45°, 10 x 10 facets a panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE. "Chips alone" are the Munsell chips as the prior.'
+    echo 'docs/priors.md has more of these sets.'
+    echo
+    echo '| set | facet noise | chips alone | all kinds |'
+    echo '|---|---|---|---|'
+    rows "$@"
+} | tee "$page.new"
+mv "$page.new" "$page"

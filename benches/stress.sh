@@ -1,12 +1,18 @@
 #!/usr/bin/env bash
 # What estimates are worth when things get hard, as tables in benches/results/stress.md: RMSE, CIEDE2000 and time of an estimate
-# (whole process, one thread, processor time), the default beside the paper's estimator. About three minutes.
+# (whole process, one thread, processor time), the default beside the paper's estimator. About three minutes. TOOLS is a folder of tools to
+# take as they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --quiet --release --bins
-PATH=$(realpath "${CARGO_TARGET_DIR:-target}")/release:$PATH
+. benches/machine.sh
+if [ -z "${TOOLS:-}" ]; then
+    cargo build --quiet --release --bins
+    TOOLS=${CARGO_TARGET_DIR:-target}/release
+fi
+PATH=$(realpath "$TOOLS"):$PATH
 page=$PWD/benches/results/stress.md
 chart=$PWD/share/cc24.csv
+made_by=$(machine vkernel)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -166,8 +172,9 @@ channels() {
 }
 
 {
+    printf '# Stress\n\n'
+    echo "$made_by"
     cat <<'END'
-# Stress
 
 ColorChecker (24 patches), Canon EOS 5D Mark II, D65, 45°, 10 x 10 facets a panel, facet noise 1e-3 of white and the exposure known,
 but for what a table varies. Mean RMSE / mean CIEDE2000 (10°, D65), processor time of an estimate: that of the whole process, start and
@@ -181,7 +188,7 @@ END
     reflectance
     cat <<'END'
 
-Where the default is behind, at 0.8 and 0.95, it is so below 420 nm alone: bright paints, of which the prior is made, absorb there
+Where the default is behind, at 0.8 and 0.95, it is so below 420 nm alone: bright paints, of which most of the prior is made, absorb there
 (titanium white), these powers do not, and the camera sees next to nothing of it.
 END
     channels

@@ -35,5 +35,6 @@ mod report;
 mod resume;
 mod silence;
 mod spectra_files;
+mod tables;
 mod terminal;
 mod verdict;

@@ -1,7 +1,7 @@
-//! RAW files of real cameras beside LibRaw, which rawpy brings: levels, filters, where the picture begins, and the light of its sites.
+//! RAW files of real cameras beside `LibRaw`, which rawpy brings: levels, filters, where the picture begins, and the light of its sites.
 //!
 //! Such files are large, and whose they are is seldom said: none is here. Put some into the folder `VFOLD_RAW_FILES` to test with them; the
-//! PowerShot and EOS cameras of 2000 to 2004 wrote CRW files of 3 MB.
+//! `PowerShot` and EOS cameras of 2000 to 2004 wrote CRW files of 3 MB.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

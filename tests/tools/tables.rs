@@ -1,0 +1,118 @@
+//! Tables of the docs say what the tools print: some cells of each, to their last digit. `benches/all` makes the tables.
+
+use std::fs;
+
+use crate::common::Workdir;
+
+/// A cell of a page: the heading above its table, how its row begins, its column from 0, and the samples and
+/// estimates whose mean RMSE and CIEDE2000 it has.
+struct Cell {
+    page: &'static str,
+    heading: &'static str,
+    row: &'static str,
+    column: usize,
+    samples: &'static str,
+    estimate: &'static str,
+}
+
+const STRESS: &str = "benches/results/stress.md";
+const PRIORS: &str = "docs/priors.md";
+const NOISY: &str = "vkernel | vforward --reflectance cc24 --noise-sd 1e-3";
+
+const CELLS: [Cell; 8] = [
+    Cell {
+        page: STRESS,
+        heading: "## Noise",
+        row: "| 1e-3 |",
+        column: 1,
+        samples: NOISY,
+        estimate: "vestimate",
+    },
+    Cell {
+        page: STRESS,
+        heading: "## Noise",
+        row: "| 1e-1 |",
+        column: 1,
+        samples: "vkernel | vforward --reflectance cc24 --noise-sd 1e-1",
+        estimate: "vestimate",
+    },
+    Cell {
+        page: STRESS,
+        heading: "## Angle",
+        row: "| 90 |",
+        column: 1,
+        samples: "vkernel --angle-deg 90 | vforward --reflectance cc24 --noise-sd 1e-3",
+        estimate: "vestimate",
+    },
+    Cell {
+        page: STRESS,
+        heading: "## Angle",
+        row: "| 45 |",
+        column: 2,
+        samples: NOISY,
+        estimate: "vestimate --prior smooth --smoothness 1e-3",
+    },
+    Cell {
+        page: STRESS,
+        heading: "## Exposure",
+        row: "| 0.3 |",
+        column: 2,
+        samples: "vkernel | vforward --reflectance cc24 --noise-sd 1e-3 --exposure 0.3",
+        estimate: "vestimate --fit exposure",
+    },
+    Cell {
+        page: STRESS,
+        heading: "## Sun off",
+        row: "| 5 |",
+        column: 1,
+        samples: "vkernel --tilt-deg 5 | vforward --reflectance cc24 --noise-sd 1e-3",
+        estimate: "vestimate",
+    },
+    Cell {
+        page: PRIORS,
+        heading: "## How good",
+        row: "| ColorChecker | 1e-3 |",
+        column: 3,
+        samples: NOISY,
+        estimate: "vestimate",
+    },
+    Cell {
+        page: PRIORS,
+        heading: "## How good",
+        row: "| ColorChecker | 1e-2 |",
+        column: 3,
+        samples: "vkernel | vforward --reflectance cc24 --noise-sd 1e-2",
+        estimate: "vestimate",
+    },
+];
+
+#[test]
+fn cells_are_what_the_tools_print() {
+    let folder = Workdir::new();
+    let wrong: Vec<_> = CELLS.iter().filter_map(|cell| fault(&folder, cell)).collect();
+    assert!(wrong.is_empty(), "{}\nbenches/all makes the tables anew", wrong.join("\n"));
+}
+
+/// What a cell says beside what the tools print, if these differ.
+fn fault(folder: &Workdir, cell: &Cell) -> Option<String> {
+    let page = fs::read_to_string(format!("{}/{}", env!("CARGO_MANIFEST_DIR"), cell.page)).unwrap();
+    let below = &page[page.find(cell.heading).unwrap()..];
+    let row = below.lines().find(|line| line.starts_with(cell.row));
+    let cells: Vec<_> = row.unwrap_or_default().trim_matches(['|', ' ']).split('|').collect();
+    let stated = cells.get(cell.column..).map(|cells| cells.join("/")).unwrap_or_default();
+    let run = folder.sh(&format!("{} | {} -q | vscore --table", cell.samples, cell.estimate));
+    let printed: Vec<_> = run.stdout.lines().filter(|line| line.starts_with("mean ")).collect();
+    let printed: Vec<_> = printed.concat().split_whitespace().skip(1).take(2).map(str::to_owned).collect();
+    let stated: Vec<_> = stated.split(['/', ',']).map(str::trim).take(2).map(str::to_owned).collect();
+    let agree =
+        printed.len() == 2 && stated.len() == 2 && stated.iter().zip(&printed).all(|(a, b)| is_same(a, b));
+    let what = format!("{}, {} {}, column {}", cell.page, cell.heading, cell.row, cell.column);
+    (!agree).then(|| format!("{what}: says {stated:?}, the tools print {printed:?} {}", run.stderr))
+}
+
+/// Whether two numbers are one, to the digits that the shorter has.
+fn is_same(stated: &str, printed: &str) -> bool {
+    let digits = stated.split_once('.').map_or(0, |(_, digits)| digits.len()) as i32;
+    let (Ok(a), Ok(b)) = (stated.parse::<f64>(), printed.parse::<f64>()) else { return false };
+    (a - b).abs() < 0.51 * 10.0_f64.powi(-digits)
+}
