@@ -101,3 +101,36 @@ fn suns_and_skies_of_the_command_line() {
         assert!(run.stderr.contains(says) && run.stderr.lines().count() == 1, "{line}: {}", run.stderr);
     }
 }
+
+/// The ColorChecker in the sun of a clear day, 40° from the zenith, photographed without chart or card and told nothing of the light: as
+/// good as if it had been told.
+#[test]
+fn daylight_that_nobody_told_is_an_unknown() {
+    let run = Workdir::new().sh(r#"
+vkernel --angle-deg 50 -o scene.json
+vforward scene.json --reflectance cc24 | grep -o 'cc24:[a-z0-9-]*' | sort -u > names
+while read -r name; do
+    vforward scene.json --illuminant sun:40deg --reflectance "$name" --exposure 0.8 --noise-sd 1e-3 \
+        --render photo.exr --render-size 480x360 -o simulated.json 2>/dev/null
+    vextract photo.exr --regions simulated.json --scene scene.json --camera canon-5d-mark-ii -q |
+        vestimate -q | vscore -q --truth "$name"
+done < names
+"#);
+    assert!(run.status == 0, "{}", run.stderr);
+    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let (scenes, samples): (Vec<_>, Vec<_>) =
+        records.filter(|one| one["kind"] != "scores").partition(|one| one["kind"] == "scene");
+    assert!(samples.len() == 24 && scenes.iter().all(|one| one["illuminants"][0]["is_assumed"] == true));
+    let mean = |metric: &str| {
+        samples.iter().map(|one| one["metrics"][metric].as_f64().unwrap()).sum::<f64>() / samples.len() as f64
+    };
+    let (rmse, delta_e) = (mean("rmse"), mean("ciede2000"));
+    println!("RMSE {rmse:.4}, CIEDE2000 {delta_e:.2}");
+    assert!(rmse < 0.025 && delta_e < 1.0, "{rmse} {delta_e}");
+    let sun = samples.iter().filter(|one| one["estimate"]["fit"]["sun_cct_k"]["supported"] == true);
+    for one in sun {
+        let [value, sd] =
+            ["value", "sd"].map(|name| one["estimate"]["fit"]["sun_cct_k"][name].as_f64().unwrap());
+        assert!((value - 5200.0).abs() < 4.0 * sd + 50.0, "{}: {value} ± {sd}", one["id"]);
+    }
+}
