@@ -23,7 +23,7 @@ _vestimate() {
 
     case "${cmd}" in
         vestimate)
-            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --join --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -50,7 +50,11 @@ _vestimate() {
                     return 0
                     ;;
                 --fit)
-                    COMPREPLY=($(compgen -W "exposure angle tilt sky auto none" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "exposure angle tilt sky daylight auto none" -- "${cur}"))
+                    return 0
+                    ;;
+                --join)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --start)

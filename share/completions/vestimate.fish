@@ -7,8 +7,10 @@ complete -c vestimate -l fit -d 'What is fitted along with the spectrum, with co
 angle\t'Angle between the panels'
 tilt\t'Angle of the sun off the bisecting plane'
 sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'
+daylight\t'Colour of the sun, where the illuminant is daylight'
 auto\t'All that sets a real sheet apart from an ideal one, bounded by priors'
 none\t'Nothing: the scene is believed as it is told'"
+complete -c vestimate -l join -d 'Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id up to its last - or _' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
