@@ -285,7 +285,7 @@ impl OpticsArgs {
             let power = spectrum.on(&grid, Outside::Refuse)?;
             let interpolation = spectrum.interpolation(&grid).map(name);
             let name = spectrum.name().to_owned();
-            Ok(SpectrumRecord { name, power, interpolation, is_assumed: false })
+            Ok(SpectrumRecord { name, power, interpolation })
         };
         Ok(Optics {
             camera: CameraRecord {

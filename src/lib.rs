@@ -31,7 +31,7 @@
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message
-//! scene                -> stream, estimate, forward, transport, sheet, kernel, response, solve, image
+//! scene                -> stream, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files, room

@@ -19,9 +19,6 @@ pub struct SpectrumRecord {
     /// How it was found between samples, where it was: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
-    /// Whether nobody said it: of daylight that is assumed, the colour is an unknown of the estimate.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub is_assumed: bool,
 }
 
 /// A camera on the scene's wavelengths.
@@ -87,6 +84,22 @@ impl Scene {
         self.fields.set("camera", &optics.camera)?;
         self.fields.set("illuminants", &optics.illuminants)?;
         optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
+    }
+
+    /// Marks the illuminant as one that nobody told.
+    ///
+    /// # Errors
+    /// As [`Fields::set`](super::Fields::set).
+    pub fn set_daylight_assumed(&mut self) -> Result<()> {
+        self.fields.set("daylight_assumed", true)
+    }
+
+    /// Whether the illuminant is daylight that nobody told.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if that is neither true nor false.
+    pub fn is_daylight_assumed(&self) -> Result<bool> {
+        Ok(self.fields.get("daylight_assumed")?.unwrap_or(false))
     }
 
     /// The camera.

@@ -70,6 +70,10 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
     illuminants: Option<Vec<SpectrumRecord>>,
+    /// Whether nobody told the illuminant: of daylight that is assumed, the colour is an unknown of the estimate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    daylight_assumed: Option<bool>,
     /// Spectrum of the sky; that of the first illuminant if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vextract"))]

@@ -76,7 +76,7 @@ END
             case(
                 "sh whole photo.exr --refine --panel1 '32,462 45,77 85,17 72,446'",
                 2,
-                &["--refine", "share in different places", "crease"],
+                &["--panel", "one point of the sheet", "crease"],
             ),
             case("sh whole photo.exr --distortion 0.1,x", 2, &["--distortion", "K1,K2"]),
             case("sh whole photo.exr --distortion=-0.5", 2, &["--distortion", "bends the picture back"]),

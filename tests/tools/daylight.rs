@@ -120,7 +120,7 @@ done < names
     let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     let (scenes, samples): (Vec<_>, Vec<_>) =
         records.filter(|one| one["kind"] != "scores").partition(|one| one["kind"] == "scene");
-    assert!(samples.len() == 24 && scenes.iter().all(|one| one["illuminants"][0]["is_assumed"] == true));
+    assert!(samples.len() == 24 && scenes.iter().all(|one| one["daylight_assumed"] == true));
     let mean = |metric: &str| {
         samples.iter().map(|one| one["metrics"][metric].as_f64().unwrap()).sum::<f64>() / samples.len() as f64
     };

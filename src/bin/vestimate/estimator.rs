@@ -190,8 +190,7 @@ impl Transform for Estimator<'_> {
         let is_assumed = self.is_auto()
             && record.is_some()
             && matches!(method, SceneMethod::Map(_))
-            && scene.has_camera()
-            && scene.illuminants()?.iter().any(|light| light.is_assumed);
+            && scene.is_daylight_assumed()?;
         let untold = untold(scene)?;
         let setting = Setting::of(scene)?;
         let in_any_daylight = is_assumed.then(|| setting.model_to_fit(&[&SUN_COLOUR])).transpose()?;
@@ -411,12 +410,9 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
 /// Light and camera as the scene has them: no facet shows that they are others.
 fn untold(scene: &Scene) -> Result<String> {
     let lights = scene.illuminants()?;
-    let name = |light: &SpectrumRecord| match light.is_assumed {
-        true => format!("{}, which nobody told,", light.name),
-        false => light.name.clone(),
-    };
-    let names: Vec<_> = lights.iter().map(name).collect();
-    Ok(format!("the light {} and the camera {}", names.join(", "), scene.camera()?.name))
+    let names: Vec<_> = lights.iter().map(|light| light.name.as_str()).collect();
+    let whose = if scene.is_daylight_assumed()? { ", which nobody told," } else { "" };
+    Ok(format!("the light {}{whose} and the camera {}", names.join(", "), scene.camera()?.name))
 }
 
 /// The same standard deviation for every facet, white being 1.

@@ -130,12 +130,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
         let mut optics = given.resolve(&camera.spec, &args.common)?;
-        for light in optics.illuminants.iter_mut().filter(|_| given.illuminant.is_empty()) {
-            light.is_assumed = true;
-        }
         let stands_in = camera.stands_in.is_some();
         optics.camera.stands_in = camera.stands_in;
         scene.set_optics(&optics)?;
+        if given.illuminant.is_empty() {
+            scene.set_daylight_assumed()?;
+        }
         // another camera's curves are never taken silently
         said.extend(camera.said.filter(|_| stands_in || !args.common.quiet));
         said.extend(assumed.filter(|_| !args.common.quiet));
