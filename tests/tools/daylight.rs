@@ -119,7 +119,7 @@ done < names
     assert!(run.status == 0, "{}", run.stderr);
     let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     let (scenes, samples): (Vec<_>, Vec<_>) =
-        records.filter(|one| one["kind"] != "scores").partition(|one| one["kind"] == "scene");
+        records.filter(|one| one["kind"] != "summary").partition(|one| one["kind"] == "scene");
     assert!(samples.len() == 24 && scenes.iter().all(|one| one["daylight_assumed"] == true));
     let mean = |metric: &str| {
         samples.iter().map(|one| one["metrics"][metric].as_f64().unwrap()).sum::<f64>() / samples.len() as f64

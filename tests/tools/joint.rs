@@ -101,14 +101,14 @@ fn two_angles_tell_gloss_and_exposure_apart() {
         "sd of gloss, exposure, reflectance: at 45 degrees {one:.4?}, at 72 {other:.4?}, together {both:.4?}"
     );
     assert!((0..3).all(|n| both[n] < one[n].min(other[n])));
-    assert!(both[0] == again[0] && both[2] == again[2]);
+    assert!([0, 2].iter().all(|n| (both[*n] - again[*n]).abs() < 1e-12));
 }
 
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.
 #[test]
 fn brackets_fill_what_clipped() {
     let run = Workdir::new().sh(&format!(
-        "{GLOSSY}\nphotograph bright-45 45 cc24:orange 5
+        "{GLOSSY}\nphotograph bright-45 45 cc24:orange 11
         cat bright-45.ndjson | tail -n 1 | python3 -c 'import json,sys; f=json.load(sys.stdin)[\"facet_rgb\"]; print(sum(x is None for x in f))'
         cat sheet-45.ndjson bright-45.ndjson | vestimate -q --join=sheet-45,bright-45"
     ));
@@ -120,7 +120,7 @@ fn brackets_fill_what_clipped() {
         samples.iter().map(|one| one["estimate"]["exposure"].as_f64().unwrap()).collect();
     println!("{clipped} of 200 facets clipped; exposures {exposures:?}");
     assert!(clipped > 10);
-    assert!((exposures[1] / exposures[0] / 10.0 - 1.0).abs() < 0.05);
+    assert!((exposures[1] / exposures[0] / 22.0 - 1.0).abs() < 0.05);
 }
 
 #[test]

@@ -11,9 +11,7 @@ use vfold::estimate::verdict::{Doubt, Verdict};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{
-    Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, SpectrumRecord, Transform, trace,
-};
+use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
