@@ -10,7 +10,7 @@ use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::quadrature::Lagrange;
 use crate::sheet::Shape;
-use crate::transport::{Resolution, departures};
+use crate::transport::departures;
 
 /// What a sheet shows beyond a Lambertian one.
 pub struct FoldedSheet {
@@ -47,8 +47,8 @@ impl FoldSetting<'_> {
 impl FoldedSheet {
     fn new(fold: &Fold, light: &Light, camera: CameraResponse, shape: Shape, eye: Vector3<f64>) -> Self {
         let nodes = nodes(NODES);
-        let (sun, shapes) = (light.towards(), std::slice::from_ref(&shape));
-        let all = departures(fold, &sun, &Point3::from(eye), shapes, &nodes, &Resolution::FINE);
+        let all =
+            departures(fold, &light.towards(), &Point3::from(eye), std::slice::from_ref(&shape), &nodes);
         let beyond = all.index_axis(Axis(0), 0).to_owned();
         Self { shape, nodes: Lagrange::new(&nodes), beyond, camera }
     }

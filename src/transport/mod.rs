@@ -9,7 +9,6 @@ mod frame;
 pub mod patches;
 pub mod points;
 mod pooling;
-mod resolution;
 
 use nalgebra::{Point3, Vector3};
 use ndarray::{Array2, Array3, Axis};
@@ -21,13 +20,12 @@ pub use eye::{Eye, eye_before};
 use frame::Frame;
 use patches::Patches;
 use points::Points;
-pub use resolution::Resolution;
 
 /// Radiance of every facet towards the eye beyond that of a Lambertian sheet of the same albedo: shapes by facets by albedos.
 ///
 /// # Arguments
 /// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: where the camera stands, in the fold's unit.
-/// - `shapes`: of the sheet's reflection; `albedos`: for which the radiance is computed; `resolution`: how finely.
+/// - `shapes`: of the sheet's reflection; `albedos`: for which the radiance is computed.
 ///
 /// # Returns
 /// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has radiance 1.
@@ -40,12 +38,11 @@ pub use resolution::Resolution;
 /// use nalgebra::{Point3, Vector3};
 /// use vfold::geometry::{FacetGrid, Fold};
 /// use vfold::sheet::{Family, Shape};
-/// use vfold::transport::{Resolution, departures};
+/// use vfold::transport::departures;
 /// let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
 /// let matt = Shape::from(Family::default());
 /// let glossy = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
-/// let eye = Point3::new(1.0, 1.1, 8.4);
-/// let beyond = departures(&fold, &Vector3::z(), &eye, &[matt, glossy], &[0.1, 0.6], &Resolution::FINE);
+/// let beyond = departures(&fold, &Vector3::z(), &Point3::new(1.0, 1.1, 8.4), &[matt, glossy], &[0.1, 0.6]);
 /// assert!((0..200).all(|facet| beyond[[0, facet, 1]].abs() < 1e-12));
 /// assert!(beyond[[1, 5, 1]].abs() > 1e-3); // panel 0, at the crease
 /// # Ok::<(), vfold::Error>(())
@@ -57,11 +54,10 @@ pub fn departures(
     eye: &Point3<f64>,
     shapes: &[Shape],
     albedos: &[f64],
-    resolution: &Resolution,
 ) -> Array3<f64> {
     let frames = [0, 1].map(|panel| Frame::new(fold, panel, sun, eye));
-    let points = Points::new(fold, &frames, resolution);
-    let patches = (!fold.is_flat()).then(|| Patches::new(fold, &frames, resolution));
+    let points = Points::new(fold, &frames);
+    let patches = (!fold.is_flat()).then(|| Patches::new(fold, &frames));
     let lambertian = patches.as_ref().map(|patches| patches.radiances(&Shape::lambertian()));
     let shares = patches::shares(albedos);
     let departure = |shape: &Shape| {

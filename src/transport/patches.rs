@@ -11,12 +11,21 @@ use ndarray::Array2;
 
 use super::frame::Frame;
 use super::pooling::Pooling;
-use super::resolution::Resolution;
 use crate::geometry::Fold;
 use crate::kernel::exact::Wedge;
 use crate::kernel::quadrature::{Lagrange, Rule};
 use crate::sheet::{Angles, Shape};
 
+/// Where rows of patches begin and end, as shares of the panel's depth.
+const EDGES: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
+const ROWS: usize = EDGES.len() - 1;
+/// Patches along the crease: it is across them that light near the crease varies most in direction.
+const COLS: usize = 8;
+const COUNT: usize = ROWS * COLS;
+/// Differences of columns.
+const SHIFTS: usize = 2 * COLS - 1;
+/// Directions from a row of patches to the other panel's patches, repeated along the crease.
+const DIRECTIONS: usize = ROWS * SHIFTS;
 /// Places of a patch in each direction over which directions are averaged.
 const PLACES: usize = 4;
 /// Most reflections that are followed one by one.
@@ -26,18 +35,8 @@ const NEGLIGIBLE: f64 = 5e-5;
 /// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little and smooth, but matters in dark sheets too.
 const NODES: usize = 7;
 
-/// How many patches there are.
-#[derive(Clone, Copy)]
-struct Grid {
-    /// Where rows begin and end, as shares of the panel's depth.
-    edges: &'static [f64],
-    /// Patches along the crease.
-    cols: usize,
-}
-
 /// The patches of both panels, with all directions between them.
 pub struct Patches {
-    grid: Grid,
     panels: [Panel; 2],
     /// Angles between the directions of each row of patches, each pair once.
     between: Vec<Vec<Angles>>,
@@ -48,7 +47,6 @@ pub struct Patches {
 
 /// The patches of one panel.
 struct Panel {
-    grid: Grid,
     /// Irradiance from the sun.
     lit: f64,
     /// π times the form factor from each patch to each of the other panel.
@@ -64,17 +62,15 @@ type Parts = Vec<[f32; 2]>;
 
 impl Patches {
     /// Those of `fold`, in the light of a sun and before an eye that the frames know.
-    pub(super) fn new(fold: &Fold, frames: &[Frame; 2], resolution: &Resolution) -> Self {
-        let grid = Grid { edges: resolution.edges, cols: resolution.columns };
-        let middles: Vec<f64> = grid.edges.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
-        let columns: Vec<f64> = (0..grid.cols).map(|col| (col as f64 + 0.5) / grid.cols as f64).collect();
+    pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
+        let middles: Vec<f64> = EDGES.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
+        let columns: Vec<f64> = (0..COLS).map(|col| (col as f64 + 0.5) / COLS as f64).collect();
         let wedge = Wedge::new(fold);
-        let to = grid.directions(&frames[0]);
-        let to_1 = (!fold.is_symmetric()).then(|| grid.directions(&frames[1]));
+        let to = directions(&frames[0]);
+        let to_1 = (!fold.is_symmetric()).then(|| directions(&frames[1]));
         let seen = [&to, to_1.as_ref().unwrap_or(&to)];
         Self {
-            grid,
-            panels: [0, 1].map(|p| Panel::new(grid, &frames[p], &wedge, &middles, seen[p])),
+            panels: [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p])),
             between: pairs(&to),
             between_1: to_1.as_ref().map(|to| pairs(to)),
             pooling: Pooling::straight(fold, &middles, &columns),
@@ -85,18 +81,16 @@ impl Patches {
     /// [`shares`] interpolates.
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
-        let (albedos, count) = (nodes(), self.grid.count());
+        let albedos = nodes();
         let at = |angles: &[Angles]| {
             angles.iter().map(|angles| shape.at(angles).map(|value| value as f32)).collect::<Parts>()
         };
         let sun = self.panels.each_ref().map(|panel| at(&panel.from_sun));
         let eye = self.panels.each_ref().map(|panel| at(&panel.to_eye));
-        let between = self.grid.expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
-        let between_1 = self
-            .between_1
-            .as_ref()
-            .map(|rows| self.grid.expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
-        let mut radiances = Array2::zeros((2 * count, albedos.len()));
+        let between = expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
+        let between_1 =
+            self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
+        let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, albedo) in albedos.into_iter().enumerate() {
             let r = shape.reflectance_45_0(albedo) as f32;
             let mixed = |parts: &[[f32; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f32>>();
@@ -106,10 +100,10 @@ impl Patches {
             let sent = self.sent([0, 1].map(|p| self.panels[p].direct(&mixed(&sun[p]))), matrices);
             for p in 0..2 {
                 let (panel, eye) = (&self.panels[p], mixed(&eye[p]));
-                for i in 0..count {
-                    let from = (0..count).map(|j| panel.factors[i * count + j] * sent[1 - p][j * count + i]);
-                    radiances[[p * count + i, n]] =
-                        from.zip(&eye[i * count..]).map(|(light, eye)| f64::from(light * eye)).sum();
+                for i in 0..COUNT {
+                    let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
+                    radiances[[p * COUNT + i, n]] =
+                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| f64::from(light * eye)).sum();
                 }
             }
         }
@@ -128,8 +122,7 @@ impl Patches {
             |light: &[Vec<f32>; 2]| light.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>();
         let first = total(&direct);
         let (mut light, mut before, mut ratio) = (direct, first, 0.0);
-        let square = self.grid.count() * self.grid.count();
-        let mut sent = [vec![0.0; square], vec![0.0; square]];
+        let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
         for _ in 1..REFLECTIONS {
             light = [0, 1].map(|p| self.panels[p].reflected(&light[1 - p], matrices[p]));
             let now = total(&light);
@@ -173,50 +166,45 @@ fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {
 }
 
 impl Panel {
-    fn new(grid: Grid, frame: &Frame, wedge: &Wedge, middles: &[f64], to: &[Vec<Vector3<f64>>]) -> Self {
-        let Grid { edges, cols } = grid;
-        let count = grid.count();
+    fn new(frame: &Frame, wedge: &Wedge, middles: &[f64], to: &[Vec<Vector3<f64>>]) -> Self {
         // the kernel wants lengths in widths of a patch
-        let unit = frame.width / cols as f64;
-        let row = |depth: f64, n: usize| edges[n] * depth / unit..edges[n + 1] * depth / unit;
-        let (mut factors, mut shifts) = (vec![0.0_f32; count * count], vec![0.0; cols]);
+        let unit = frame.width / COLS as f64;
+        let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
+        let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
         let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
         for (i, to) in to.iter().enumerate() {
             from_sun.extend(to.iter().map(|to| Angles::new(&frame.sun, to)));
             let here = row(frame.depth, i);
-            for j in 0..grid.rows() {
+            for j in 0..ROWS {
                 wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
-                for (col, other) in (0..cols).flat_map(|col| (0..cols).map(move |other| (col, other))) {
-                    factors[(i * cols + col) * count + j * cols + other] =
+                for (col, other) in (0..COLS).flat_map(|col| (0..COLS).map(move |other| (col, other))) {
+                    factors[(i * COLS + col) * COUNT + j * COLS + other] =
                         (PI * shifts[col.abs_diff(other)] / (here.end - here.start)) as f32;
                 }
             }
-            for col in 0..cols {
-                let along = ((col as f64 + 0.5) / cols as f64 - 0.5) * frame.width;
+            for col in 0..COLS {
+                let along = ((col as f64 + 0.5) / COLS as f64 - 0.5) * frame.width;
                 let eye = frame.to_eye([middles[i] * frame.depth, along]);
-                to_eye.extend((0..count).map(|k| Angles::new(&to[grid.direction(col, k)], &eye)));
+                to_eye.extend((0..COUNT).map(|k| Angles::new(&to[direction(col, k)], &eye)));
             }
         }
-        Self { grid, lit: frame.lit(), factors, from_sun, to_eye }
+        Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
 
     /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
     fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
-        let (grid, count) = (self.grid, self.grid.count());
-        let patches = (0..count).flat_map(|i| (0..count).map(move |k| (i, k)));
+        let patches = (0..COUNT).flat_map(|i| (0..COUNT).map(move |k| (i, k)));
         let lit = (PI * self.lit) as f32;
-        let way = |i: usize, k: usize| i / grid.cols * grid.directions_of_row() + grid.direction(i, k);
-        patches.map(|(i, k)| lit * from_sun[way(i, k)]).collect()
+        patches.map(|(i, k)| lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
     }
 
     /// What this panel's patches send on of the light that the other's sent.
     fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
-        let count = self.grid.count();
-        let mut reflected = vec![0.0; count * count];
-        for (i, to) in reflected.chunks_exact_mut(count).enumerate() {
-            let rows = matrix[i * count * count..].chunks_exact(count);
-            for (j, row) in rows.take(count).enumerate() {
-                let arriving = self.factors[i * count + j] * light[j * count + i];
+        let mut reflected = vec![0.0; COUNT * COUNT];
+        for (i, to) in reflected.chunks_exact_mut(COUNT).enumerate() {
+            let rows = matrix[i * COUNT * COUNT..].chunks_exact(COUNT);
+            for (j, row) in rows.take(COUNT).enumerate() {
+                let arriving = self.factors[i * COUNT + j] * light[j * COUNT + i];
                 to.iter_mut().zip(row).for_each(|(to, f)| *to += arriving * f);
             }
         }
@@ -224,83 +212,56 @@ impl Panel {
     }
 }
 
-impl Grid {
-    fn rows(self) -> usize {
-        self.edges.len() - 1
-    }
+/// Which direction of its row leads from patch `i` to patch `k` of the other panel.
+fn direction(i: usize, k: usize) -> usize {
+    k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
+}
 
-    /// Patches of a panel.
-    fn count(self) -> usize {
-        self.rows() * self.cols
-    }
-
-    /// Differences of columns.
-    fn shifts(self) -> usize {
-        2 * self.cols - 1
-    }
-
-    /// Directions from a row of patches to the other panel's patches, repeated along the crease.
-    fn directions_of_row(self) -> usize {
-        self.rows() * self.shifts()
-    }
-
-    /// Which direction of its row leads from patch `i` to patch `k` of the other panel.
-    fn direction(self, i: usize, k: usize) -> usize {
-        let cols = self.cols;
-        k / cols * self.shifts() + (k % cols + cols - 1 - i % cols)
-    }
-
-    /// Directions from the patches of each row to those of the other panel: means over the light between both, which lies between the
-    /// directions of their middles only where they are far from each other.
-    fn directions(self, frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
-        let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
-        let unit = frame.width / self.cols as f64;
-        let span = |depth: f64, n: usize| gauss.on(self.edges[n] * depth, self.edges[n + 1] * depth);
-        let mean = |row: usize, other: usize, shift: f64| {
-            let mut sum = Vector3::zeros();
-            for (out, weight) in span(frame.depth, row) {
-                for (far, weight_far) in span(frame.other_depth, other) {
-                    for (z, weight_along) in hat.nodes.iter().zip(&hat.weights) {
-                        let along = (shift + z) * unit;
-                        let way = Vector3::new(far * frame.cos - out, along, far * frame.sin);
-                        let square = way.norm_squared();
-                        sum += way
-                            * (weight * weight_far * weight_along * out * far
-                                / (square * square * square.sqrt()));
-                    }
+/// Directions from the patches of each row to those of the other panel: means over the light between both, which lies between the
+/// directions of their middles only where they are far from each other.
+fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
+    let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
+    let unit = frame.width / COLS as f64;
+    let span = |depth: f64, n: usize| gauss.on(EDGES[n] * depth, EDGES[n + 1] * depth);
+    let mean = |row: usize, other: usize, shift: f64| {
+        let mut sum = Vector3::zeros();
+        for (out, weight) in span(frame.depth, row) {
+            for (far, weight_far) in span(frame.other_depth, other) {
+                for (z, weight_along) in hat.nodes.iter().zip(&hat.weights) {
+                    let along = (shift + z) * unit;
+                    let way = Vector3::new(far * frame.cos - out, along, far * frame.sin);
+                    let square = way.norm_squared();
+                    sum += way
+                        * (weight * weight_far * weight_along * out * far
+                            / (square * square * square.sqrt()));
                 }
             }
-            sum.normalize()
-        };
-        let shifts = self.shifts();
-        let ends = (0..self.rows())
-            .flat_map(|other| (0..shifts).map(move |n| (other, n as f64 + 1.0 - self.cols as f64)));
-        (0..self.rows())
-            .map(|row| ends.clone().map(|(other, shift)| mean(row, other, shift)).collect())
-            .collect()
-    }
-
-    /// For each patch a matrix: from each patch of the other panel towards each.
-    fn expand(self, rows: &[Parts]) -> Parts {
-        let count = self.count();
-        let mut all = Vec::with_capacity(count * count * count);
-        for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
-            let from = self.direction(i, j);
-            all.extend((0..count).map(|k| {
-                let to = self.direction(i, k);
-                let (high, low) = (from.max(to), from.min(to));
-                rows[i / self.cols][high * (high + 1) / 2 + low]
-            }));
         }
-        all
-    }
+        sum.normalize()
+    };
+    let ends = (0..ROWS).flat_map(|other| (0..SHIFTS).map(move |n| (other, n as f64 + 1.0 - COLS as f64)));
+    (0..ROWS).map(|row| ends.clone().map(|(other, shift)| mean(row, other, shift)).collect()).collect()
 }
 
 /// Angles between all directions of each row of patches, each pair once.
 fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Vec<Angles>> {
     let row = |to: &Vec<Vector3<f64>>| {
-        let pairs = (0..to.len()).flat_map(|a| (0..=a).map(move |b| (a, b)));
+        let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
         pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
     };
     to.iter().map(row).collect()
+}
+
+/// For each patch a matrix: from each patch of the other panel towards each.
+fn expand(rows: &[Parts]) -> Parts {
+    let mut all = Vec::with_capacity(COUNT * COUNT * COUNT);
+    for (i, j) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j))) {
+        let from = direction(i, j);
+        all.extend((0..COUNT).map(|k| {
+            let to = direction(i, k);
+            let (high, low) = (from.max(to), from.min(to));
+            rows[i / COLS][high * (high + 1) / 2 + low]
+        }));
+    }
+    all
 }

@@ -11,10 +11,16 @@ use ndarray::Array2;
 
 use super::frame::Frame;
 use super::pooling::Pooling;
-use super::resolution::Resolution;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
 use crate::sheet::{Angles, Shape};
+
+/// Points of a panel away from the crease and along it.
+const OUT: usize = 8;
+const ALONG: usize = 6;
+/// Directions at each point: across the crease and along it.
+const ACROSS: usize = 8;
+const SIDEWAYS: usize = 10;
 
 /// The points of both panels, with all directions of light to the eye by one or two reflections.
 pub struct Points {
@@ -40,12 +46,12 @@ struct Way {
 
 impl Points {
     /// Those of `fold`, in the light of a sun and before an eye that the frames know.
-    pub(super) fn new(fold: &Fold, frames: &[Frame; 2], resolution: &Resolution) -> Self {
+    pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
         let shares =
             |order: usize| Rule::gauss_legendre(order).on(0.0, 1.0).map(|(x, _)| x).collect::<Vec<_>>();
-        let [out, along] = resolution.points.map(shares);
-        let rules = resolution.directions.map(Rule::gauss_legendre);
-        let mut points = Vec::with_capacity(2 * out.len() * along.len());
+        let (out, along) = (shares(OUT), shares(ALONG));
+        let rules = [ACROSS, SIDEWAYS].map(Rule::gauss_legendre);
+        let mut points = Vec::with_capacity(2 * OUT * ALONG);
         for (here, other) in [(&frames[0], &frames[1]), (&frames[1], &frames[0])] {
             for out in &out {
                 for along in &along {
@@ -110,7 +116,7 @@ fn ways(
     let opening = sin.atan2(cos);
     // from the crease to the other panel's edge
     let edge = ((here.other_depth / out - cos) / sin).atan();
-    let mut ways = Vec::with_capacity(across.nodes.len() * sideways.nodes.len());
+    let mut ways = Vec::with_capacity(ACROSS * SIDEWAYS);
     for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
         let away = out * sin / psi.cos();
         let [low, high] = [-0.5, 0.5].map(|end| end * here.width - along).map(|end| end / end.hypot(away));

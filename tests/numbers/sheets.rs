@@ -10,7 +10,7 @@ use vfold::kernel::quadrature::Lagrange;
 use vfold::kernel::refinement;
 use vfold::response::{ModeLight, Response};
 use vfold::sheet::{Family, Shape, measured, measured_names};
-use vfold::transport::{Resolution, departures};
+use vfold::transport::departures;
 
 #[derive(Deserialize)]
 struct Data {
@@ -67,7 +67,6 @@ impl Scene {
             &Point3::from(eye),
             std::slice::from_ref(&shape),
             &nodes,
-            &Resolution::FINE,
         );
         let on_panels = [tilt_deg, -tilt_deg].map(|tilt| (0.5 * angle_deg + tilt).to_radians().sin());
         let lambertian = refinement::refine(&fold, 1e-5).unwrap().response;
@@ -142,8 +141,8 @@ fn shapes_do_not_depend_on_their_company() {
         [Family::default(), Family { gloss: 0.4, roughness: 0.5, body_roughness_deg: 10.0, fuzz: 0.1 }]
             .map(Shape::from);
     for fold in [fold, unequal] {
-        let both = departures(&fold, &Vector3::z(), &eye, &shapes, &[0.2, 0.9], &Resolution::FINE);
-        let one = departures(&fold, &Vector3::z(), &eye, &shapes[1..], &[0.9], &Resolution::FINE);
+        let both = departures(&fold, &Vector3::z(), &eye, &shapes, &[0.2, 0.9]);
+        let one = departures(&fold, &Vector3::z(), &eye, &shapes[1..], &[0.9]);
         for facet in 0..12 {
             assert!((both[[1, facet, 1]] - one[[0, facet, 0]]).abs() < 1e-12);
             assert!(both[[0, facet, 1]].abs() < 1e-12);
@@ -157,8 +156,7 @@ fn mirrored_scenes_look_mirrored() {
     let fold = Fold::new(50.0, 1.2, 1.0, FacetGrid { rows: 4, cols: 6 }).unwrap();
     let shape = [measured().unwrap()[0].clone()];
     let at = |x: f64, y: f64, tilt: f64| {
-        let (sun, eye) = (Vector3::new(tilt, 0.05, 1.0), Point3::new(x, y, 7.0));
-        departures(&fold, &sun, &eye, &shape, &[0.5], &Resolution::FINE)
+        departures(&fold, &Vector3::new(tilt, 0.05, 1.0), &Point3::new(x, y, 7.0), &shape, &[0.5])
     };
     let (seen, across) = (at(1.0, 0.8, 0.1), at(-1.0, 0.8, -0.1));
     for facet in 0..24 {

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::estimate::photograph::sheets::{Departure, FAMILY_NODES, FUZZ, Instrument, Sheets};
 use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
-use crate::transport::{Resolution, departures};
+use crate::transport::departures;
 
 /// Each of the measured sheets described by the others from what its facets show: by how much its 45:0 reflectance is off in all bands
 /// (6.3 to 6.7 %, left out in turn on two folds), and, of the six that were photographed, how far each band is off beside that.
@@ -28,7 +28,7 @@ pub fn of(
     let formulas = distinct.iter().map(|n| families[*n]).chain(fuzzy).map(Shape::from);
     let tables = measured()?.iter().zip(measured_names()).filter(|(_, name)| Some(*name) != left_out);
     let all: Vec<Shape> = formulas.chain(tables.map(|(shape, _)| shape.clone())).collect();
-    let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes, &Resolution::COARSE);
+    let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes);
     let departure = |(shape, radiance): (&Shape, ndarray::ArrayView2<f64>)| Departure {
         radiance: bins.pool(&radiance.to_owned()),
         reflectance: shape.slope_and_offset(),
