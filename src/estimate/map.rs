@@ -65,7 +65,7 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
 /// A misfit, in units of the noise, below which no spectrum leaves the facets, if what facets are made of is as the data have it; found in a
 /// small part of the time of an estimate.
 ///
-/// With the noise inflated κ times, no point has less than `κ⁻²|ρ|² + |w|²` of the maximum there, and spectra are within [`FURTHEST`].
+/// With the noise inflated κ times, no point has less than `κ⁻²|ρ|² + |w|²` of the maximum there, and spectra are within `FURTHEST`.
 #[must_use]
 pub fn least_misfit(data: &FacetData, prior: &Prior) -> f64 {
     let all = Facets { data, gaussian: prior.broad() };
