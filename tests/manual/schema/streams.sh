@@ -36,7 +36,11 @@ vforward scene.ndjson --reflectance cc24:orange --exposure 0.5 --render fold.exr
 eval "set -- $(grep -o -- '--panel0.*"' corners)"
 oiiotool fold.exr --fill:color=0.45,0.45,0.45 60x40+10+10 --attrib Make vfold -d uint16 -o card.tif
 vforward scene.ndjson --reflectance cc24:orange --gloss 0.8 --gloss-roughness 0.4 --render glossy.exr -o glossy.ndjson 2>said
-vextract glossy.exr --regions glossy.ndjson --scene scene.ndjson --camera canon-5d-mark-ii -q | vestimate -q -o found.ndjson
+vextract glossy.exr --regions glossy.ndjson --scene scene.ndjson --camera canon-5d-mark-ii -q -o one.ndjson
+vestimate one.ndjson -q -o found.ndjson
+cp glossy.exr again.exr
+vextract again.exr --regions glossy.ndjson --scene scene.ndjson --camera canon-5d-mark-ii -q -o other.ndjson
+cat one.ndjson other.ndjson | vestimate -q --join=glossy,again -o joined.ndjson
 echo no picture > bad.tif
 vextract card.tif bad.tif --scene scene.ndjson --camera canon-5d-mark-ii "$@" --white-region "10,10 70,10 70,50 10,50" \
     --distortion 0,0 --refine -q -o photographs.ndjson 2>said || [ $? = 3 ]
