@@ -14,7 +14,7 @@ vestimate card.ndjson --noise-sd 1e-3 -o card-estimate.ndjson
 vforward scene.ndjson --reflectance cc24:red --noise-sd 1e-3 |
     vestimate --fit exposure,tilt,sky,angle -q -o fitted.ndjson
 vforward scene.ndjson --reflectance cc24:red | vestimate --prior smooth -o smooth.ndjson
-vestimate scene.ndjson --plan --reflectance cc24:red --fit exposure,tilt,sky,angle -q -o plan.ndjson
+vestimate scene.ndjson --plan --reflectance cc24:red --fit exposure,tilt,sky,angle,daylight -q -o plan.ndjson
 vscore estimates.ndjson --colour --illuminant D65 --illuminant A --metrics rmse,ciede2000,pd,gfc,angle,metamerism --by id -o scored.ndjson
 vscore fitted.ndjson --colour -o scored-fitted.ndjson
 
