@@ -129,8 +129,8 @@ done < names
     assert!(rmse < 0.025 && delta_e < 1.0, "{rmse} {delta_e}");
     let sun = samples.iter().filter(|one| one["estimate"]["fit"]["sun_cct_k"]["supported"] == true);
     for one in sun {
-        let [value, sd] =
-            ["value", "sd"].map(|name| one["estimate"]["fit"]["sun_cct_k"][name].as_f64().unwrap());
-        assert!((value - 5200.0).abs() < 4.0 * sd + 50.0, "{}: {value} ± {sd}", one["id"]);
+        let value = one["estimate"]["fit"]["sun_cct_k"]["value"].as_f64().unwrap();
+        // a clear sun's spectrum is not quite that of a CIE daylight
+        assert!((value - 5200.0).abs() < 200.0, "{}: {value}", one["id"]);
     }
 }
