@@ -156,6 +156,15 @@ pub enum Error {
         remedy: String,
     },
 
+    /// The patches of a surface exchange more light than is kept.
+    #[error("{name}: the exchange between {patches} patches fills more than a gigabyte; take a coarser mesh")]
+    FullExchange {
+        /// Its file, or just `shape`.
+        name: String,
+        /// How many there are.
+        patches: usize,
+    },
+
     // ---- numbers ----
     /// A check ran and found a law broken.
     #[error("the kernel breaks a law: {0}")]
@@ -241,6 +250,9 @@ impl Error {
         match self {
             Self::Shape { problem, remedy, .. } => {
                 Self::Shape { name: path.display().to_string(), problem, remedy }
+            }
+            Self::FullExchange { patches, .. } => {
+                Self::FullExchange { name: path.display().to_string(), patches }
             }
             other => other,
         }

@@ -15,31 +15,42 @@ impl Setting<'_> {
     /// # Errors
     /// As [`Setting::model`]; [`crate::Error::Field`] if the scene is not one in which they can be fitted.
     pub fn model_to_fit(&self, fit: &[&'static Unknown]) -> Result<SceneModel> {
+        self.model_to_fit_within(fit, 0.0)
+    }
+
+    /// The same, folds of other angles being solved to this relative error of facet means if that is more than the scene's: enough to see
+    /// whether another angle would explain the facets, in a small part of the time.
+    ///
+    /// # Errors
+    /// As [`Setting::model_to_fit`].
+    pub fn model_to_fit_within(&self, fit: &[&'static Unknown], tolerance: f64) -> Result<SceneModel> {
         // The model is proportional to the exposure, whatever the surface.
         if fit.iter().all(|unknown| **unknown == EXPOSURE) {
             return Ok(SceneModel::known(self.model()?));
         }
         match self {
-            Self::Fold(fold) => SceneModel::of_fold(&fold.in_light()?, fit),
+            Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit),
             Self::Surface(_) => Err(needs_fold()),
         }
     }
 }
 
 impl FoldSetting<'_> {
-    /// The fold in its light.
-    fn in_light(&self) -> Result<FoldInLight> {
+    /// The fold in its light, other folds to be solved to `tolerance` or to the scene's.
+    fn in_light(&self, tolerance: f64) -> Result<FoldInLight> {
         let is_fine = self.scene.has_accuracy() && self.scene.mesh()? == Mesh::Auto.to_string();
         let (grid, mut illuminants) = (self.scene.grid()?, self.scene.illuminants()?);
         let sun = DVector::from_vec(illuminants.swap_remove(0).power);
         // pictures in other lights have a sun each
-        let daylight = if illuminants.is_empty() { eye::daylight(&eye::vectors(&grid)?, &sun) } else { None };
+        let daylight_vectors = eye::vectors(&grid)?;
+        let daylight = if illuminants.is_empty() { eye::daylight(&daylight_vectors, &sun) } else { None };
         Ok(FoldInLight {
-            sun_power: sun.data.into(),
+            sun_power: sun,
+            daylight_vectors,
             daylight,
             fold: *self.fold(),
             response: self.response()?,
-            tolerance: if is_fine { Some(self.scene.tolerance()?) } else { None },
+            tolerance: if is_fine { Some(self.scene.tolerance()?.max(tolerance)) } else { None },
             lighting: self.lighting()?,
             has_sky_illuminant: self.scene.sky_illuminant()?.is_some(),
             card: self.card()?,

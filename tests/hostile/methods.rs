@@ -23,6 +23,11 @@ fn flags_that_do_not_fit_the_method() {
             case("vestimate flat.ndjson --method khan --fit sky", 2, &["--fit", "--method khan"]),
             case("vestimate flat.ndjson --method khan --noise-sd 1", 2, &["--noise-sd"]),
             case("vestimate flat.ndjson --method khan --plan", 2, &["--plan"]),
+            case("vestimate flat.ndjson --method khan --join", 2, &["--join", "--method"]),
+            case("vestimate fold.ndjson --prior smooth --join", 2, &["--join", "--prior"]),
+            case("vestimate fold.ndjson --join --fit none", 2, &["--join", "--fit"]),
+            case("vestimate fold.ndjson --join --exposure sum", 2, &["--exposure", "free"]),
+            case("vestimate fold.ndjson --join=", 2, &["--join", "field"]),
             case(
                 "vestimate flat.ndjson --method park --smoothness auto",
                 2,

@@ -16,6 +16,7 @@ mod image_refine;
 mod image_statements;
 mod kernel_methods;
 mod laws;
+mod least_misfit;
 mod lights;
 mod mesh;
 mod published;

@@ -6,17 +6,17 @@ use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, SUN_COLOUR, SceneModel, Unknown};
+use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
 use vfold::estimate::verdict::{Doubt, Verdict};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::scene::Setting;
-use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
+use vfold::spectrum::{Outside, Spectrum};
 use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
-use super::flat::{FlatContext, FlatEstimator};
-use super::other_angle::OtherAngle;
+use super::context::{Context, SceneMethod};
+use super::flat::FlatEstimator;
 use super::photographed::{Given, doubts_of_taking};
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
@@ -38,64 +38,6 @@ enum Method {
     Map(Option<(Vec<Spectrum>, Option<Vec<usize>>)>),
     Smooth(Smoothness),
     Flat(FlatEstimator),
-}
-
-/// What the samples of one scene need.
-pub struct Context {
-    grid: WavelengthGrid,
-    scene: SceneModel,
-    /// The same in daylight of a colour that nobody said, if it is so.
-    in_any_daylight: Option<SceneModel>,
-    method: SceneMethod,
-    start: Option<Vec<f64>>,
-    /// The scene's record, if it is that of a fold.
-    record: Option<Scene>,
-    other_angle: OtherAngle,
-    /// What no facet shows, in words.
-    untold: String,
-}
-
-/// The method on the wavelengths of a scene.
-enum SceneMethod {
-    Map(Prior),
-    Smooth(Smoothness),
-    Flat(FlatContext),
-}
-
-impl Context {
-    /// The scene's record, if it is that of a fold.
-    pub fn record(&self) -> Option<&Scene> {
-        self.record.as_ref()
-    }
-
-    /// The reflectance to set out from, if one was given.
-    pub fn start(&self) -> Option<&[f64]> {
-        self.start.as_deref()
-    }
-
-    /// The same scene with its angle unknown.
-    pub fn other_angle(&self) -> &OtherAngle {
-        &self.other_angle
-    }
-
-    /// What is known of spectra.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] if the method knows nothing of them.
-    pub fn prior(&self) -> Result<&Prior> {
-        match &self.method {
-            SceneMethod::Map(prior) => Ok(prior),
-            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
-                let problem = "photographs are estimated together under a prior alone";
-                Err(Error::usage("--join", problem, "leave --prior and --method out, or give spectra"))
-            }
-        }
-    }
-
-    /// Whether estimates of both are on the same wavelengths.
-    pub fn is_estimated_like(&self, other: &Self) -> bool {
-        self.grid.wavelengths_nm() == other.grid.wavelengths_nm()
-    }
 }
 
 /// Estimates as the flags ask for.
@@ -184,25 +126,7 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        let record = scene.fold_if_one()?.map(|_| scene.clone());
-        let is_assumed = self.is_auto()
-            && record.is_some()
-            && matches!(method, SceneMethod::Map(_))
-            && scene.is_daylight_assumed()?;
-        let untold = untold(scene)?;
-        let setting = Setting::of(scene)?;
-        let in_any_daylight = is_assumed.then(|| setting.model_to_fit(&[&SUN_COLOUR])).transpose()?;
-        let scene = setting.model_to_fit(&self.fit)?;
-        Ok(Context {
-            grid,
-            scene,
-            in_any_daylight,
-            method,
-            start,
-            record,
-            other_angle: OtherAngle::default(),
-            untold,
-        })
+        Context::new(scene, method, start, (&self.fit, self.is_auto()))
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
@@ -211,22 +135,18 @@ impl Transform for Estimator<'_> {
         let mut doubts = Vec::new();
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                // a chart or a card has made the channels those of the light that was assumed
-                let scene = match &context.in_any_daylight {
-                    Some(scene) if !sample.fields.has("calibration") => scene,
-                    _ => &context.scene,
-                };
-                let deviations = Deviations::of(&noise, scene.facets(), &rgb)?;
+                let believed = context.believed(sample);
+                let deviations = Deviations::of(&noise, believed.model.facets(), &rgb)?;
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
-                let data = FacetData::new(scene, &measured, exposure, CUTOFF)?;
+                let data = FacetData::new(&believed.model, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                let given = Given { measured: &measured, exposure, data: &data };
+                let given = Given { measured: &measured, exposure, data: &data, believed };
                 (self.by_prior(context, sample, &given, prior, &mut doubts)?, how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
-                let sheet = FlatSheet::new(context.scene.facets(), &measured, exposure)?;
+                let sheet = FlatSheet::new(context.told.model.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, flat.to_string())
             }
         };
@@ -274,13 +194,8 @@ impl<'a> Estimator<'a> {
                 format!("--prior {} does not know how far off its estimates are", self.args.prior());
             return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
         };
-        let data = FacetData::new(&context.scene, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
-        Ok(map::estimate(&data, prior, context.start()))
-    }
-
-    /// What is fitted beside the spectrum.
-    pub fn fit(&self) -> &[&'static Unknown] {
-        &self.fit
+        let data = FacetData::new(&context.told.model, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
+        Ok(map::estimate(&data, prior, context.start.as_deref()))
     }
 
     /// Whether what is fitted is up to the photograph.
@@ -344,7 +259,8 @@ impl<'a> Estimator<'a> {
         ids: &[String],
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        let doubts = context.record().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
+        let doubts =
+            context.record.as_ref().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
         self.finish(context, sample, estimate, &how, (doubts, ids))
     }
 
@@ -358,13 +274,13 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
         let measured = Measured { rgb, sd: &alike(rgb) };
-        let data = FacetData::new(&context.scene, &measured, exposure, SMOOTH_CUTOFF)?;
+        let data = FacetData::new(&context.told.model, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = Deviations::of(noise, context.scene.facets(), rgb)?;
+                let noise = Deviations::of(noise, context.told.model.facets(), rgb)?;
                 (
                     smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
                     format!("as allowed by {noise}"),
@@ -392,7 +308,7 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
     let noise = match context.method {
         SceneMethod::Map(_) => 1.0,
         SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
-            Deviations::of(noise, context.scene.facets(), rgb)?.rms()
+            Deviations::of(noise, context.told.model.facets(), rgb)?.rms()
         }
     };
     if estimate.residual_rms <= MISFIT * noise {
@@ -403,14 +319,6 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
         100.0 * estimate.unexplained
     );
     Err(Error::field("facet_rgb", problem))
-}
-
-/// Light and camera as the scene has them: no facet shows that they are others.
-fn untold(scene: &Scene) -> Result<String> {
-    let lights = scene.illuminants()?;
-    let names: Vec<_> = lights.iter().map(|light| light.name.as_str()).collect();
-    let whose = if scene.is_daylight_assumed()? { ", which nobody told," } else { "" };
-    Ok(format!("the light {}{whose} and the camera {}", names.join(", "), scene.camera()?.name))
 }
 
 /// The same standard deviation for every facet, white being 1.

@@ -3,12 +3,15 @@
 use std::cell::RefCell;
 use std::str::FromStr;
 
+use vfold::estimate::Exposure;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::stream::{Fields, Member, Reader, Record, Sample, Together, pipe_together};
 use vfold::{Error, Result};
 
-use super::estimator::{Context, Estimator};
+use super::Args;
+use super::context::{Context, SceneMethod};
+use super::estimator::Estimator;
 
 /// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused.
 const LN_SEVERAL: f64 = 5.0;
@@ -61,6 +64,22 @@ impl Join {
     }
 }
 
+/// Photographs are estimated together as those of a real sheet, under a prior.
+///
+/// # Errors
+/// [`Error::Usage`] if flags ask for something else.
+pub fn check(args: &Args) -> Result<()> {
+    if !args.has_prior() {
+        let problem = "photographs are estimated together under a prior alone";
+        return Err(Error::usage("--join", problem, "leave --prior and --method out, or give spectra"));
+    }
+    if args.exposure == Some(Exposure::Sum) {
+        let problem = "photographs that are estimated together have an exposure each";
+        return Err(Error::usage("--exposure", problem, "leave it out, or give free"));
+    }
+    Ok(())
+}
+
 /// Passes all records of `reader` through the estimator, photographs of one sheet together.
 pub fn run(
     join: &Join,
@@ -93,11 +112,16 @@ impl Together for Estimator<'_> {
         let photographs: Vec<Parts> = photographs.collect::<Result<_>>()?;
         let (context, rest) =
             members.split_first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
-        if rest.iter().any(|other| !other.context.is_estimated_like(&context.context)) {
+        let context = &context.context;
+        let is_other =
+            |other: &Member<Context>| other.context.grid.wavelengths_nm() != context.grid.wavelengths_nm();
+        if rest.iter().any(is_other) {
             let problem = "photographs of one sheet have different wavelengths; give all scenes the same";
             return Err(Error::field("wavelengths_nm", problem));
         }
-        let prior = context.context.prior()?;
+        let SceneMethod::Map(prior) = &context.method else {
+            return Err(Error::Numeric("photographs are estimated together under a prior alone".to_owned()));
+        };
         let together = photograph::estimate(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
         let mut apart = 0.0;
         for one in &photographs {

@@ -1,5 +1,6 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
+mod context;
 mod drawing;
 mod estimator;
 mod flat;
@@ -67,7 +68,7 @@ struct Args {
     /// Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id
     /// up to its last - or _
     #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
-        conflicts_with_all = ["resume", "plan"])]
+        conflicts_with_all = ["resume", "plan", "fit"])]
     join: Option<Join>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
@@ -121,6 +122,7 @@ fn main() -> ExitCode {
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
+    args.join.as_ref().map_or(Ok(()), |_| join::check(args))?;
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
     if let Some(kernel) = args.kernel.given()? {

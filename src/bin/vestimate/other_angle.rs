@@ -11,7 +11,7 @@ use vfold::estimate::photograph::Finding;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{ANGLE, SceneModel, Unknown};
 use vfold::estimate::verdict::{Doubt, EXPLAINED};
-use vfold::estimate::{Estimate, Exposure, map};
+use vfold::estimate::{Estimate, Exposure, Fitted, map};
 use vfold::scene::Setting;
 use vfold::stream::Scene;
 
@@ -22,9 +22,18 @@ const SURE: f64 = 3.0;
 /// An angle that is told is known to that, degrees: whose fold is open by so much more told something else wrong, too.
 const TOLD_DEG: f64 = 4.0;
 
-/// A scene with its angle unknown, made when a sample first asks for it.
+/// Relative error of facet means at which a glance is taken at other angles, and how many standard deviations and how much misfit it must
+/// find for a second look.
+const ROUGH: f64 = 1e-3;
+const PROMISING: f64 = 2.0;
+const PROMISING_MISFIT: f64 = 1.5 * EXPLAINED;
+
+/// A scene with its angle unknown, for a glance and for an estimate, each made when a sample first asks for it.
 #[derive(Default)]
-pub struct OtherAngle(OnceLock<Option<SceneModel>>);
+pub struct OtherAngle {
+    rough: OnceLock<Option<SceneModel>>,
+    fine: OnceLock<Option<SceneModel>>,
+}
 
 /// An estimate with the angle that the facets tell.
 pub struct Turned {
@@ -49,29 +58,50 @@ impl OtherAngle {
             return Ok(None);
         }
         let fit: Vec<_> = fit.iter().copied().chain([&ANGLE]).collect();
-        let Some(model) = self.model(scene, &fit) else { return Ok(None) };
+        let Some(rough) = made(&self.rough, scene, &fit, ROUGH) else { return Ok(None) };
+        let data = FacetData::new(rough, measured, exposure, CUTOFF)?;
+        let promises = |seen: Estimate| {
+            let is_off = angle(&seen).is_some_and(|angle| off(angle, told_deg) > PROMISING);
+            is_off && seen.residual_rms < (1.05 * misfit).min(PROMISING_MISFIT)
+        };
+        // a glance that does not end says nothing
+        if !map::glance(&data, prior).is_none_or(promises) {
+            return Ok(None);
+        }
+        let Some(model) = made(&self.fine, scene, &fit, 0.0) else { return Ok(None) };
         let data = FacetData::new(model, measured, exposure, CUTOFF)?;
         let estimate = map::estimate(&data, prior, None);
-        let Some(angle) = estimate.fitted.iter().find(|one| one.unknown == &ANGLE) else { return Ok(None) };
+        let Some(angle) = angle(&estimate) else { return Ok(None) };
         let (value_deg, sd_deg) = (angle.value, angle.sd);
-        let is_better =
-            estimate.residual_rms < misfit.min(EXPLAINED) && (value_deg - told_deg).abs() > SURE * sd_deg;
+        let is_better = estimate.residual_rms < misfit.min(EXPLAINED) && off(angle, told_deg) > SURE;
         Ok(is_better.then_some(Turned { estimate, told_deg, value_deg, sd_deg }))
     }
 }
 
-impl OtherAngle {
-    /// The scene with these unknowns; none if it has no other angle, as of a flat fold, or of one that was given facet by facet.
-    ///
-    /// Who finds none makes one: to wait for another thread that makes it would be for ever, since while that thread waits for the parts of its
-    /// own work it may take up the sample that waits.
-    fn model(&self, scene: &Scene, fit: &[&'static Unknown]) -> Option<&SceneModel> {
-        if self.0.get().is_none() {
-            let made = Setting::of(scene).and_then(|setting| setting.model_to_fit(fit)).ok();
-            self.0.get_or_init(|| made);
-        }
-        self.0.get()?.as_ref()
+fn angle(estimate: &Estimate) -> Option<&Fitted> {
+    estimate.fitted.iter().find(|one| one.unknown == &ANGLE)
+}
+
+/// How far an angle is from the one that was told, in standard deviations.
+fn off(angle: &Fitted, told_deg: f64) -> f64 {
+    (angle.value - told_deg).abs() / angle.sd
+}
+
+/// The scene with these unknowns; none if it has no other angle, as of a flat fold, or of one that was given facet by facet.
+///
+/// Who finds none makes one: to wait for another thread that makes it would be for ever, since while that thread waits for the parts of its
+/// own work it may take up the sample that waits.
+fn made<'a>(
+    model: &'a OnceLock<Option<SceneModel>>,
+    scene: &Scene,
+    fit: &[&'static Unknown],
+    tolerance: f64,
+) -> Option<&'a SceneModel> {
+    if model.get().is_none() {
+        let made = Setting::of(scene).and_then(|setting| setting.model_to_fit_within(fit, tolerance)).ok();
+        model.get_or_init(|| made);
     }
+    model.get()?.as_ref()
 }
 
 impl Turned {

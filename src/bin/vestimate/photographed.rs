@@ -8,12 +8,13 @@ use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::ANGLE;
 use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance};
-use vfold::estimate::{Estimate, Exposure, map, photograph};
+use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
 
-use super::estimator::{Context, Estimator};
+use super::context::{Believed, Context};
+use super::estimator::Estimator;
 
 /// Misfit of a fold as it was told up to which another angle is tried at once: what sets real sheets apart from ideal ones mostly makes more.
 const NEAR: f64 = 8.0;
@@ -26,8 +27,10 @@ pub struct Given<'a> {
     pub measured: &'a Measured<'a>,
     /// How the exposure enters.
     pub exposure: Exposure,
-    /// As data of the scene as it was told.
+    /// As data of the scene.
     pub data: &'a FacetData<'a>,
+    /// The scene.
+    pub believed: &'a Believed,
 }
 
 impl Estimator<'_> {
@@ -40,16 +43,17 @@ impl Estimator<'_> {
         prior: &Prior,
         doubts: &mut Vec<Doubt>,
     ) -> Result<Estimate> {
-        let ideal = || map::estimate(given.data, prior, context.start());
+        let ideal = || map::estimate(given.data, prior, context.start.as_deref());
         if !sample.is_photograph() {
             let ideal = ideal();
             doubts.extend(beyond_chance(&ideal, given.data.size().1));
             return Ok(ideal);
         }
-        let Some(record) = context.record() else { return Ok(ideal()) };
+        let Some(record) = &context.record else { return Ok(ideal()) };
         doubts.extend(doubts_of_taking(record, sample)?);
         let other_angle = |misfit: f64| {
-            context.other_angle().better(misfit, record, self.fit(), (given.measured, given.exposure), prior)
+            let Believed { fit, other_angle, .. } = given.believed;
+            other_angle.better(misfit, record, fit, (given.measured, given.exposure), prior)
         };
         if !self.is_auto() {
             let ideal = ideal();
@@ -66,20 +70,17 @@ impl Estimator<'_> {
         {
             return Ok(turned.into_estimate(doubts));
         }
-        if let Some(told) = told.filter(|_| misfit < EXPLAINED && stands_in.is_none()) {
-            return Ok(told);
-        }
-        if given.exposure == Exposure::Sum {
-            return Ok(ideal());
+        let told = || told.unwrap_or_else(ideal);
+        if (misfit < EXPLAINED && stands_in.is_none()) || given.exposure == Exposure::Sum {
+            return Ok(told());
         }
         match self.parts(record, sample)? {
             Ok(parts) => {
                 let told_deg = parts.told.angle_deg;
                 let found = photograph::estimate(&[parts], prior, ModelError::OF_PHOTOGRAPHS)?;
-                let real = found.photographs.into_iter().next().unwrap_or_else(ideal);
-                let is_pulled = |one: &vfold::estimate::Fitted| {
-                    one.unknown == &ANGLE && (one.value - told_deg).abs() > PULLED_DEG
-                };
+                let real = found.photographs.into_iter().next().unwrap_or_else(told);
+                let is_pulled =
+                    |one: &Fitted| one.unknown == &ANGLE && (one.value - told_deg).abs() > PULLED_DEG;
                 if misfit >= NEAR
                     && real.fitted.iter().any(is_pulled)
                     && let Some(turned) = other_angle(misfit)?
@@ -102,7 +103,7 @@ impl Estimator<'_> {
                     );
                     cli::say("vestimate", &text);
                 }
-                Ok(ideal())
+                Ok(told())
             }
         }
     }
@@ -116,7 +117,7 @@ impl Estimator<'_> {
             let problem = format!("{}: {why}; only photographs of folds are estimated together", sample.id());
             Error::field("id", problem)
         };
-        let Some(record) = context.record() else { return Err(alone("the scene is no fold".to_owned())) };
+        let Some(record) = &context.record else { return Err(alone("the scene is no fold".to_owned())) };
         self.parts(record, sample)?.map_err(|why| alone(why.to_string()))
     }
 

@@ -1,5 +1,9 @@
 //! Under which conditions a photograph was taken.
 
+use nalgebra::{DMatrix, DVector};
+
+use crate::spectrum::daylight_weights;
+
 /// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
@@ -77,7 +81,21 @@ pub enum Daylight {
     },
 }
 
+/// The reddest daylight that CIE 15 has, 4000 K, and a bluer one than any sky's, 1e-6/K.
+pub const MOST_MIRED: f64 = 250.0;
+const LEAST_MIRED: f64 = 40.0;
+
 impl Daylight {
+    /// Relative power of daylight of a reciprocal colour temperature, from its mean and two characteristic vectors (waveband by three).
+    ///
+    /// # Source
+    /// CIE 15:2018, section 4.1.2, not rounded.
+    #[must_use]
+    pub fn power(vectors: &DMatrix<f64>, mired: f64) -> DVector<f64> {
+        let [m1, m2] = daylight_weights(1e6 / mired.clamp(LEAST_MIRED, MOST_MIRED));
+        vectors * DVector::from_column_slice(&[1.0, m1, m2])
+    }
+
     /// Its reciprocal colour temperature, 1e-6/K.
     #[must_use]
     pub fn mired(self) -> f64 {

@@ -58,7 +58,6 @@ impl Member<'_> {
 pub struct JointModel<'a> {
     /// The photographs, one or more.
     members: Vec<Member<'a>>,
-    gaussian: &'a Gaussian,
     count: usize,
 }
 
@@ -90,19 +89,13 @@ impl<'a> JointModel<'a> {
             let places = (0..end).map(place).collect();
             members.push(Member { model, places });
         }
-        Self { members, gaussian, count }
+        Self { members, count }
     }
 
     /// The photographs.
     #[must_use]
     pub fn members(&self) -> &[Member<'a>] {
         &self.members
-    }
-
-    /// The Gaussian of logits of albedo.
-    #[must_use]
-    pub fn gaussian(&self) -> &'a Gaussian {
-        self.gaussian
     }
 
     /// Residuals of each photograph.

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
-use super::conditions::Conditions;
+use super::conditions::{Conditions, Daylight};
 use super::kinds::{Kind, Kinds};
 use super::parts::{Ambient, Parts, Radiance};
 use super::sheets::Departure;
@@ -196,13 +196,14 @@ impl<'a> PhotographModel<'a> {
         let sun = conditions.sun_mired.zip(self.parts.told.daylight).map_or_else(
             || eye.sun.clone(),
             |(mired, said)| {
-                let ratio =
-                    daylight(&eye.daylight, mired).component_div(&daylight(&eye.daylight, said.mired()));
+                let ratio = Daylight::power(&eye.daylight, mired)
+                    .component_div(&Daylight::power(&eye.daylight, said.mired()));
                 eye.sun.component_mul(&ratio)
             },
         );
-        let sky =
-            conditions.sky_mired.map_or_else(|| eye.sky.clone(), |mired| daylight(&eye.daylight, mired));
+        let sky = conditions
+            .sky_mired
+            .map_or_else(|| eye.sky.clone(), |mired| Daylight::power(&eye.daylight, mired));
         let white = |power: &DVector<f64>| eye.sensitivities.row(eye.reference).transpose().dot(power);
         let (sun, sky) = (&sun / white(&sun), &sky / white(&sky));
         let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
@@ -319,15 +320,6 @@ impl<'a> PhotographModel<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         &self.parts.values - self.predicted(w, &self.terms(&albedo)).values
     }
-}
-
-/// The reddest daylight that CIE 15 has, 4000 K.
-pub const MOST_MIRED: f64 = 250.0;
-
-/// Daylight of a reciprocal colour temperature, from its mean and characteristic vectors (CIE 15:2018, section 4.1.2, not rounded).
-fn daylight(basis: &DMatrix<f64>, mired: f64) -> DVector<f64> {
-    let [m1, m2] = crate::spectrum::daylight_weights(1e6 / mired.clamp(40.0, MOST_MIRED));
-    basis * DVector::from_column_slice(&[1.0, m1, m2])
 }
 
 impl Model for PhotographModel<'_> {

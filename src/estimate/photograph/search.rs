@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::corners;
 use super::error::ModelError;
 use super::findings::findings;
-use super::joint::{JointModel, Photograph};
+use super::joint::{JointModel, Member, Photograph};
 use super::kinds::Kind;
 use super::model::Point;
 use super::parts::Parts;
@@ -277,7 +277,7 @@ impl Maximum {
         let reflectance = reflectance(&point);
         let lower = found.information()?.l();
         let widened = rms(&found.at.residuals).max(1.0);
-        let slopes = slopes(model, &w, &point, reflectance.len())?;
+        let slopes = slopes(first, model.unknowns(), &w, &point);
         let of_facets = widened * lower.solve_lower_triangular(&slopes.transpose())?;
         let spread = match first.model.instrument_errors(&point.albedo) {
             Some(errors) => {
@@ -317,12 +317,11 @@ impl Maximum {
     }
 }
 
-/// Derivatives of the reflectance in every waveband by all numbers of the model, those of the first photograph being `w`.
-fn slopes(model: &JointModel, w: &DVector<f64>, point: &Point, bands: usize) -> Option<DMatrix<f64>> {
-    let first = model.members().first()?;
+/// Derivatives of the reflectance in every waveband by all `unknowns` of photographs of a sheet, the numbers of the `first` being `w`.
+fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
     let [scene, sheet, camera, _] = first.model.layout();
-    let basis = model.gaussian().basis();
-    let mut slopes = DMatrix::zeros(bands, model.unknowns());
+    let basis = first.model.gaussian().basis();
+    let mut slopes = DMatrix::zeros(point.albedo.len(), unknowns);
     for (band, albedo) in point.albedo.iter().enumerate() {
         let change = point.departure.reflectance[0] * albedo * (1.0 - albedo);
         for n in 0..scene {
@@ -340,7 +339,7 @@ fn slopes(model: &JointModel, w: &DVector<f64>, point: &Point, bands: usize) -> 
             slopes[(band, first.place(n))] = slope * albedo + offset;
         }
     }
-    Some(slopes)
+    slopes
 }
 
 fn rms(residuals: &DVector<f64>) -> f64 {

@@ -1,5 +1,7 @@
 //! A fold in its light as sources, which unknowns change.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::{Expected, Factor, Role, SceneModel, Unknown};
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -20,7 +22,9 @@ pub struct FoldInLight {
     /// Sun and sky as the camera responds to them.
     pub lighting: Lighting,
     /// Relative power of the sun, one value per waveband.
-    pub sun_power: Vec<f64>,
+    pub sun_power: DVector<f64>,
+    /// Mean daylight and its two characteristic vectors: waveband by three.
+    pub daylight_vectors: DMatrix<f64>,
     /// The daylight that the sun was said to be, if it is any.
     pub daylight: Option<Daylight>,
     /// Whether the colour of the sky is given.

@@ -6,7 +6,6 @@ use super::{
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::photograph::conditions::Daylight;
-use crate::spectrum::{Outside, daylight_vectors, daylight_weights};
 
 /// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight takes the place of what was said.
 pub static SUN_COLOUR: Unknown = Unknown {
@@ -70,12 +69,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
 
 /// The camera's response to the sun, as much redder or bluer than it was said to be as daylight of this reciprocal temperature is.
 fn sun(scene: &FoldInLight, said: Daylight, mired: f64) -> Result<CameraResponse> {
-    let [s0, s1, s2] = daylight_vectors()?.map(|vector| vector.on(&scene.grid, Outside::Refuse));
-    let (s0, s1, s2) = (s0?, s1?, s2?);
-    let [[now_1, now_2], [said_1, said_2]] = [mired, said.mired()].map(|mired| daylight_weights(1e6 / mired));
-    let power = scene.sun_power.iter().enumerate().map(|(band, power)| {
-        let of = |m1: f64, m2: f64| s0[band] + m1 * s1[band] + m2 * s2[band];
-        power * of(now_1, now_2) / of(said_1, said_2)
-    });
-    scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power.collect::<Vec<_>>())
+    let [now, said] = [mired, said.mired()].map(|mired| Daylight::power(&scene.daylight_vectors, mired));
+    let power = scene.sun_power.component_mul(&now.component_div(&said));
+    scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, power.as_slice())
 }

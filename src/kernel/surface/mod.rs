@@ -75,7 +75,7 @@ impl SurfaceKernel {
     ///   have an error too: row sums are off by less than a hundredth of it.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the patches are too many, or their exchange fills more than a gigabyte, or they hand on more light than they have: facets that cross.
+    /// [`Error::FullExchange`] if their exchange fills more than a gigabyte; [`Error::Shape`] if the patches are too many, or they hand on more light than they have: facets that cross.
     ///
     /// # Source
     /// Deeb et al., eq. (10), averaged over both patches.
@@ -116,7 +116,7 @@ impl SurfaceKernel {
     /// The same with clusters that exchange light from afar, however few patches there are.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the exchange fills more than a gigabyte; as [`SurfaceKernel::by_pairs`].
+    /// [`Error::FullExchange`] if that fills more than a gigabyte; as [`SurfaceKernel::by_pairs`].
     pub fn by_clusters(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         let truncation = (AFAR * tolerance).max(ROUNDING);
         let sites: Vec<Site> = patches.iter().map(Site::new).collect();
@@ -125,9 +125,7 @@ impl SurfaceKernel {
         let assembly = Assembly::new(shape, sites, [tolerance, truncation]);
         let (blocks, pairs) = Hierarchy { assembly: &assembly, tree: &tree, truncation }.parts();
         if assembly.is_full() {
-            let problem =
-                format!("the exchange between {} patches fills more than a gigabyte", patches.len());
-            return Err(Error::shape(problem, "take a coarser mesh"));
+            return Err(Error::FullExchange { name: "shape".to_owned(), patches: patches.len() });
         }
         let far_field = FarField::new(&tree, &assembly.sites, &pairs, truncation);
         Self::of(patches, tree.order, blocks, far_field, &assembly).check()

@@ -118,8 +118,12 @@ impl Scene<'_> {
             if patches.len() > patches_max || hidden > HIDDEN_MAX {
                 break;
             }
-            // What does not fit into memory leaves the solution that did.
-            let Ok(finer) = self.on(&patches) else { break };
+            let finer = match self.on(&patches) {
+                Ok(finer) => finer,
+                // what does not fit leaves the solution that did
+                Err(Error::Memory { .. } | Error::FullExchange { .. }) => break,
+                Err(error) => return Err(error),
+            };
             let last = difference(&solved.responses, &finer.responses);
             let error = left(before, last);
             (solved, before) = (finer, Some(last));

@@ -3,11 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Result;
-use crate::estimate::photograph::conditions::Daylight;
-use crate::estimate::photograph::model::MOST_MIRED;
+use crate::estimate::photograph::conditions::{Daylight, MOST_MIRED};
 use crate::estimate::photograph::parts::Eye;
 use crate::scene::FoldSetting;
-use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors, daylight_weights};
+use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
 
 /// Two laboratories that measure the same model of a camera differ by that share of the highest point of a curve, and over that many
 /// nanometres alike.
@@ -81,8 +80,7 @@ fn errors(
 pub fn daylight(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Daylight> {
     let sun = sun / sun.mean();
     let off = |mired: f64| {
-        let [m1, m2] = daylight_weights(1e6 / mired);
-        let daylight = vectors * DVector::from_column_slice(&[1.0, m1, m2]);
+        let daylight = Daylight::power(vectors, mired);
         let daylight = &daylight / daylight.mean();
         ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
     };
