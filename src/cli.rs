@@ -21,6 +21,7 @@ use crate::error::{Error, Result};
 pub use crate::message::one_line;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
+use crate::room;
 use crate::spectrum::library::{What, list};
 use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
 use crate::stream::{CameraRecord, Failures, Optics, Output, SpectrumRecord};
@@ -163,9 +164,19 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     }
 }
 
+/// Address space that a thread's stack takes, bytes.
+const STACK: u64 = 2 << 20;
+
 /// Starts so many threads, or one for each core.
 fn start_threads(count: Option<u16>) -> Result<()> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.unwrap_or(0).into());
+    let count = count.unwrap_or(0);
+    // threads that run already end the program where the stack of a later one leaves them no room
+    room::ask(
+        STACK * u64::from(count),
+        "so many threads",
+        "take fewer with --threads, or allow more memory",
+    )?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.into());
     pool.build_global().map_err(|error| {
         Error::Numeric(format!(
             "the system gives no threads ({error}); take fewer with --threads, or allow more memory"

@@ -30,7 +30,7 @@
 //!
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
-//! cli                  -> scene, stream, spectrum, progress, message
+//! cli                  -> scene, stream, spectrum, progress, message, room
 //! scene                -> stream, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate

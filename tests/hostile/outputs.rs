@@ -65,6 +65,6 @@ fn nothing_is_said_of_what_fails() {
 fn threads_that_cannot_be_had() {
     assert_refused(
         "",
-        &[case("ulimit -v 400000; vkernel -j 1024 --facets 2x2", 1, &["no threads", "--threads"])],
+        &[case("ulimit -v 400000; vkernel -j 1024 --facets 2x2", 1, &["so many threads", "--threads"])],
     );
 }
