@@ -37,6 +37,8 @@ const LN_EVIDENCE_MORE: f64 = 1.0;
 const GLANCE_TOLERANCE: f64 = 0.3;
 const GLANCE_LIMIT: usize = 60;
 const FURTHEST: f64 = 2.0;
+/// By how many times [`least_misfit`] may be too much; on computed facets, glossy and not, it is by 1.15 at most.
+pub const CAUTION: f64 = 1.2;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
@@ -65,7 +67,8 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
 /// A misfit, in units of the noise, below which no spectrum leaves the facets, if what facets are made of is as the data have it; found in a
 /// small part of the time of an estimate; 0 where the search is not at its end by then.
 ///
-/// It may be too much by a few hundredths of itself: the search ends near to its maximum, and classes reach a little further than all spectra do.
+/// It may be too much by up to a share of itself, [`CAUTION`]: the search ends near to its maximum, and classes reach a little further than
+/// all spectra do.
 /// With the noise inflated κ times, no point has less than `κ⁻²|ρ|² + |w|²` of the maximum there, and spectra are within `FURTHEST`.
 #[must_use]
 pub fn least_misfit(data: &FacetData, prior: &Prior) -> f64 {

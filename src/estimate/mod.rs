@@ -42,6 +42,17 @@ pub enum Exposure {
     Sum,
 }
 
+impl Exposure {
+    /// Its value, if it is known.
+    #[must_use]
+    pub fn known(self) -> Option<f64> {
+        match self {
+            Self::Known(exposure) => Some(exposure),
+            Self::Free | Self::Sum => None,
+        }
+    }
+}
+
 /// An estimated spectrum and how it was reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {

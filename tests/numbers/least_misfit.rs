@@ -2,6 +2,7 @@
 
 use vfold::camera::CameraResponse;
 use vfold::estimate::data::FacetData;
+use vfold::estimate::map::CAUTION;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::SceneModel;
@@ -13,8 +14,8 @@ use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances}
 
 const NOISE_SD: f64 = 1e-3;
 
-/// No estimate leaves less than the glance says, but for 2 % of it; where facets away from the crease are brighter by a tenth, as those of gloss are, it says
-/// that none explains them.
+/// No estimate leaves less than the glance says, but for a fifth of it; where facets away from the crease are brighter by a tenth, as those of
+/// gloss are, it says that none explains them.
 #[test]
 fn no_estimate_leaves_less_than_the_glance_says() {
     let grid = WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap();
@@ -29,7 +30,7 @@ fn no_estimate_leaves_less_than_the_glance_says() {
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
     for spectrum in reflectances("cc24").unwrap() {
         let facets = scene.facets().facet_rgb(&spectrum.on(&grid, Outside::Refuse).unwrap());
-        for gloss in [0.0, 0.1] {
+        for gloss in [0.0, 0.1, 0.2] {
             let value = |facet: usize, channel: usize| {
                 let shine = 1.0 + gloss * (facet % 18 / 3) as f64 / 5.0;
                 // what noise would make, and the same in every run
@@ -44,7 +45,7 @@ fn no_estimate_leaves_less_than_the_glance_says() {
                     (map::least_misfit(&data, &prior), map::estimate(&data, &prior, None).residual_rms);
                 let name = spectrum.name();
                 assert!(
-                    least < 1.02 * left + 0.05,
+                    least < CAUTION * left + 0.05,
                     "{name}, gloss {gloss}, {exposure:?}: {left} left, {least} said"
                 );
                 let is_bright = facets.max() > 0.1;

@@ -62,7 +62,7 @@ impl Estimator<'_> {
         }
         let stands_in = record.camera()?.stands_in.map(|one| one.camera);
         let mut misfit = map::least_misfit(given.data, prior);
-        let told = (misfit < EXPLAINED).then(ideal);
+        let told = (misfit < map::CAUTION * EXPLAINED).then(ideal);
         misfit = told.as_ref().map_or(misfit, |told| told.residual_rms);
         if misfit < NEAR
             && stands_in.is_none()
@@ -123,11 +123,7 @@ impl Estimator<'_> {
 
     /// What a photograph of the scene of `record` is made of, or why that is not modelled.
     fn parts(&self, record: &Scene, sample: &Sample) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let known = match self.exposure_of(sample)? {
-            Exposure::Known(exposure) => Some(exposure),
-            Exposure::Free | Exposure::Sum => None,
-        };
-        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, known)
+        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, self.exposure_of(sample)?.known())
     }
 }
 
