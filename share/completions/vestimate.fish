@@ -194,7 +194,7 @@ complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectan
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]'
+complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]; of ideal folds, of photographs of real sheets with --fit auto, and with --join of the first scene\'s and each of the others\' together'
 complete -c vestimate -s q -l quiet -d 'Say nothing but errors'
 complete -c vestimate -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vestimate -l no-history -d 'Do not record this tool\'s arguments in the stream'

@@ -17,9 +17,10 @@ use crate::error::{Error, Result};
 use crate::estimate::photograph::Told;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
+use crate::forward::render::{FoldView, Frame, Viewpoint};
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
-use crate::stream::Sample;
+use crate::stream::{Colours, Framing, Sample};
 
 /// Sizes at which changes of the fold are known: more degrees between the panels, radii of the crease, degrees of bow.
 const ANGLES_DEG: [f64; 2] = [-2.0, 2.0];
@@ -29,6 +30,19 @@ const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 const SUN_HEIGHT: f64 = 0.67;
 /// What a sheet of which nothing is known reflects in its strongest channel.
 const REFLECTANCE: f64 = 0.5;
+
+/// Width and height of a photograph that nobody has taken yet, px.
+const SIZE: [u32; 2] = [640, 480];
+
+/// What of a photograph its parts are made of.
+struct Picture<'a> {
+    rgb: &'a Colours,
+    sd: Option<&'a Colours>,
+    framing: Framing,
+    exposure: Option<f64>,
+    /// Whether a chart or a card told the exposure.
+    by_chart: bool,
+}
 
 /// A fold of which photographs are taken.
 pub struct PhotographedFold<'a> {
@@ -60,18 +74,48 @@ impl<'a> PhotographedFold<'a> {
         sample: &Sample,
         exposure: Option<f64>,
     ) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let (setting, fold) = (self.setting, self.setting.fold());
-        if let Some(why) = setting.unmodelled()? {
+        if let Some(why) = self.setting.unmodelled()? {
             return Ok(Err(why));
         }
-        let Some(pose) = Pose::of(sample, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
-        let (light, facets) = (setting.light()?, fold.facets());
+        let Some(framing) = sample.framing()? else { return Ok(Err(Unmodelled::NoPose)) };
         let (rgb, sd) = (sample.facet_rgb()?, sample.facet_sd()?);
+        let by_chart = exposure.is_some() && sample.fields.has("calibration");
+        self.of_picture(&Picture { rgb: &rgb, sd: sd.as_ref(), framing, exposure, by_chart })
+    }
+
+    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own: facets as the model has them, and their
+    /// standard deviations; or why there are none.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if facets do not fit the scene, [`Error::Usage`] if the fold cannot be seen.
+    pub fn planned(
+        &self,
+        rgb: &Colours,
+        sd: &Colours,
+        exposure: Option<f64>,
+    ) -> Result<std::result::Result<Parts, Unmodelled>> {
+        if let Some(why) = self.setting.unmodelled()? {
+            return Ok(Err(why));
+        }
+        let frame = Frame::new(SIZE[0] as usize, SIZE[1] as usize)?;
+        let mut panels = [None; 2];
+        for (panel, corners) in FoldView::new(self.setting.fold(), &Viewpoint::default(), frame)?.corners() {
+            panels[panel] = Some(corners.map(|corner| [corner.x, corner.y]));
+        }
+        let framing = Framing { panels, size: SIZE };
+        self.of_picture(&Picture { rgb, sd: Some(sd), framing, exposure, by_chart: false })
+    }
+
+    fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
+        let (setting, fold) = (self.setting, self.setting.fold());
+        let Picture { rgb, sd, exposure, .. } = *picture;
+        let Some(pose) = Pose::of(&picture.framing, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
+        let (light, facets) = (setting.light()?, fold.facets());
         if rgb.len() != 2 * facets.len() {
             let problem = format!("{} facets for a scene of {}", rgb.len(), 2 * facets.len());
             return Err(Error::field("facet_rgb", problem));
         }
-        let bins = Bins::new(fold, &rgb, sd.as_ref(), &pose);
+        let bins = Bins::new(fold, rgb, sd, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
         let eye = eye::of(setting)?;
@@ -82,7 +126,7 @@ impl<'a> PhotographedFold<'a> {
         let told = Told {
             exposure,
             exposure_guess: exposure.unwrap_or(mean / (REFLECTANCE * on_panel)),
-            by_chart: exposure.is_some() && sample.fields.has("calibration"),
+            by_chart: picture.by_chart,
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),

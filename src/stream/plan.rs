@@ -19,6 +19,9 @@ pub(super) struct PlanRecord {
     /// Angle between the panels of a fold, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     angle_deg: Option<f64>,
+    /// The picture together with which this one will be estimated, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beside: Option<BesideRecord>,
     /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
     reflectances: String,
     /// Number of them.
@@ -30,7 +33,17 @@ pub(super) struct PlanRecord {
     expected_rmse: ExpectedRmse,
     /// Standard deviation to expect of what is fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
-    expected_sd: Option<Quantities<f64, false>>,
+    expected_sd: Option<Quantities<f64>>,
+}
+
+/// Another picture of the same sheet.
+#[derive(Serialize, JsonSchema)]
+struct BesideRecord {
+    /// Name of its scene.
+    scene: String,
+    /// Angle between the panels of its fold, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle_deg: Option<f64>,
 }
 
 /// Of several reflectances.
@@ -48,6 +61,8 @@ struct ExpectedRmse {
 pub struct NewPlan<'a> {
     /// Angle between the panels of a fold, degrees.
     pub angle_deg: Option<f64>,
+    /// The scene of the picture together with which this one will be estimated, and the angle of its fold, degrees.
+    pub beside: Option<(&'a Scene, Option<f64>)>,
     /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
     pub reflectances: &'a str,
     /// Standard deviation of every facet's value, white being 1.
@@ -63,14 +78,16 @@ pub struct NewPlan<'a> {
 /// # Errors
 /// [`crate::Error::Field`] if a number is not finite or the scene has no name.
 pub fn plan(scene: &Scene, new: NewPlan) -> Result<Fields> {
-    let NewPlan { angle_deg, reflectances, noise_sd, rmse, fitted_sd } = new;
+    let NewPlan { angle_deg, beside, reflectances, noise_sd, rmse, fitted_sd } = new;
     let mean = rmse.iter().sum::<f64>() / rmse.len().max(1) as f64;
     let worst = rmse.iter().copied().fold(0.0, f64::max);
     finite("expected_rmse", [&mean, &worst])?;
     finite("expected_sd", fitted_sd.iter().map(|(_, sd)| sd))?;
+    let beside = beside.map(|(scene, angle_deg)| Ok(BesideRecord { scene: scene.id()?, angle_deg }));
     Fields::of(&PlanRecord {
         scene: scene.id()?,
         angle_deg,
+        beside: beside.transpose()?,
         reflectances: reflectances.to_owned(),
         samples: rmse.len(),
         noise_sd,

@@ -9,12 +9,11 @@ use serde_json::{Map, Value};
 
 use crate::estimate::unknowns::{self, TABLE, Unknown};
 
-/// Something of each number of a scene that was fitted, in the order of [`TABLE`]; what was not is absent. The schema leaves out those of
-/// photographs of real sheets where there are no `PHOTOGRAPHS`.
+/// Something of each number of a scene that was fitted, in the order of [`TABLE`]; what was not is absent.
 #[derive(Clone, Debug)]
-pub(super) struct Quantities<T, const PHOTOGRAPHS: bool = true>(Vec<(&'static Unknown, T)>);
+pub(super) struct Quantities<T>(Vec<(&'static Unknown, T)>);
 
-impl<T, const PHOTOGRAPHS: bool> Quantities<T, PHOTOGRAPHS> {
+impl<T> Quantities<T> {
     /// Those of a list; none if it is empty.
     pub(super) fn of(list: impl IntoIterator<Item = (&'static Unknown, T)>) -> Option<Self> {
         let mut all: Vec<_> = list.into_iter().collect();
@@ -28,14 +27,14 @@ impl<T, const PHOTOGRAPHS: bool> Quantities<T, PHOTOGRAPHS> {
     }
 }
 
-impl<T: Serialize, const PHOTOGRAPHS: bool> Serialize for Quantities<T, PHOTOGRAPHS> {
+impl<T: Serialize> Serialize for Quantities<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.iter().map(|(unknown, one)| (unknown.name, one)))
     }
 }
 
 /// Names that the tools do not know are passed over.
-impl<'de, T: DeserializeOwned, const PHOTOGRAPHS: bool> Deserialize<'de> for Quantities<T, PHOTOGRAPHS> {
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Quantities<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut all = Vec::new();
         for (name, value) in Map::deserialize(deserializer)? {
@@ -48,13 +47,13 @@ impl<'de, T: DeserializeOwned, const PHOTOGRAPHS: bool> Deserialize<'de> for Qua
     }
 }
 
-impl<T: JsonSchema, const PHOTOGRAPHS: bool> JsonSchema for Quantities<T, PHOTOGRAPHS> {
+impl<T: JsonSchema> JsonSchema for Quantities<T> {
     fn schema_name() -> Cow<'static, str> {
         "Quantities".into()
     }
 
     fn schema_id() -> Cow<'static, str> {
-        format!("Quantities<{}, {PHOTOGRAPHS}>", T::schema_id()).into()
+        format!("Quantities<{}>", T::schema_id()).into()
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
@@ -63,8 +62,7 @@ impl<T: JsonSchema, const PHOTOGRAPHS: bool> JsonSchema for Quantities<T, PHOTOG
             schema.insert("description".to_owned(), description(unknown).into());
             (unknown.name.to_owned(), schema.to_value())
         };
-        let known = TABLE.iter().filter(|unknown| PHOTOGRAPHS || !unknown.is_of_photographs());
-        let properties: Map<String, Value> = known.map(property).collect();
+        let properties: Map<String, Value> = TABLE.iter().map(property).collect();
         json_schema!({
             "type": "object",
             "properties": properties,
@@ -90,7 +88,7 @@ mod tests {
     fn fits_are_written_in_the_order_of_the_table() {
         let fit: Quantities<f64> = Quantities::of([(&SKY, 0.2), (&EXPOSURE, 1.5), (&TILT, 4.5)]).unwrap();
         assert_eq!(serde_json::to_string(&fit).unwrap(), r#"{"exposure":1.5,"tilt_deg":4.5,"sky":0.2}"#);
-        assert!(Quantities::<f64, true>::of([]).is_none());
+        assert!(Quantities::<f64>::of([]).is_none());
     }
 
     #[test]

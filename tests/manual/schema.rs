@@ -4,6 +4,7 @@ use crate::common::Workdir;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
+/// Every field that the schemas know is in some record.
 #[test]
 fn what_the_tools_write_fits_the_schema() {
     let folder = Workdir::new();
@@ -22,7 +23,6 @@ fn what_the_tools_write_fits_the_schema() {
     }
 }
 
-/// Every field that the schemas know is in some record.
 #[test]
 fn all_tools_print_the_same_schema() {
     let folder = Workdir::new();

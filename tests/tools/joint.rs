@@ -104,6 +104,35 @@ fn two_angles_tell_gloss_and_exposure_apart() {
     assert!([0, 2].iter().all(|n| (both[*n] - again[*n]).abs() < 1e-12));
 }
 
+/// A second picture promises more than the first alone, of which all real sheets have the plan, and one by lamplight the most.
+#[test]
+fn a_plan_says_which_second_picture_helps_most() {
+    let run = Workdir::new().sh(
+        "scene() { vkernel --angle-deg $1 --facets 8x2 | vforward --illuminant $2 --reflectance 0.5 | head -n 1; }
+        { scene 45 D65; scene 45 D65; scene 72 D65; scene 45 A; } > scenes.ndjson
+        plan() { vestimate --plan --reflectance cc24:foliage \"$@\"; }
+        plan --join scenes.ndjson
+        head -n 1 scenes.ndjson | plan --fit auto
+        head -n 1 scenes.ndjson | plan
+        ! plan --join=a,b scenes.ndjson
+        ! vkernel --panel1-depth 0.5 | plan --join",
+    );
+    let plans: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let rmse: Vec<f64> = plans.iter().map(|plan| plan["expected_rmse"]["mean"].as_f64().unwrap()).collect();
+    println!("expected RMSE: {rmse:.4?}");
+    let [alone, again, other_angle, by_lamp, auto, ideal] = rmse[..] else { panic!("{}", run.stdout) };
+    assert!(by_lamp < again.min(other_angle) && again.max(other_angle) < alone && ideal < 0.8 * alone);
+    assert!((alone - auto).abs() < 1e-12);
+    let beside = |n: usize| plans[n]["beside"]["angle_deg"].as_f64();
+    assert_eq!([0, 2, 4].map(beside), [None, Some(45.0), None]);
+    assert!(
+        run.stderr.contains("--join: a plan joins the first scene with each of the others"),
+        "{}",
+        run.stderr
+    );
+    assert!(run.stderr.contains("one panel is deeper than the other"), "{}", run.stderr);
+}
+
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.
 #[test]
 fn brackets_fill_what_clipped() {

@@ -189,18 +189,34 @@ impl<'a> Estimator<'a> {
         exposure: Exposure,
     ) -> Result<Estimate> {
         let sd = deviations(rgb, |_, _| noise_sd, self.args.model_error.unwrap_or(0.0));
-        let SceneMethod::Map(prior) = &context.method else {
-            let problem =
-                format!("--prior {} does not know how far off its estimates are", self.args.prior());
-            return Err(Error::usage("--plan", problem, "leave --prior out or give spectra"));
-        };
         let data = FacetData::new(&context.told.model, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
-        Ok(map::estimate(&data, prior, context.start.as_deref()))
+        Ok(map::estimate(&data, self.prior_of(context)?, context.start.as_deref()))
+    }
+
+    /// What is known of reflectances before a scene.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if nothing is, and nobody can say how far off an estimate is.
+    pub fn prior_of<'c>(&self, context: &'c Context) -> Result<&'c Prior> {
+        match &context.method {
+            SceneMethod::Map(prior) => Ok(prior),
+            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
+                let prior = self.args.prior();
+                let problem =
+                    format!("'{prior}' does not say how far off estimates are, as --plan and --join ask");
+                Err(Error::usage("--prior", problem, "leave --prior and --method out, or give spectra"))
+            }
+        }
+    }
+
+    /// Whether the flags say that a photograph may be one of a real sheet.
+    pub fn asks_for_auto(&self) -> bool {
+        self.args.fit.contains(&&AUTO)
     }
 
     /// Whether what is fitted is up to the photograph.
     pub fn is_auto(&self) -> bool {
-        self.args.fit.is_empty() || self.args.fit.contains(&&AUTO)
+        self.args.fit.is_empty() || self.asks_for_auto()
     }
 
     /// How the exposure of a sample enters.

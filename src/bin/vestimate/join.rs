@@ -10,7 +10,7 @@ use vfold::stream::{Fields, Member, Reader, Record, Sample, Together, pipe_toget
 use vfold::{Error, Result};
 
 use super::Args;
-use super::context::{Context, SceneMethod};
+use super::context::Context;
 use super::estimator::Estimator;
 
 /// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused.
@@ -77,6 +77,10 @@ pub fn check(args: &Args) -> Result<()> {
         let problem = "photographs that are estimated together have an exposure each";
         return Err(Error::usage("--exposure", problem, "leave it out, or give free"));
     }
+    if args.planning.plan && !matches!(args.join, Some(Join::Id)) {
+        let problem = "a plan joins the first scene with each of the others";
+        return Err(Error::usage("--join", problem, "give --join alone"));
+    }
     Ok(())
 }
 
@@ -106,22 +110,26 @@ pub fn run(
     }
 }
 
+/// Photographs of one sheet have the wavelengths of its spectrum.
+///
+/// # Errors
+/// [`Error::Field`] if they do not.
+pub fn check_wavelengths(one: &Context, other: &Context) -> Result<()> {
+    if one.grid.wavelengths_nm() == other.grid.wavelengths_nm() {
+        return Ok(());
+    }
+    let problem = "photographs of one sheet have different wavelengths; give all scenes the same";
+    Err(Error::field("wavelengths_nm", problem))
+}
+
 impl Together for Estimator<'_> {
     fn samples(&self, members: &mut [Member<Context>]) -> Result<Vec<Vec<Fields>>> {
         let photographs = members.iter().map(|one| self.photograph(&one.context, &one.sample));
         let photographs: Vec<Parts> = photographs.collect::<Result<_>>()?;
-        let (context, rest) =
+        let (first, rest) =
             members.split_first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
-        let context = &context.context;
-        let is_other =
-            |other: &Member<Context>| other.context.grid.wavelengths_nm() != context.grid.wavelengths_nm();
-        if rest.iter().any(is_other) {
-            let problem = "photographs of one sheet have different wavelengths; give all scenes the same";
-            return Err(Error::field("wavelengths_nm", problem));
-        }
-        let SceneMethod::Map(prior) = &context.method else {
-            return Err(Error::Numeric("photographs are estimated together under a prior alone".to_owned()));
-        };
+        rest.iter().try_for_each(|other| check_wavelengths(&first.context, &other.context))?;
+        let prior = self.prior_of(&first.context)?;
         let together = photograph::estimate(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
         let mut apart = 0.0;
         for one in &photographs {

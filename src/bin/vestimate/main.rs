@@ -68,7 +68,7 @@ struct Args {
     /// Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id
     /// up to its last - or _
     #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
-        conflicts_with_all = ["resume", "plan", "fit"])]
+        conflicts_with_all = ["resume", "fit"])]
     join: Option<Join>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]

@@ -1,14 +1,20 @@
 //! `--plan`: what estimates will be worth, before any photograph.
 
 use clap::Args;
+use rayon::prelude::*;
 use vfold::cli::{Common, OpticsArgs};
-use vfold::estimate::Exposure;
-use vfold::scene::{ExpectedError, Setting};
+use vfold::estimate::noise::deviations;
+use vfold::estimate::photograph::error::ModelError;
+use vfold::estimate::photograph::{self, Parts};
+use vfold::estimate::{Estimate, Exposure};
+use vfold::scene::{ExpectedError, FoldSetting, PhotographedFold, Setting};
 use vfold::spectrum::{Outside, WavelengthGrid};
-use vfold::stream::{NewPlan, Output, Reader, Record, Scene, Transform, plan};
+use vfold::stream::{Colours, Fields, NewPlan, Output, Reader, Record, Scene, Transform, plan};
 use vfold::{Error, Result};
 
+use super::context::Context;
 use super::estimator::Estimator;
+use super::join;
 use super::settings::NoiseSd;
 
 /// Noise of facets, white being 1, if none is given.
@@ -18,7 +24,8 @@ const NOISE_SD: f64 = 1e-3;
 #[derive(Args)]
 #[command(next_help_heading = "Planning")]
 pub struct PlanArgs {
-    /// Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]
+    /// Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]; of ideal
+    /// folds, of photographs of real sheets with --fit auto, and with --join of the first scene's and each of the others' together
     #[arg(long, conflicts_with_all = ["plot", "trace"])]
     pub plan: bool,
     /// Reflectances that will be photographed [default: cc24]
@@ -35,14 +42,34 @@ pub struct PlanArgs {
     pub sky_illuminant: Option<String>,
 }
 
+/// A scene in which sheets will be photographed.
+struct Planned {
+    scene: Scene,
+    context: Context,
+    angle_deg: Option<f64>,
+    sheets: Sheets,
+}
+
+/// What is expected of the sheets.
+enum Sheets {
+    /// Ideal folds: the facets of each.
+    Ideal(Vec<Colours>),
+    /// Real sheets, everything that sets them apart unknown: what the photograph of each is made of.
+    Real(Vec<Parts>),
+}
+
 impl PlanArgs {
     /// Writes a plan for every scene of `reader`, and no other record.
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
+        let mut first = None;
         while let Some(record) = reader.read()? {
             if let Record::Scene(mut scene) = record {
                 self.complete(&mut scene, &estimator.args().common).map_err(|e| reader.at(e))?;
-                let plan = self.of_scene(estimator, &mut scene).map_err(|e| reader.at(e))?;
-                out.fields(&plan)?;
+                let planned = self.planned(estimator, scene).map_err(|e| reader.at(e))?;
+                out.fields(&self.plan(estimator, &planned, first.as_ref()).map_err(|e| reader.at(e))?)?;
+                if estimator.args().join.is_some() && first.is_none() {
+                    first = Some(planned);
+                }
             }
         }
         Ok(())
@@ -72,28 +99,95 @@ impl PlanArgs {
         scene.set_optics(&optics.resolve(camera, common)?)
     }
 
-    /// Estimates from facets without noise, taken to have it: their error bars are what to expect.
-    fn of_scene(&self, estimator: &Estimator, scene: &mut Scene) -> Result<vfold::stream::Fields> {
-        let context = estimator.scene(scene)?;
-        let setting = Setting::of(scene)?;
-        let (grid, model) = (scene.grid()?, setting.model()?);
-        let noise_sd = match estimator.args().noise_sd {
-            NoiseSd::All(sd) => sd,
-            NoiseSd::Auto => NOISE_SD,
-        };
-        let set = self.reflectance.as_deref().unwrap_or("cc24");
-        let mut expected = ExpectedError::default();
-        for spectrum in estimator.args().common.reflectances(set)? {
-            let facets = model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
-            let rgb: Vec<_> = facets.row_iter().map(|row| Some(row.iter().copied().collect())).collect();
-            let exposure = estimator.exposure_or(Exposure::Known(1.0));
-            expected.add(&estimator.of_facets(&context, &rgb, noise_sd, exposure)?);
-        }
+    /// The sheets in a scene: their facets have no noise, and are taken to have it.
+    fn planned(&self, estimator: &Estimator, mut scene: Scene) -> Result<Planned> {
+        let context = estimator.scene(&mut scene)?;
+        let setting = Setting::of(&scene)?;
+        let (grid, model, noise_sd) = (scene.grid()?, setting.model()?, noise_sd(estimator));
+        let exposure = estimator.exposure_or(Exposure::Known(1.0)).known().unwrap_or(1.0);
+        let spectra = estimator.args().common.reflectances(self.set())?;
+        let facets = spectra.iter().map(|spectrum| {
+            let facets = exposure * model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
+            Ok(facets.row_iter().map(|row| Some(row.iter().copied().collect())).collect())
+        });
+        let facets: Vec<Colours> = facets.collect::<Result<_>>()?;
         let angle_deg = match &setting {
             Setting::Fold(fold) => Some(fold.fold().angle_deg()),
             Setting::Surface(_) => None,
         };
-        let (rmse, fitted_sd) = (expected.rmse(), expected.fitted_sd());
-        plan(scene, NewPlan { angle_deg, reflectances: set, noise_sd, rmse, fitted_sd })
+        let sheets = if estimator.args().join.is_some() || estimator.asks_for_auto() {
+            let fold = FoldSetting::of(&scene)?;
+            let photographed = PhotographedFold::of(&fold);
+            let exposure = estimator.exposure_or(Exposure::Free).known();
+            let parts = |rgb: &Colours| {
+                let sd = deviations(rgb, |_, _| noise_sd, 0.0);
+                photographed.planned(rgb, &sd, exposure)?.map_err(|why| {
+                    Error::field("geometry", format!("{why}; real sheets are planned of other folds alone"))
+                })
+            };
+            Sheets::Real(facets.par_iter().map(parts).collect::<Result<_>>()?)
+        } else {
+            Sheets::Ideal(facets)
+        };
+        Ok(Planned { scene, context, angle_deg, sheets })
+    }
+
+    /// The plan of a scene, its pictures being estimated together with those of another if there is one.
+    fn plan(&self, estimator: &Estimator, planned: &Planned, beside: Option<&Planned>) -> Result<Fields> {
+        let mut expected = ExpectedError::default();
+        planned.estimates(estimator, beside)?.iter().for_each(|estimate| expected.add(estimate));
+        plan(
+            &planned.scene,
+            NewPlan {
+                angle_deg: planned.angle_deg,
+                beside: beside.map(|other| (&other.scene, other.angle_deg)),
+                reflectances: self.set(),
+                noise_sd: noise_sd(estimator),
+                rmse: expected.rmse(),
+                fitted_sd: expected.fitted_sd(),
+            },
+        )
+    }
+
+    /// The reflectances that will be photographed.
+    fn set(&self) -> &str {
+        self.reflectance.as_deref().unwrap_or("cc24")
+    }
+}
+
+impl Planned {
+    /// One estimate per sheet; their error bars are what to expect.
+    fn estimates(&self, estimator: &Estimator, beside: Option<&Self>) -> Result<Vec<Estimate>> {
+        match &self.sheets {
+            Sheets::Ideal(sheets) => {
+                let exposure = estimator.exposure_or(Exposure::Known(1.0));
+                let of = |rgb| estimator.of_facets(&self.context, rgb, noise_sd(estimator), exposure);
+                sheets.iter().map(of).collect()
+            }
+            Sheets::Real(sheets) => {
+                let prior = estimator.prior_of(&self.context)?;
+                let others: &[Parts] = match beside {
+                    Some(Self { context, sheets: Sheets::Real(others), .. }) => {
+                        join::check_wavelengths(context, &self.context)?;
+                        others
+                    }
+                    _ => &[],
+                };
+                let of = |(n, own): (usize, &Parts)| {
+                    let pictures: Vec<Parts> = others.get(n).into_iter().chain([own]).cloned().collect();
+                    let mut found = photograph::estimate(&pictures, prior, ModelError::OF_PHOTOGRAPHS)?;
+                    found.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))
+                };
+                sheets.par_iter().enumerate().map(of).collect()
+            }
+        }
+    }
+}
+
+/// Noise of the facets.
+fn noise_sd(estimator: &Estimator) -> f64 {
+    match estimator.args().noise_sd {
+        NoiseSd::All(sd) => sd,
+        NoiseSd::Auto => NOISE_SD,
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use crate::error::Result;
 use crate::geometry::Fold;
 use crate::image::{Homography, Point};
-use crate::stream::Sample;
+use crate::stream::Framing;
 use crate::transport::eye_before;
 
 /// A camera before a fold, as the corners of the panels tell it.
@@ -20,12 +20,11 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// That of a photograph's sample; none if it has no corners, or they do not tell it.
+    /// That of a photograph; none if the corners do not tell it.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the corners are not those of panels.
-    pub fn of(sample: &Sample, fold: &Fold) -> Result<Option<Self>> {
-        let Some(framing) = sample.framing()? else { return Ok(None) };
+    /// [`crate::Error::Corners`] if the corners are not those of panels.
+    pub fn of(framing: &Framing, fold: &Fold) -> Result<Option<Self>> {
         let [Some(panel0), Some(panel1)] = framing.panels else { return Ok(None) };
         let panels = [panel0, panel1].map(|corners| corners.map(|[x, y]| Point::new(x, y)));
         let Some(eye) = eye_before(fold, &panels) else { return Ok(None) };

@@ -15,6 +15,8 @@ vforward scene.ndjson --reflectance cc24:red --noise-sd 1e-3 |
     vestimate --fit exposure,tilt,sky,angle -q -o fitted.ndjson
 vforward scene.ndjson --reflectance cc24:red | vestimate --prior smooth -o smooth.ndjson
 vestimate scene.ndjson --plan --reflectance cc24:red --fit exposure,tilt,sky,angle,daylight -q -o plan.ndjson
+vkernel --facets 4x1 -o other.json
+cat other.json other.json | vestimate --plan --join --reflectance cc24:red -q -o joined_plan.ndjson
 vscore estimates.ndjson --colour --illuminant D65 --illuminant A --metrics rmse,ciede2000,pd,gfc,angle,metamerism --by id -o scored.ndjson
 vscore fitted.ndjson --colour -o scored-fitted.ndjson
 
