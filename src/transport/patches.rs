@@ -39,9 +39,11 @@ const NODES: usize = 7;
 pub struct Patches {
     panels: [Panel; 2],
     /// Angles between the directions of each row of patches, each pair once.
-    between: Vec<Vec<Angles>>,
+    between: Vec<Angles>,
     /// The same of panel 1 where it is another.
-    between_1: Option<Vec<Vec<Angles>>>,
+    between_1: Option<Vec<Angles>>,
+    /// Which of these is between each direction and each: row by row of patches, from which, towards which.
+    places: Vec<usize>,
     pooling: Pooling,
 }
 
@@ -58,7 +60,10 @@ struct Panel {
 }
 
 /// A shape's body and surface at a list of angles.
-type Parts = Vec<[f32; 2]>;
+struct Parts {
+    body: Vec<f32>,
+    surface: Vec<f32>,
+}
 
 impl Patches {
     /// Those of `fold`, in the light of a sun and before an eye that the frames know.
@@ -73,6 +78,7 @@ impl Patches {
             panels: [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p])),
             between: pairs(&to),
             between_1: to_1.as_ref().map(|to| pairs(to)),
+            places: places(),
             pooling: Pooling::straight(fold, &middles, &columns),
         }
     }
@@ -82,24 +88,19 @@ impl Patches {
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
         let albedos = nodes();
-        let at = |angles: &[Angles]| {
-            angles.iter().map(|angles| shape.at(angles).map(|value| value as f32)).collect::<Parts>()
-        };
-        let sun = self.panels.each_ref().map(|panel| at(&panel.from_sun));
-        let eye = self.panels.each_ref().map(|panel| at(&panel.to_eye));
-        let between = expand(&self.between.iter().map(|row| at(row)).collect::<Vec<_>>());
-        let between_1 =
-            self.between_1.as_ref().map(|rows| expand(&rows.iter().map(|row| at(row)).collect::<Vec<_>>()));
+        let sun = self.panels.each_ref().map(|panel| Parts::of(shape, &panel.from_sun));
+        let eye = self.panels.each_ref().map(|panel| Parts::of(shape, &panel.to_eye));
+        let all = |pairs: &Vec<Angles>| Parts::of(shape, pairs).at(&self.places);
+        let (between, between_1) = (all(&self.between), self.between_1.as_ref().map(all));
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, albedo) in albedos.into_iter().enumerate() {
             let r = shape.reflectance_45_0(albedo) as f32;
-            let mixed = |parts: &[[f32; 2]]| parts.iter().map(|[b, s]| r * b + s).collect::<Vec<f32>>();
-            let matrix = mixed(&between);
-            let matrix_1 = between_1.as_ref().map(|between| mixed(between));
+            let matrix = between.mixed(r);
+            let matrix_1 = between_1.as_ref().map(|between| between.mixed(r));
             let matrices = [&matrix, matrix_1.as_ref().unwrap_or(&matrix)];
-            let sent = self.sent([0, 1].map(|p| self.panels[p].direct(&mixed(&sun[p]))), matrices);
+            let sent = self.sent([0, 1].map(|p| self.panels[p].direct(&sun[p].mixed(r))), matrices);
             for p in 0..2 {
-                let (panel, eye) = (&self.panels[p], mixed(&eye[p]));
+                let (panel, eye) = (&self.panels[p], eye[p].mixed(r));
                 for i in 0..COUNT {
                     let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
                     radiances[[p * COUNT + i, n]] =
@@ -118,8 +119,6 @@ impl Patches {
 
     /// Light sent by each patch of either panel to each of the other after two reflections and more.
     fn sent(&self, direct: [Vec<f32>; 2], matrices: [&Vec<f32>; 2]) -> [Vec<f32>; 2] {
-        let total =
-            |light: &[Vec<f32>; 2]| light.iter().flatten().map(|value| f64::from(value.abs())).sum::<f64>();
         let first = total(&direct);
         let (mut light, mut before, mut ratio) = (direct, first, 0.0);
         let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
@@ -140,6 +139,34 @@ impl Patches {
         let ratio = ratio.min(0.999);
         add(&mut sent, &light, (ratio / (1.0 - ratio)) as f32);
         sent
+    }
+}
+
+/// The sum of all light, none of it taken for negative.
+fn total(light: &[Vec<f32>; 2]) -> f64 {
+    let mut sums = [0.0; COUNT];
+    for values in light.iter().flat_map(|panel| panel.as_chunks::<COUNT>().0) {
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value.abs());
+    }
+    sums.iter().copied().map(f64::from).sum()
+}
+
+impl Parts {
+    fn of(shape: &Shape, angles: &[Angles]) -> Self {
+        let (body, surface) =
+            angles.iter().map(|angles| shape.at(angles).map(|value| value as f32).into()).unzip();
+        Self { body, surface }
+    }
+
+    /// Those at these places of the list.
+    fn at(&self, places: &[usize]) -> Self {
+        let at = |list: &[f32]| places.iter().map(|place| list[*place]).collect();
+        Self { body: at(&self.body), surface: at(&self.surface) }
+    }
+
+    /// The reflection in which the body counts `r`.
+    fn mixed(&self, r: f32) -> Vec<f32> {
+        self.body.iter().zip(&self.surface).map(|(body, surface)| r * body + surface).collect()
     }
 }
 
@@ -200,13 +227,23 @@ impl Panel {
 
     /// What this panel's patches send on of the light that the other's sent.
     fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
-        let mut reflected = vec![0.0; COUNT * COUNT];
-        for (i, to) in reflected.chunks_exact_mut(COUNT).enumerate() {
-            let rows = matrix[i * COUNT * COUNT..].chunks_exact(COUNT);
-            for (j, row) in rows.take(COUNT).enumerate() {
-                let arriving = self.factors[i * COUNT + j] * light[j * COUNT + i];
-                to.iter_mut().zip(row).for_each(|(to, f)| *to += arriving * f);
+        let mut reflected = Vec::with_capacity(COUNT * COUNT);
+        let (rows, _) = matrix.as_chunks::<SHIFTS>();
+        let (directions, _) = rows.as_chunks::<ROWS>();
+        for (i, factors) in self.factors.chunks_exact(COUNT).enumerate() {
+            // towards the other panel's patches, row by row
+            let first = COLS - 1 - i % COLS;
+            let mut sums = [[0.0; COLS]; ROWS];
+            for (j, factor) in factors.iter().enumerate() {
+                let arriving = factor * light[j * COUNT + i];
+                let towards = directions[i / COLS * DIRECTIONS + direction(i, j)].iter();
+                // arrays of known length stay in registers
+                let towards = towards.filter_map(|row| row[first..].first_chunk::<COLS>());
+                for (sums, row) in sums.iter_mut().zip(towards) {
+                    sums.iter_mut().zip(row).for_each(|(sum, f)| *sum += arriving * f);
+                }
             }
+            reflected.extend_from_slice(sums.as_flattened());
         }
         reflected
     }
@@ -244,24 +281,24 @@ fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
 }
 
 /// Angles between all directions of each row of patches, each pair once.
-fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Vec<Angles>> {
+fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
     let row = |to: &Vec<Vector3<f64>>| {
         let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
-        pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect()
+        pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect::<Vec<_>>()
     };
-    to.iter().map(row).collect()
+    to.iter().flat_map(row).collect()
 }
 
-/// For each patch a matrix: from each patch of the other panel towards each.
-fn expand(rows: &[Parts]) -> Parts {
-    let mut all = Vec::with_capacity(COUNT * COUNT * COUNT);
-    for (i, j) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j))) {
-        let from = direction(i, j);
-        all.extend((0..COUNT).map(|k| {
-            let to = direction(i, k);
-            let (high, low) = (from.max(to), from.min(to));
-            rows[i / COLS][high * (high + 1) / 2 + low]
-        }));
-    }
-    all
+/// Which of all pairs is between each direction of a row of patches and each, row by row.
+fn places() -> Vec<usize> {
+    let count = DIRECTIONS * (DIRECTIONS + 1) / 2;
+    let pair = |(from, to): (usize, usize)| {
+        let (high, low) = (from.max(to), from.min(to));
+        high * (high + 1) / 2 + low
+    };
+    let of_row = |row: usize| {
+        let all = (0..DIRECTIONS).flat_map(|from| (0..DIRECTIONS).map(move |to| (from, to)));
+        all.map(move |directions| row * count + pair(directions))
+    };
+    (0..ROWS).flat_map(of_row).collect()
 }
