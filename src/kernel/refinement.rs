@@ -17,7 +17,7 @@ const SAFETY: f64 = 3.0;
 /// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 20.0;
 /// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
-const COARSEST: f64 = 0.05;
+const COARSEST: f64 = 0.005;
 /// Reflectances at which two solutions are compared; the last is the hardest.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
 

@@ -220,7 +220,7 @@ fn both_panels<O: PanelOperator>(operator: &O, source: usize, tolerance: f64) ->
     let apply = |x: &[f64], out: &mut [f64]| {
         let ((x0, x1), (out0, out1)) = (x.split_at(middle), out.split_at_mut(middle));
         for (panel, x, out) in [(0, x1, out0), (1, x0, out1)] {
-            // Light of one panel's comes back after two bounces: after every one, one panel is dark.
+            // Light that starts on one panel is on the other after every odd number of bounces: one of the two is always dark.
             match x.iter().all(|x| *x == 0.0) {
                 true => out.fill(0.0),
                 false => operator.apply(panel, x, out),

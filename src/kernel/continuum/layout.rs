@@ -12,7 +12,7 @@ const NEAREST: f64 = 0.05;
 /// How much further away the end of a strip is from one to the next, as a ratio.
 const GROWTH: f64 = 6.0;
 
-/// Panels' distance, relative to the distance from the crease and the angle between them, from which light varies over an edge.
+/// Width of the last strip at an outer edge, relative to how far the panels are apart there.
 const EDGE: f64 = 2.0;
 
 /// The functions on the panels of a fold at some resolution.

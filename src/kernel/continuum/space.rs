@@ -1,7 +1,6 @@
 //! Functions on a panel: polynomials of both directions on every cell of a grid of strips.
 //!
-//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. Those of a high degree in both directions, half of all products, add
-//! least to smooth light.
+//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. Products of two high degrees, half of all, add least to smooth light.
 
 use super::strips::Strips;
 
