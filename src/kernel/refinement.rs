@@ -17,7 +17,7 @@ const SAFETY: f64 = 3.0;
 /// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 20.0;
 /// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
-const COARSEST: f64 = 0.05;
+const COARSEST: f64 = 0.005;
 /// Reflectances at which two solutions are compared; the last is the hardest.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
 
@@ -91,7 +91,8 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     if unknowns > UNKNOWNS_MAX || (unknowns as f64).powi(2) * poles as f64 > PRODUCTS_MAX {
         return Ok(None);
     }
-    room::ask(8 * (unknowns as u64).pow(2), "the exchange between undivided panels", "take fewer facets")?;
+    let numbers = unknowns as u64 * (unknowns + fold.facets().len()) as u64;
+    room::ask(8 * numbers, "the exchange between undivided panels", "take fewer facets")?;
     let (response, residual) = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim * loss(fold))?;
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }

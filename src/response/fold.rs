@@ -58,10 +58,12 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::Numeric`] if the light does not leave the fold: an operator that hands on all it receives.
-    pub fn solve(operator: &impl PanelOperator, tolerance: f64) -> Result<(Self, f64)> {
+    pub fn solve<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<(Self, f64)> {
         if operator.is_symmetric() {
+            let start = operator.uniform(0);
             let one = Excited {
-                start: operator.uniform(0),
+                direct: O::AFTER_A_BOUNCE.then(|| vec![1.0; operator.facet_means(0, &start).len()]),
+                start,
                 apply: |x: &[f64], out: &mut [f64]| operator.apply(0, x, out),
                 means: |x: &[f64]| operator.facet_means(0, x),
             };
@@ -210,21 +212,32 @@ impl ModeLight {
 }
 
 /// Modes of even light on panel `source`, seen on both panels.
-fn both_panels(operator: &impl PanelOperator, source: usize, tolerance: f64) -> Result<(ModeSet, f64)> {
-    let lengths = [0, 1].map(|panel| operator.uniform(panel).len());
-    let mut start = vec![0.0; lengths[0] + lengths[1]];
-    let (of_0, of_1) = start.split_at_mut(lengths[0]);
-    [of_0, of_1][source].copy_from_slice(&operator.uniform(source));
+fn both_panels<O: PanelOperator>(operator: &O, source: usize, tolerance: f64) -> Result<(ModeSet, f64)> {
+    let uniform = [0, 1].map(|panel| operator.uniform(panel));
+    let middle = uniform[0].len();
+    let mut start = uniform.concat();
+    if source == 0 { &mut start[middle..] } else { &mut start[..middle] }.fill(0.0);
     let apply = |x: &[f64], out: &mut [f64]| {
-        let ((x0, x1), (out0, out1)) = (x.split_at(lengths[0]), out.split_at_mut(lengths[0]));
-        operator.apply(0, x1, out0);
-        operator.apply(1, x0, out1);
+        let ((x0, x1), (out0, out1)) = (x.split_at(middle), out.split_at_mut(middle));
+        for (panel, x, out) in [(0, x1, out0), (1, x0, out1)] {
+            // Light that starts on one panel is on the other after every odd number of bounces: one of the two is always dark.
+            match x.iter().all(|x| *x == 0.0) {
+                true => out.fill(0.0),
+                false => operator.apply(panel, x, out),
+            }
+        }
     };
     let means = |x: &[f64]| {
-        let (x0, x1) = x.split_at(lengths[0]);
-        [operator.facet_means(0, x0), operator.facet_means(1, x1)].concat()
+        let (x0, x1) = x.split_at(middle);
+        let [of_0, of_1] = if O::AFTER_A_BOUNCE { [x1, x0] } else { [x0, x1] };
+        [operator.facet_means(0, of_0), operator.facet_means(1, of_1)].concat()
     };
-    let (set, residual) = Excited { start, apply, means }.lanczos(tolerance)?;
+    let direct = || {
+        let facets = means(&start).len() / 2;
+        (0..2 * facets).map(|facet| if facet / facets == source { 1.0 } else { 0.0 }).collect()
+    };
+    let direct = O::AFTER_A_BOUNCE.then(direct);
+    let (set, residual) = Excited { start, apply, means, direct }.lanczos(tolerance)?;
     Ok((fold_pairs(&set), residual))
 }
 

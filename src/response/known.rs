@@ -95,6 +95,7 @@ fn modes(
             out.copy_from_slice((exchange * DVector::from_column_slice(x)).as_slice());
         },
         means: |x: &[f64]| (means * DVector::from_column_slice(x)).as_slice().to_vec(),
+        direct: None,
     };
     Ok(excited.lanczos(tolerance)?.0)
 }

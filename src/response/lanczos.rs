@@ -8,6 +8,8 @@ use crate::solve::{Eigen, dot};
 
 /// Most Lanczos steps: an undivided fold of 1° takes about 600.
 const STEPS_MAX: usize = 1000;
+/// Poles nearer to zero than this count as this far away: a mode so weak does not come back, and its light is divided by its pole.
+const LEAST_POLE: f64 = 1e-9;
 /// A surface that keeps all but this share of its light is closed but for rounding.
 const CLOSED: f64 = 1e-12;
 
@@ -15,7 +17,10 @@ const CLOSED: f64 = 1e-12;
 pub struct Excited<A, M> {
     pub start: Vec<f64>,
     pub apply: A,
+    /// Facet means of a vector.
     pub means: M,
+    /// Facet means of the light itself where `means` are those of the operator's product with a vector, which it knows better.
+    pub direct: Option<Vec<f64>>,
 }
 
 impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
@@ -28,8 +33,14 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
             let mut next = vec![0.0; self.start.len()];
             let last = &basis[basis.len() - 1];
             (self.apply)(last, &mut next);
-            diagonal.push(dot(last, &next));
-            orthogonalise(&mut next, &basis);
+            let along = dot(last, &next);
+            subtract(&mut next, last, along);
+            diagonal.push(along);
+            if let (Some(length), [.., previous, _]) = (beside.last(), basis.as_slice()) {
+                subtract(&mut next, previous, *length);
+            }
+            // What that leaves along the basis is rounding, of which once leaves nothing behind.
+            project_out(&mut next, &basis);
             let length = dot(&next, &next).sqrt();
             let Some(residual) = residual_at_one(&diagonal, &beside, length) else {
                 return Err(Error::Numeric(
@@ -54,16 +65,49 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
             // The light starts along the first vector of the basis.
             of_mode *= norm * in_start;
         }
-        ModeSet { poles, residues }
+        match &self.direct {
+            None => ModeSet { poles, residues },
+            Some(direct) => after_a_bounce(direct, poles, residues),
+        }
     }
 }
 
 /// Removes from `x` its parts along the basis, twice: once leaves rounding behind.
 pub fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
-    for direction in basis.iter().chain(basis) {
+    project_out(x, basis);
+    project_out(x, basis);
+}
+
+/// Removes from `x` its parts along the basis.
+fn project_out(x: &mut [f64], basis: &[Vec<f64>]) {
+    for direction in basis {
         let along = dot(x, direction);
-        x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
+        subtract(x, direction, along);
     }
+}
+
+/// `x − along·direction`, in place.
+fn subtract(x: &mut [f64], direction: &[f64], along: f64) {
+    x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
+}
+
+/// Modes of `direct + Σ_k r·light_k/(1 − r·pole_k)`, light that modes have thrown on facets.
+///
+/// `r/(1 − rg) = (1/(1 − rg) − 1)/g`: modes keep their poles, and what does not depend on r is one that does not bounce, of pole 0.
+fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> ModeSet {
+    let unbounced = light.ncols();
+    let mut residues = light;
+    for (mut of_mode, pole) in residues.column_iter_mut().zip(&mut poles) {
+        if pole.abs() < LEAST_POLE {
+            *pole = LEAST_POLE;
+        }
+        of_mode /= *pole;
+    }
+    let rest = DVector::from_column_slice(direct) - residues.column_sum();
+    let mut residues = residues.insert_column(unbounced, 0.0);
+    residues.set_column(unbounced, &rest);
+    poles.push(0.0);
+    ModeSet { poles, residues }
 }
 
 /// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.

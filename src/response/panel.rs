@@ -5,6 +5,9 @@
 /// Vectors hold a function on one panel in coordinates in which the exchange is symmetric (what panel 0 gives to panel 1
 /// is the transpose of what it gets) and the dot product is the integral over the panel.
 pub trait PanelOperator: Sync {
+    /// Whether facets are read after a bounce: by the light that functions throw on them, as it is and not as functions hold it.
+    const AFTER_A_BOUNCE: bool = false;
+
     /// Whether each panel is the other's mirror image, so that one stands for both.
     fn is_symmetric(&self) -> bool;
 
@@ -14,6 +17,7 @@ pub trait PanelOperator: Sync {
     /// `out = F·x`: the irradiance on `panel` that exitance `x` of the other panel causes.
     fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]);
 
-    /// Means of `x` over the facets of `panel`, row by row from the crease.
+    /// Means over the facets of `panel`, row by row from the crease: of a function `x` on that panel or, after a bounce, of the
+    /// irradiance F·x that exitance `x` of the other panel causes.
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64>;
 }

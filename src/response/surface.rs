@@ -49,6 +49,7 @@ impl SurfaceResponse {
             start: exchange.start(irradiance),
             apply: |x: &[f64], out: &mut [f64]| exchange.apply(x, out),
             means: |x: &[f64]| exchange.facet_means(x),
+            direct: None,
         };
         let (modes, residual) = light.lanczos(tolerance)?;
         Ok((Self { modes }, residual))

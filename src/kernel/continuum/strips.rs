@@ -1,8 +1,6 @@
 //! One direction of a panel: Legendre polynomials on strips.
 
-use nalgebra::DMatrix;
-
-use crate::kernel::quadrature::{Rule, legendre_series};
+use crate::kernel::quadrature::legendre_series;
 
 /// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across them.
 #[derive(Clone, Debug)]
@@ -15,41 +13,6 @@ impl Strips {
     /// Strips between consecutive `edges`.
     pub(super) fn new(edges: &[f64], order: usize) -> Self {
         Self { ends: edges.windows(2).map(|ends| [ends[0], ends[1]]).collect(), order }
-    }
-
-    /// Number of basis functions.
-    pub(super) fn len(&self) -> usize {
-        self.ends.len() * self.order
-    }
-
-    /// Coordinates of the function 1.
-    pub(super) fn uniform(&self) -> impl Iterator<Item = f64> + '_ {
-        let one = |[low, high]: [f64; 2]| {
-            (0..self.order).map(move |b| if b == 0 { (high - low).sqrt() } else { 0.0 })
-        };
-        self.ends.iter().copied().flat_map(one)
-    }
-
-    /// Means over intervals: interval by basis function.
-    pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
-        let mut pool = DMatrix::zeros(intervals.len(), self.len());
-        let rule = Rule::gauss_legendre(self.order);
-        let mut values = vec![0.0; self.order];
-        for (row, [low, high]) in intervals.iter().enumerate() {
-            for (n, strip) in self.ends.iter().enumerate() {
-                let (from, to) = (strip[0].max(*low), strip[1].min(*high));
-                if from >= to {
-                    continue;
-                }
-                for (x, w) in rule.on(from, to) {
-                    polynomials(*strip, x, &mut values);
-                    for (b, value) in values.iter().enumerate() {
-                        pool[(row, n * self.order + b)] += w * value / (high - low);
-                    }
-                }
-            }
-        }
-        pool
     }
 }
 

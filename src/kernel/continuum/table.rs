@@ -4,6 +4,8 @@
 //! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes per e-fold give them all.
 //! Times q³ they tend to a constant where q is small.
 
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -11,8 +13,10 @@ use super::correlation::Correlation;
 use super::strips::Strips;
 use crate::kernel::quadrature::{Lagrange, Rule};
 
-/// Length of an interpolation panel in ln q: ρ = π + √(π² + 1) = 6.4, so that n nodes leave 6.4⁻ⁿ.
+/// Length of an interpolation panel in ln q.
 const PANEL: f64 = 1.0;
+/// What a node on such a panel takes off the error: ρ = π + √(π² + 1), as a logarithm.
+const LN_RHO: f64 = 1.86;
 
 /// Distances at which functions of the distance are known.
 pub(super) struct Nodes {
@@ -32,10 +36,10 @@ impl Nodes {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.panels * self.rule.nodes.len()
+        self.panels * self.on_panel()
     }
 
-    fn distances(&self) -> Vec<f64> {
+    pub(super) fn distances(&self) -> Vec<f64> {
         let corner = |panel: usize| self.start + panel as f64 * PANEL;
         let on_panel = |panel: usize| self.rule.on(corner(panel), corner(panel + 1));
         (0..self.panels).flat_map(on_panel).map(|(u, _)| u.exp()).collect()
@@ -44,6 +48,19 @@ impl Nodes {
     /// Nodes on a panel.
     pub(super) fn on_panel(&self) -> usize {
         self.rule.nodes.len()
+    }
+
+    /// Gauss points that integrate a function whose ellipse of analyticity has this `rho` as well as the nodes interpolate.
+    pub(super) fn points(&self, rho: f64) -> usize {
+        (self.on_panel() as f64 * LN_RHO / (2.0 * rho.ln())).ceil() as usize
+    }
+
+    /// The nodes that stand for the distances between two.
+    pub(super) fn between(&self, [nearest, furthest]: [f64; 2]) -> Range<usize> {
+        let on = self.on_panel();
+        // A panel to spare at either end, for rounding.
+        let panel = |q: f64| (((q.ln() - self.start) / PANEL).max(0.0) as usize).min(self.panels - 1);
+        panel(nearest * (1.0 - 1e-9)) * on..(panel(furthest * (1.0 + 1e-9)) + 1) * on
     }
 
     /// The first of the nodes between which the distance `q` lies, and their weights; below the nearest it counts as that.
@@ -55,26 +72,20 @@ impl Nodes {
     }
 }
 
-/// Integrals of one pair of strips.
-pub(super) struct StripPair {
-    /// The strips, e ≤ f.
-    pub(super) strips: [usize; 2],
-    /// Pair of polynomials (b, d), d fast, by node; times q³.
-    pub(super) values: DMatrix<f64>,
-}
-
-/// Tabulates all pairs of strips on the first half of a crease of this width, mirror images included.
-pub(super) fn tabulate(strips: &Strips, width: f64, nodes: &Nodes) -> Vec<StripPair> {
+/// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included: function of `of` and of
+/// `with` by node, times q³. The functions are in the order of [`super::space::Space`]: strip of `of`, strip of `with`, degree on `of`,
+/// degree on `with`, the first being the fastest.
+pub(super) fn tabulate(of: &Strips, with: &Strips, width: f64, nodes: &Nodes) -> DMatrix<f64> {
     let distances = nodes.distances();
-    let count = strips.ends.len();
-    let pairs: Vec<_> = (0..count).flat_map(|e| (e..count).map(move |f| [e, f])).collect();
-    let tabulate = |[e, f]: [usize; 2]| {
-        let mut correlation = Correlation::new(strips.order);
-        // Half the least distance is the width of the kernel's peak along the crease.
-        let (near, [low, high], peak) = (strips.ends[e], strips.ends[f], 0.5 * nodes.start.exp());
-        correlation.add(near, [low, high], false, peak);
-        correlation.add(near, [width - high, width - low], true, peak);
-        StripPair { strips: [e, f], values: correlation.integrals(&distances) }
+    let correlation = Correlation::new([of.order, with.order], nodes, &distances);
+    let pairs: Vec<_> = with.ends.iter().flat_map(|f| of.ends.iter().map(move |e| (*e, *f))).collect();
+    let tabulate = |(e, [low, high]): ([f64; 2], [f64; 2])| {
+        let mirror = [width - high, width - low];
+        correlation.integrals(e, [low, high], false) + correlation.integrals(e, mirror, true)
     };
-    pairs.into_par_iter().map(tabulate).collect()
+    let tables: Vec<_> = pairs.into_par_iter().map(tabulate).collect();
+    let strips = tables.len();
+    DMatrix::from_fn(strips * of.order * with.order, nodes.len(), |row, node| {
+        tables[row % strips][(row / strips, node)]
+    })
 }
