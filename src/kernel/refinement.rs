@@ -91,7 +91,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     if unknowns > UNKNOWNS_MAX || (unknowns as f64).powi(2) * poles as f64 > PRODUCTS_MAX {
         return Ok(None);
     }
-    let numbers = unknowns as u64 * (unknowns + fold.facets().len()) as u64;
+    let numbers = unknowns as u64 * (unknowns + resolution.readings(fold)) as u64;
     room::ask(8 * numbers, "the exchange between undivided panels", "take fewer facets")?;
     let (response, residual) = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim * loss(fold))?;
     Ok(Some(Solution { aim, response, unknowns, residual }))

@@ -6,7 +6,7 @@
 //! towards the outer edges, where it escapes; so a few more polynomials make the error ten times smaller, wherever that is needed.
 //!
 //! Facets are read one bounce later: what falls on one is the light that the radiosity throws on it, over its whole area, in which most
-//! of the radiosity's error averages out. The facets are a second set of functions for that, each 1 on a facet and 0 elsewhere.
+//! of the radiosity's error averages out. A second set of functions takes that up (`reading`).
 //!
 //! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only the shift
 //! `z = x − y` matters (`correlation`), and the result is a function of the distance q across it alone (`table`); the integrals
@@ -17,19 +17,21 @@ mod blocks;
 mod correlation;
 mod exchange;
 mod layout;
+mod reading;
 mod resolution;
 mod rows;
 mod space;
 mod strips;
 mod table;
 
-use nalgebra::{DMatrix, DVectorView, Dyn};
+use nalgebra::{DMatrix, DMatrixView, DVectorView};
 
 pub use self::resolution::Resolution;
 
 use self::blocks::assemble;
 use self::exchange::Exchange;
 use self::layout::Layout;
+use self::reading::Reading;
 use self::table::tabulate;
 use crate::geometry::{FacetGrid, Fold};
 use crate::response::PanelOperator;
@@ -39,7 +41,8 @@ pub struct Continuum {
     exchange: Exchange,
     uniform: [Vec<f64>; 2],
     facets: FacetGrid,
-    /// For each panel, the one only where they are alike: facet of the first half of the crease by function of the other panel.
+    reading: Reading,
+    /// For each panel, the one only where they are alike: function that takes up its light by function of the other panel.
     views: Vec<DMatrix<f64>>,
 }
 
@@ -55,17 +58,12 @@ impl Continuum {
         let nodes = layout.nodes(fold, resolution.nodes);
         let [panel0, panel1] = &layout.panels;
         let alike = fold.is_symmetric();
-        let facets = [0, 1].map(|panel| layout.facets(fold, panel));
+        let reading = Reading::new(&layout, fold);
         let table = tabulate(&panel0.along, &panel1.along, layout.width, &nodes);
         let matrix = assemble(fold, [panel0, panel1], alike, &nodes, &table);
-        let table = tabulate(&facets[0].along, &panel1.along, layout.width, &nodes);
+        let table = tabulate(&reading.spaces[0].along, &panel1.along, layout.width, &nodes);
         let view = |panel: usize| {
-            let facets = &facets[panel];
-            let mut view = assemble(fold, [facets, &layout.panels[1 - panel]], false, &nodes, &table);
-            for (mut row, root_area) in view.row_iter_mut().zip(facets.uniform()) {
-                row /= root_area;
-            }
-            view
+            assemble(fold, [&reading.spaces[panel], &layout.panels[1 - panel]], false, &nodes, &table)
         };
         Self {
             exchange: if alike {
@@ -76,6 +74,7 @@ impl Continuum {
             uniform: [panel0.uniform(), panel1.uniform()],
             facets: fold.facets(),
             views: (0..if alike { 1 } else { 2 }).map(view).collect(),
+            reading,
         }
     }
 }
@@ -99,8 +98,9 @@ impl PanelOperator for Continuum {
         let FacetGrid { rows, cols } = self.facets;
         // Of panels that are alike, one stands for both.
         let view = &self.views[panel % self.views.len()];
-        let means = view * DVectorView::from_slice(x, x.len());
-        let means = means.reshape_generic(Dyn(cols.div_ceil(2)), Dyn(rows));
+        let light = view * DVectorView::from_slice(x, x.len());
+        let means = self.reading.facet_means(panel, light.as_slice());
+        let means = DMatrixView::from_slice(&means, cols.div_ceil(2), rows);
         // Light is even along the crease: its second half is the mirror image of the first.
         DMatrix::from_fn(cols, rows, |col, row| means[(col.min(cols - 1 - col), row)]).data.into()
     }
@@ -135,6 +135,33 @@ mod tests {
             let means = continuum.facet_means(0, &even1);
             let factor = means.iter().sum::<f64>() / means.len() as f64;
             assert!((factor / want - 1.0).abs() < 1e-7, "{angle_deg}°: {factor} on facets");
+        }
+    }
+
+    /// Facets that are read from polynomials, as there are more of them, are those that take up the light themselves.
+    #[test]
+    fn many_facets_are_parts_of_few() {
+        for (angle_deg, depth1) in [(20.0, 1.0), (45.0, 0.6), (120.0, 1.0)] {
+            let [few, many] = [1, 16].map(|parts| {
+                let facets = FacetGrid { rows: 5 * parts, cols: 6 * parts };
+                let fold = Fold::new(angle_deg, 1.0, 1.0, facets).unwrap().with_panel1_depth(depth1).unwrap();
+                Continuum::new(&fold, &Resolution::reaching(1e-6, &fold))
+            });
+            let read = many.reading.len();
+            assert!(few.reading.len() < read && read < 80 * 48, "{angle_deg}°: {read}");
+            for panel in 0..2 {
+                let even = few.uniform(1 - panel);
+                let [few, many] = [&few, &many].map(|continuum| continuum.facet_means(panel, &even));
+                for (facet, mean) in few.iter().enumerate() {
+                    let (row, col) = (facet / 6, facet % 6);
+                    let part = |n: usize| many[(16 * row + n / 16) * 96 + 16 * col + n % 16];
+                    let parts = (0..256).map(part).sum::<f64>() / 256.0;
+                    assert!(
+                        (parts / mean - 1.0).abs() < 1e-7,
+                        "{angle_deg}°, facet {facet}: {parts}, {mean}"
+                    );
+                }
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::layout::Layout;
+use super::reading::Reading;
 use crate::geometry::Fold;
 
 /// How finely the radiosity of a panel is resolved.
@@ -40,5 +41,11 @@ impl Resolution {
     pub fn unknowns(&self, fold: &Fold) -> usize {
         let [panel0, panel1] = Layout::new(fold, self).panels;
         panel0.len().max(panel1.len())
+    }
+
+    /// Functions that take up the light on the larger of a fold's panels, for its facets.
+    #[must_use]
+    pub fn readings(&self, fold: &Fold) -> usize {
+        Reading::new(&Layout::new(fold, self), fold).len()
     }
 }

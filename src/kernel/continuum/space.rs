@@ -7,12 +7,20 @@ use super::strips::Strips;
 /// Strips across a panel and along the first half of its crease, with as many polynomials in one direction as in the other.
 ///
 /// Functions are ordered by strip across, degree across, degree along and strip along, the last being the fastest.
+#[derive(Clone, Debug)]
 pub(super) struct Space {
     pub(super) across: Strips,
     pub(super) along: Strips,
 }
 
 impl Space {
+    /// The same strips with so many degrees more.
+    pub(super) fn with_more_degrees(&self, more: usize) -> Self {
+        let [across, along] = [&self.across, &self.along]
+            .map(|strips| Strips { ends: strips.ends.clone(), order: strips.order + more });
+        Self { across, along }
+    }
+
     /// Number of functions.
     pub(super) fn len(&self) -> usize {
         self.across.ends.len() * self.of_strip()

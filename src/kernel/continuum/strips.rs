@@ -1,6 +1,8 @@
 //! One direction of a panel: Legendre polynomials on strips.
 
-use crate::kernel::quadrature::legendre_series;
+use nalgebra::DMatrix;
+
+use crate::kernel::quadrature::{Rule, legendre_series};
 
 /// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across them.
 #[derive(Clone, Debug)]
@@ -13,6 +15,29 @@ impl Strips {
     /// Strips between consecutive `edges`.
     pub(super) fn new(edges: &[f64], order: usize) -> Self {
         Self { ends: edges.windows(2).map(|ends| [ends[0], ends[1]]).collect(), order }
+    }
+
+    /// Means of the functions over intervals: interval by function, in the order of degree and strip, the last being the fastest.
+    pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
+        let strips = self.ends.len();
+        let mut means = DMatrix::zeros(intervals.len(), self.order * strips);
+        let rule = Rule::gauss_legendre(self.order.div_ceil(2));
+        let mut values = vec![0.0; self.order];
+        for (interval, [low, high]) in intervals.iter().enumerate() {
+            for (n, strip) in self.ends.iter().enumerate() {
+                let (from, to) = (strip[0].max(*low), strip[1].min(*high));
+                if from >= to {
+                    continue;
+                }
+                for (x, weight) in rule.on(from, to) {
+                    polynomials(*strip, x, &mut values);
+                    for (b, value) in values.iter().enumerate() {
+                        means[(interval, b * strips + n)] += weight * value / (high - low);
+                    }
+                }
+            }
+        }
+        means
     }
 }
 
