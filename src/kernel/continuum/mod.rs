@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// Facets that are read from polynomials, as there are more of them, are those that take up the light themselves.
+    /// Facets that are read from polynomials, as there are many, are those that take up the light themselves, to half of what the resolution aims at.
     #[test]
     fn many_facets_are_parts_of_few() {
         for (angle_deg, depth1) in [(20.0, 1.0), (45.0, 0.6), (120.0, 1.0)] {
@@ -157,7 +157,7 @@ mod tests {
                     let part = |n: usize| many[(16 * row + n / 16) * 96 + 16 * col + n % 16];
                     let parts = (0..256).map(part).sum::<f64>() / 256.0;
                     assert!(
-                        (parts / mean - 1.0).abs() < 1e-7,
+                        (parts / mean - 1.0).abs() < 5e-7,
                         "{angle_deg}°, facet {facet}: {parts}, {mean}"
                     );
                 }
