@@ -37,8 +37,9 @@ const LN_EVIDENCE_MORE: f64 = 1.0;
 const GLANCE_TOLERANCE: f64 = 0.3;
 const GLANCE_LIMIT: usize = 60;
 const FURTHEST: f64 = 2.0;
-/// By how many times [`least_misfit`] may be too much; on computed facets, glossy and not, it is by 1.15 at most.
-pub const CAUTION: f64 = 1.2;
+/// By how many times [`least_misfit`] may be too much: of computed facets, glossy and not, it is by 1.15 for the ColorChecker at most, and by
+/// 1.21 for Munsell's chips.
+pub const CAUTION: f64 = 1.25;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;

@@ -14,7 +14,7 @@ use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances}
 
 const NOISE_SD: f64 = 1e-3;
 
-/// No estimate leaves less than the glance says, but for a fifth of it; where facets away from the crease are brighter by a tenth, as those of
+/// No estimate leaves less than the glance says, but for a quarter of it; where facets away from the crease are brighter by a tenth, as those of
 /// gloss are, it says that none explains them.
 #[test]
 fn no_estimate_leaves_less_than_the_glance_says() {
@@ -28,7 +28,8 @@ fn no_estimate_leaves_less_than_the_glance_says() {
     let scene =
         SceneModel::known(FacetModel::one_sheet(&response, &Lighting { light, sun: eye.clone(), sky: eye }));
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
-    for spectrum in reflectances("cc24").unwrap() {
+    let mut worst = 0.0_f64;
+    for spectrum in reflectances("munsell").unwrap().iter().step_by(25) {
         let facets = scene.facets().facet_rgb(&spectrum.on(&grid, Outside::Refuse).unwrap());
         for gloss in [0.0, 0.1, 0.2] {
             let value = |facet: usize, channel: usize| {
@@ -44,8 +45,9 @@ fn no_estimate_leaves_less_than_the_glance_says() {
                 let (least, left) =
                     (map::least_misfit(&data, &prior), map::estimate(&data, &prior, None).residual_rms);
                 let name = spectrum.name();
+                worst = worst.max(least / left);
                 assert!(
-                    least < CAUTION * left + 0.05,
+                    least < CAUTION * left,
                     "{name}, gloss {gloss}, {exposure:?}: {left} left, {least} said"
                 );
                 let is_bright = facets.max() > 0.1;
@@ -55,4 +57,5 @@ fn no_estimate_leaves_less_than_the_glance_says() {
             }
         }
     }
+    println!("the glance says at most {worst:.2} times what an estimate leaves");
 }

@@ -133,6 +133,53 @@ fn a_plan_says_which_second_picture_helps_most() {
     assert!(run.stderr.contains("one panel is deeper than the other"), "{}", run.stderr);
 }
 
+/// Sheets that are rough and glossy, photographed at 45 degrees by daylight, again, at another angle and by lamplight: what becomes of the
+/// error when a second photograph is beside the first. The sheets are simulated by the model that estimates them.
+#[test]
+fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
+    let run = Workdir::new().sh(
+        r#"seed=0
+        photograph() {
+            seed=$((seed + 1))
+            vkernel --angle-deg $2 > scene.json
+            vforward scene.json --reflectance cc24:$chip --gloss 0.4 --gloss-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
+                --noise-sd 2e-3 --seed $seed --exposure 0.5 --render $1.tif -q -o simulated.json
+            vextract $1.tif --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
+        }
+        for chip in dark-skin foliage blue-flower orange moderate-red yellow-green cyan neutral-5; do
+            photograph one-day 45 D65
+            photograph one-again 45 D65
+            photograph one-angle 72 D65
+            photograph one-lamp 45 A
+            {
+                vestimate -q --fit auto one-day.ndjson
+                for second in again angle lamp; do cat one-day.ndjson one-$second.ndjson | vestimate -q --join; done
+            } | vscore -q --truth cc24:$chip
+        done"#,
+    );
+    assert!(run.status == 0, "{}", run.stderr);
+    let samples = samples(&run);
+    let chips: Vec<&[Value]> = samples.chunks_exact(7).collect();
+    assert!(chips.len() == 8);
+    // alone, then pairs, of which both samples say the same
+    let [alone, again, angle, lamp] = [0, 1, 3, 5].map(|n| {
+        let mean = |of: &dyn Fn(&Value) -> f64| chips.iter().map(|chip| of(&chip[n])).sum::<f64>() / 8.0;
+        let within = |sample: &Value| {
+            let truth = numbers(&sample["truth"]["reflectance"]);
+            let [found, sd] =
+                ["reflectance", "reflectance_sd"].map(|name| numbers(&sample["estimate"][name]));
+            let inside =
+                (0..truth.len()).filter(|band| (found[*band] - truth[*band]).abs() < 2.0 * sd[*band]);
+            inside.count() as f64 / truth.len() as f64
+        };
+        [mean(&|sample| sample["metrics"]["rmse"].as_f64().unwrap()), mean(&within)]
+    });
+    println!(
+        "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
+    );
+    assert!(lamp[0] < 0.8 * alone[0] && lamp[1] > 0.9);
+}
+
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.
 #[test]
 fn brackets_fill_what_clipped() {

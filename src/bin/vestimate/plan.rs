@@ -115,13 +115,15 @@ impl PlanArgs {
             Setting::Fold(fold) => Some(fold.fold().angle_deg()),
             Setting::Surface(_) => None,
         };
-        let sheets = if estimator.args().join.is_some() || estimator.asks_for_auto() {
+        let exposure = estimator.exposure_or(Exposure::Free);
+        // estimates by sums are those of ideal folds
+        let is_real = estimator.asks_for_auto() && exposure != Exposure::Sum;
+        let sheets = if estimator.args().join.is_some() || is_real {
             let fold = FoldSetting::of(&scene)?;
             let photographed = PhotographedFold::of(&fold);
-            let exposure = estimator.exposure_or(Exposure::Free).known();
             let parts = |rgb: &Colours| {
                 let sd = deviations(rgb, |_, _| noise_sd, 0.0);
-                photographed.planned(rgb, &sd, exposure)?.map_err(|why| {
+                photographed.planned(rgb, &sd, exposure.known())?.map_err(|why| {
                     Error::field("geometry", format!("{why}; real sheets are planned of other folds alone"))
                 })
             };
