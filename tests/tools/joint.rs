@@ -178,6 +178,14 @@ fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
         "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
     );
     assert!(lamp[0] < 0.8 * alone[0] && lamp[1] > 0.9);
+    // where bars hold less, it is said
+    for chip in chips {
+        let doubts_one_light = |n: usize| {
+            let because = chip[n]["estimate"]["verdict"]["because"].as_str().unwrap();
+            because.contains("in one light")
+        };
+        assert_eq!([0, 1, 3, 5].map(doubts_one_light), [false, true, true, false]);
+    }
 }
 
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.

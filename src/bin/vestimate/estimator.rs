@@ -266,17 +266,18 @@ impl<'a> Estimator<'a> {
         if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
     }
 
-    /// Adds what a photograph's share of an estimate from several is.
+    /// Adds what a photograph's share of an estimate from several is, all `ids` being theirs, and a `doubt` about all of them.
     pub fn joined(
         &self,
         context: &Context,
         sample: &mut Sample,
         estimate: &Estimate,
-        ids: &[String],
+        (doubt, ids): (Option<&Doubt>, &[String]),
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        let doubts =
+        let mut doubts =
             context.record.as_ref().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
+        doubts.extend(doubt.cloned());
         self.finish(context, sample, estimate, &how, (doubts, ids))
     }
 
