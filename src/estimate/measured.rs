@@ -14,23 +14,28 @@ pub struct Measured<'a> {
     pub sd: &'a [Option<Vec<f64>>],
 }
 
+/// Whether there are values of as many facets as the scene has, in as many channels where a facet was measured.
+///
+/// # Errors
+/// [`Error::Field`] under that name if not.
+pub fn check_shape(name: &str, values: &[Option<Vec<f64>>], [facets, channels]: [usize; 2]) -> Result<()> {
+    if values.len() != facets {
+        return Err(Error::field(name, format!("{} facets, but the scene has {facets}", values.len())));
+    }
+    match values.iter().flatten().find(|row| row.len() != channels) {
+        None => Ok(()),
+        Some(odd) => Err(Error::field(
+            name,
+            format!("{} channels, but the scene has {channels}: its camera's in every picture", odd.len()),
+        )),
+    }
+}
+
 /// Facets with a value in every channel; checks the shapes on the way.
 pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
     let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
-    for (name, rows) in [("facet_rgb", measured.rgb), ("facet_sd", measured.sd)] {
-        if rows.len() != facets {
-            return Err(Error::field(name, format!("{} facets, but the scene has {facets}", rows.len())));
-        }
-        if let Some(odd) = rows.iter().flatten().find(|row| row.len() != channels) {
-            return Err(Error::field(
-                name,
-                format!(
-                    "{} channels, but the scene has {channels}: its camera's in every picture",
-                    odd.len()
-                ),
-            ));
-        }
-    }
+    check_shape("facet_rgb", measured.rgb, [facets, channels])?;
+    check_shape("facet_sd", measured.sd, [facets, channels])?;
     let usable: Vec<usize> =
         (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
     if usable.is_empty() {

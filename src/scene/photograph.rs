@@ -13,7 +13,8 @@ use nalgebra::Vector3;
 use ndarray::Array2;
 
 use super::{FoldSetting, Unmodelled};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::estimate::measured::check_shape;
 use crate::estimate::photograph::Told;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
@@ -111,14 +112,13 @@ impl<'a> PhotographedFold<'a> {
         let Picture { rgb, sd, exposure, .. } = *picture;
         let Some(pose) = Pose::of(&picture.framing, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
         let (light, facets) = (setting.light()?, fold.facets());
-        if rgb.len() != 2 * facets.len() {
-            let problem = format!("{} facets for a scene of {}", rgb.len(), 2 * facets.len());
-            return Err(Error::field("facet_rgb", problem));
-        }
+        let eye = eye::of(setting)?;
+        let shape = [2 * facets.len(), eye.sensitivities.nrows()];
+        check_shape("facet_rgb", rgb, shape)?;
+        sd.map_or(Ok(()), |sd| check_shape("facet_sd", sd, shape))?;
         let bins = Bins::new(fold, rgb, sd, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
-        let eye = eye::of(setting)?;
         let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);
         let mean = (0..values.nrows()).map(strongest).sum::<f64>() / values.nrows().max(1) as f64;
         let on_panel = light.panel_irradiance().iter().sum::<f64>() / 2.0;

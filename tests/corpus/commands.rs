@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use tempfile::TempDir;
 
 use crate::cases;
-use crate::targets::records::edited_stream;
+use crate::targets::records::{edited, edited_stream};
 
 const TOOLS: [(&str, &str); 5] = [
     ("vkernel", env!("CARGO_BIN_EXE_vkernel")),
@@ -81,6 +81,11 @@ const VALUES: &[&str] = &[
     ".",
     "deep.json",
     "canon-5d-mark-ii",
+    "sun:40deg",
+    "sky:48.1,11.6,2026-06-21T14:30+02:00",
+    "sky",
+    "photographs.ndjson",
+    "id",
 ];
 /// What flags that write are given.
 const WRITTEN: &[&str] = &[
@@ -144,6 +149,7 @@ static FILES: LazyLock<TempDir> = LazyLock::new(|| {
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
     let copy = |from: &str, to: &str| std::fs::copy(kept.join(from), folder.path().join(to)).unwrap();
     copy("streams/fold.ndjson", "samples.ndjson");
+    copy("streams/photograph.ndjson", "photographs.ndjson");
     for (target, file) in [("npy", "kernel.npy"), ("obj", "corner.obj"), ("picture", "photo.png")] {
         copy(&format!("kept/{target}/good"), file);
     }
@@ -242,7 +248,7 @@ proptest! {
         tool in 0..TOOLS.len(),
         flags in prop::collection::vec((any::<usize>(), any::<usize>()), 0..6),
         positional in prop::option::weighted(0.7, 0..VALUES.len()),
-        input in prop::sample::select(vec!["samples.ndjson", "scene.json", "/dev/null", "deep.json", "photo.png"]),
+        input in prop::sample::select(vec!["samples.ndjson", "scene.json", "photographs.ndjson", "/dev/null", "deep.json", "photo.png"]),
     ) {
         let arguments: Vec<_> = positional
             .map(|k| OsString::from(VALUES[k]))
@@ -262,6 +268,19 @@ proptest! {
         std::fs::write(folder.path().join("estimated.ndjson"), &estimated).unwrap();
         checked(folder.path(), 4, &arguments("--table -"), "estimated.ndjson")?;
         checked(folder.path(), 3, &arguments("-q --prior cc24 --fit tilt,sky -"), "edited.ndjson")?;
+    }
+
+    #[test]
+    fn photographs_that_no_tool_wrote_go_through(edits in prop::collection::vec(any::<u8>(), 4..13)) {
+        let folder = folder();
+        let photograph = std::fs::read_to_string(folder.path().join("photographs.ndjson")).unwrap();
+        std::fs::write(folder.path().join("two.ndjson"), photograph.clone() + &edited(&photograph, &edits)).unwrap();
+        let arguments = |line: &str| line.split(' ').map(OsString::from).collect::<Vec<_>>();
+        for line in ["-q --prior cc24 --fit auto -", "-q --prior cc24 --join=id -"] {
+            let estimated = checked(folder.path(), 3, &arguments(line), "two.ndjson")?;
+            std::fs::write(folder.path().join("estimated.ndjson"), &estimated).unwrap();
+            checked(folder.path(), 4, &arguments("--table --truth cc24:orange -"), "estimated.ndjson")?;
+        }
     }
 
     #[test]

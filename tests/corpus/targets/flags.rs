@@ -10,7 +10,8 @@ use super::{assert_finite, taken};
 /// Names of spectra that are not files.
 pub fn spec(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    if text.contains('/') || text.contains('.') && text.parse::<f64>().is_err() {
+    let is_sky = text.starts_with("sun:") || text.starts_with("sky:");
+    if text.contains('/') || text.contains('.') && text.parse::<f64>().is_err() && !is_sky {
         return;
     }
     if let Some(spectra) = taken(reflectances(text)) {

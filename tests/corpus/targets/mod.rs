@@ -10,6 +10,7 @@ mod placed;
 pub mod records;
 mod regions;
 mod shapes;
+mod sheets;
 mod spectra;
 mod stream;
 mod surfaces;
@@ -26,6 +27,7 @@ pub type Target = fn(&[u8]);
 pub const TARGETS: &[(&str, Target)] = &[
     ("stream", stream::stream),
     ("records", records::records),
+    ("sheet", sheets::sheet),
     ("npy", kernels::npy),
     ("csv", spectra::csv),
     ("cgats", spectra::cgats),

@@ -1,9 +1,12 @@
 //! Photographs.
 
+use vfold::camera::StandIns;
 use vfold::image::{
     Grid, Homography, Photograph, Pixel, Point, ReadOptions, Transfer, measure, pixels_sharing_noise,
     write_linear,
 };
+
+use vfold::spectrum::{Sun, camera, camera_by_exif};
 
 use super::{assert_finite, taken, with_file};
 
@@ -22,6 +25,7 @@ pub fn picture(bytes: &[u8]) {
         for photograph in by_its_word.iter().chain(&by_ours) {
             let (width, height) = (photograph.width(), photograph.height());
             assert!(width > 0 && height > 0);
+            look_at_what_it_says(photograph);
             if width * height <= MAX_PIXELS {
                 look_at(photograph);
             }
@@ -34,6 +38,7 @@ pub fn picture(bytes: &[u8]) {
 pub fn raw(bytes: &[u8]) {
     with_file("a.dng", bytes, |path| {
         let photograph = taken(Photograph::open(path, &ReadOptions::default()));
+        photograph.iter().for_each(look_at_what_it_says);
         let small = photograph.filter(|photograph| photograph.width() * photograph.height() <= MAX_PIXELS);
         small.iter().for_each(look_at);
     });
@@ -51,6 +56,24 @@ fn look_at(photograph: &Photograph) {
     assert_finite("pixels", &lights);
     assert_measured(photograph);
     assert_read_again(width, height, &lights);
+}
+
+/// The camera and the light that a photograph names are known, or another's stand in.
+fn look_at_what_it_says(photograph: &Photograph) {
+    let info = photograph.info();
+    let of = |text: &Option<String>| text.clone().unwrap_or_default();
+    let (make, model) = (of(&info.camera.make), of(&info.camera.model));
+    let named = camera_by_exif(&make, &model);
+    let matrix = info.camera.xyz_to_camera.as_ref();
+    let stand_in = || taken(StandIns::new().unwrap().for_camera(&make, matrix)).map(|one| one.name);
+    if let Some(name) = named.or_else(stand_in) {
+        assert_eq!(camera(&name).unwrap().channels.len(), 3, "{make} {model}");
+    }
+    let place = info.camera.taken.place_deg;
+    assert_finite("place", place.iter().flatten());
+    if let (Some([latitude, longitude]), Some(time)) = (place, &info.camera.taken.time) {
+        taken(Sun::parse(&format!("{latitude:.2},{longitude:.2},{time}")));
+    }
 }
 
 /// Measures a sheet that fills the picture.

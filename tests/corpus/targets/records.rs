@@ -15,11 +15,15 @@ pub fn records(bytes: &[u8]) {
     stream(edited_stream(bytes).as_bytes());
 }
 
-/// A stream that the first byte chooses, with edits of four bytes: which record, which of its values, what comes in its place.
+/// A stream that the first byte chooses, [edited].
 pub fn edited_stream(bytes: &[u8]) -> String {
     let (which, edits) = bytes.split_first().unwrap_or((&0, &[]));
-    let lines = STREAMS[usize::from(*which) % STREAMS.len()].lines();
-    let mut records: Vec<Value> = lines.map(|line| serde_json::from_str(line).unwrap()).collect();
+    edited(STREAMS[usize::from(*which) % STREAMS.len()], edits)
+}
+
+/// A stream with edits of four bytes: which record, which of its values, what comes in its place.
+pub fn edited(stream: &str, edits: &[u8]) -> String {
+    let mut records: Vec<Value> = stream.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     for edit in edits.chunks_exact(4) {
         let record = usize::from(edit[0]) % records.len();
         let count = count(&records[record]);
@@ -41,7 +45,7 @@ fn count(value: &Value) -> usize {
 /// Replaces the value that comes `place`th.
 fn replace(value: &mut Value, place: &mut usize, edit: u8) {
     if *place == 0 {
-        edited(value, edit);
+        put(value, edit);
     }
     let Some(rest) = place.checked_sub(1) else {
         *place = usize::MAX;
@@ -61,7 +65,7 @@ fn replace(value: &mut Value, place: &mut usize, edit: u8) {
     }
 }
 
-fn edited(value: &mut Value, edit: u8) {
+fn put(value: &mut Value, edit: u8) {
     let number = value.as_f64().unwrap_or(1.0);
     *value = match edit % 24 {
         0 => Value::Null,

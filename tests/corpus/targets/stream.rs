@@ -34,7 +34,7 @@ pub fn stream(bytes: &[u8]) {
 }
 
 /// The records up to the first that is none.
-fn read(bytes: &[u8]) -> Vec<Record> {
+pub fn read(bytes: &[u8]) -> Vec<Record> {
     with_file("a.ndjson", bytes, |path| {
         let mut reader = Reader::open(path.to_str().unwrap()).unwrap();
         std::iter::from_fn(|| taken(reader.read()).flatten()).collect()
