@@ -1,6 +1,6 @@
 //! Drawings for people: each a `figure` in a file of its own, SVG or PNG.
 //!
-//! [`sheets`] draws what is known of one sheet or of a few, [`batch`] how far off many are, [`surface`] what a kernel makes of its
+//! [`sheets`] draws what is known of one sheet or of a few, and of many ([`multiples`]) a small chart each, [`batch`] how far off they are, [`surface`] what a kernel makes of its
 //! facets. They are made of [`spectra`], swatches and maps, in one font and in colours that all readers tell apart.
 
 pub mod batch;
@@ -8,6 +8,7 @@ mod bitmap;
 mod figure;
 mod histogram;
 pub mod maps;
+pub mod multiples;
 mod scale;
 pub mod sheet;
 pub mod sheets;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::figure::{Above, save, svg};
 use super::maps::{FacetMap, Maps};
+use super::multiples::{MULTIPLES_MAX, Multiples};
 use super::scale::Scale;
 use super::sheet::Sheet;
 use super::spectra::{CURVES_MAX, Spectra};
@@ -49,22 +50,27 @@ impl Sheet {
     }
 }
 
-/// Draws up to [`CURVES_MAX`] sheets, as SVG or PNG, a single one with its residuals; `-` is the terminal, which shows spectra alone.
+/// Draws the first sheets of `all`, as SVG or PNG: a single one with its residuals, up to [`CURVES_MAX`] on one chart, up to
+/// [`MULTIPLES_MAX`] on one each; `-` is the terminal, which shows the spectra of the first
+/// [`CURVES_MAX`] alone.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be written, [`Error::NothingToDraw`] if there is nothing to draw.
-pub fn draw(path: &Path, sheets: &[Sheet]) -> Result<()> {
-    let shown = &sheets[..sheets.len().min(CURVES_MAX)];
-    let maps = match shown {
+pub fn draw(path: &Path, sheets: &[Sheet], all: usize) -> Result<()> {
+    let maps = match sheets {
         [] => return Err(Error::NothingToDraw("no sample has an estimate to draw")),
         [one] => one.residual_maps(),
         _ => None,
     };
     if path == Path::new("-") {
-        terminal::draw(shown.iter().map(|sheet| &sheet.curve));
+        let shown = &sheets[..sheets.len().min(CURVES_MAX)];
+        terminal::draw(shown.iter().map(|sheet| &sheet.curve), all);
         return Ok(());
     }
-    save(path, &Above(spectra(shown), maps))
+    if sheets.len() > CURVES_MAX {
+        return save(path, &Multiples { sheets: &sheets[..sheets.len().min(MULTIPLES_MAX)], all });
+    }
+    save(path, &Above(spectra(sheets), maps))
 }
 
 fn spectra(sheets: &[Sheet]) -> Above<Spectra<'_>, Swatches<'_>> {

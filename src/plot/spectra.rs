@@ -1,6 +1,9 @@
 //! Estimated spectra with their error bands, and the true ones.
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use super::figure::{COLOURS, Drawn, FONT, Figure};
@@ -33,16 +36,13 @@ impl Figure for Spectra<'_> {
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
-        let curves = &self.0;
-        let ends = curves.iter().flat_map(|curve| curve.wavelengths_nm.iter().copied());
-        let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), nm| (a.min(nm), b.max(nm)));
-        let top = curves.iter().map(|curve| highest(curve)).fold(0.0, f64::max);
+        let curves = || self.0.iter().copied();
         let mut chart = ChartBuilder::on(area)
             .margin(14)
             .margin_right(24)
             .x_label_area_size(42)
             .y_label_area_size(56)
-            .build_cartesian_2d(low..high, 0.0..(1.08 * top).min(1.0))?;
+            .build_cartesian_2d(ends(curves()), 0.0..top(curves()))?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
@@ -52,22 +52,47 @@ impl Figure for Spectra<'_> {
             .label_style((FONT, 14))
             .axis_desc_style((FONT, 15))
             .draw()?;
-        for (curve, colour) in curves.iter().zip(COLOURS.into_iter().cycle()) {
-            if let Some(band) = band(curve) {
-                chart.draw_series(std::iter::once(Polygon::new(band, colour.mix(0.22))))?;
-            }
-            if let Some((wavelengths_nm, reflectance)) = &curve.truth {
-                let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
-                // of several sheets each truth is of its sheet's colour
-                let style = if curves.len() == 1 { BLACK.stroke_width(2) } else { colour.stroke_width(1) };
-                chart.draw_series(DashedLineSeries::new(line, 6, 4, style))?;
-            }
-            let style = colour.stroke_width(2);
-            let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
-            chart.draw_series(LineSeries::new(line, style))?;
+        for (curve, colour) in curves().zip(COLOURS.into_iter().cycle()) {
+            // of several sheets each truth is of its sheet's colour
+            let truth = if self.0.len() == 1 { BLACK.stroke_width(2) } else { colour.stroke_width(1) };
+            draw_curve(&mut chart, curve, colour, truth)?;
         }
         Ok(())
     }
+}
+
+/// Reflectance over wavelength.
+type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// One spectrum with its band, and the true one dashed.
+pub(super) fn draw_curve<B: DrawingBackend>(
+    chart: &mut Chart<B>,
+    curve: &Curve,
+    colour: RGBColor,
+    truth: ShapeStyle,
+) -> Drawn<B> {
+    if let Some(band) = band(curve) {
+        chart.draw_series(std::iter::once(Polygon::new(band, colour.mix(0.22))))?;
+    }
+    if let Some((wavelengths_nm, reflectance)) = &curve.truth {
+        let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
+        chart.draw_series(DashedLineSeries::new(line, 6, 4, truth))?;
+    }
+    let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
+    chart.draw_series(LineSeries::new(line, colour.stroke_width(2)))?;
+    Ok(())
+}
+
+/// First and last wavelength of all curves, nm.
+pub(super) fn ends<'a>(curves: impl Iterator<Item = &'a Curve>) -> Range<f64> {
+    let all = curves.flat_map(|curve| curve.wavelengths_nm.iter().copied());
+    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), nm| (a.min(nm), b.max(nm)));
+    low..high
+}
+
+/// Where the axis of reflectance ends that holds all curves.
+pub(super) fn top<'a>(curves: impl Iterator<Item = &'a Curve>) -> f64 {
+    (1.08 * curves.map(highest).fold(0.0, f64::max)).min(1.0)
 }
 
 /// Outline of two standard deviations to either side of a curve.

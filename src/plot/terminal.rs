@@ -22,16 +22,20 @@ const LABEL_COLUMNS: f64 = 8.0;
 /// Steps of wavelength, nm, that labels have.
 const LABEL_STEPS_NM: [f64; 6] = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 
-/// Draws curves on standard error, one below the other, as wide as the terminal.
+/// Draws the first curves of `all` on standard error, one below the other, as wide as the terminal.
 ///
 /// A closed standard error is no reason to stop.
-pub fn draw<'a>(curves: impl Iterator<Item = &'a Curve>) {
+pub fn draw<'a>(curves: impl ExactSizeIterator<Item = &'a Curve>, all: usize) {
     let terminal = Term::stderr();
     let columns = terminal.size_checked().map_or(COLUMNS_OF_NO_TERMINAL, |(_, columns)| columns.into());
     let look =
         Look { glyphs: if is_utf8() { &BRAILLE } else { &ASCII }, colours: console::colors_enabled_stderr() };
+    let shown = curves.len();
     for curve in curves {
         let _ = io::stderr().write_all(text(curve, columns, &look).as_bytes());
+    }
+    if shown < all {
+        let _ = writeln!(io::stderr(), "{shown} of {all} samples");
     }
 }
 

@@ -68,7 +68,7 @@ struct Args {
     /// Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id
     /// up to its last - or _
     #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
-        conflicts_with_all = ["resume", "fit"])]
+        conflicts_with = "fit")]
     join: Option<Join>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
@@ -77,7 +77,8 @@ struct Args {
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
     /// Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single
-    /// sheet what the estimate leaves of its facets; -: spectra on standard error, in characters as wide as the terminal
+    /// sheet what the estimate leaves of its facets; of more than seven samples, up to sixty, a small chart each; -: spectra of the first
+    /// seven on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
@@ -153,7 +154,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         out.record(&record)
     };
     match &args.join {
-        Some(join) => join::run(join, &mut reader, &estimator, done)?,
+        Some(join) => join::run(join, &mut reader, &estimator, kept, done)?,
         None => pipe(&mut reader, &estimator, kept, done)?,
     }
     traces.map(Output::finish).transpose()?;

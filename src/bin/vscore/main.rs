@@ -154,7 +154,7 @@ fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Resul
         Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {
             batch::draw(path, &gallery.batch(all)?)
         }
-        Some(path) => sheets::draw(path, &gallery.sheets(&view)?),
+        Some(path) => sheets::draw(path, &gallery.sheets(&view)?, gallery.seen()),
         None => Ok(()),
     }
 }
