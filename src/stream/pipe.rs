@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
 /// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
-const AHEAD: usize = 16;
+pub(super) const AHEAD: usize = 16;
 
 /// A record takes the place of as many as its line has of these bytes.
 const PLACE_BYTES: usize = 1 << 20;

@@ -3,11 +3,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
-use super::pipe::{Made, Transform, transformed};
-use super::{Reader, Record, Sample};
+use super::pipe::{AHEAD, Made, Transform, transformed};
+use super::{Kept, Reader, Record, Sample};
 use crate::error::Result;
+use crate::parallel::{Item, in_order};
 
 /// A sample with what it needs of the scene above it.
 pub struct Member<C> {
@@ -24,67 +23,116 @@ pub trait Together: Transform {
     /// # Errors
     /// Any: all of them go out with it in their `error` field, and the run goes on.
     fn samples(&self, members: &mut [Member<Self::Context>]) -> Result<Vec<Self::Aside>>;
+
+    /// Whether samples, each of which is [made](Transform::is_made), were taken together by an interrupted run, and no other with them.
+    fn are_made(&self, together: &[Sample]) -> bool;
+}
+
+/// Samples that belong together, each with what an interrupted run made of it.
+struct Group<C> {
+    members: Vec<Member<C>>,
+    kept: Vec<Option<Sample>>,
 }
 
 /// Where a record stands once it is read.
 enum Place {
     Record(Record),
-    /// Which group, and which of its members.
-    Member(usize, usize),
+    /// The next member of that group.
+    Member(usize),
 }
 
 /// Passes all records of `reader` through `transform`, samples of one `group` together, wherever they stand in the stream: all are read
-/// before the first is written. A sample of no group, and one that is alone in its own, passes as through [`super::pipe`].
+/// before the first is written, and each is written as soon as it and those before it are made. A sample of no group, and one that is alone
+/// in its own, passes as through [`super::pipe`]. Groups that `kept` has are not made again.
 ///
 /// # Errors
 /// From the stream itself, from a scene or from `group`; samples carry their own.
 pub fn pipe_together<T: Together + Sync>(
     reader: &mut Reader,
     transform: &T,
+    kept: Kept,
     group: impl Fn(&Sample) -> Result<Option<String>>,
     mut done: impl FnMut(Record, Option<T::Aside>) -> Result<()>,
 ) -> Result<()> {
-    let (mut places, mut groups, mut known) =
-        (Vec::new(), Vec::<Vec<Member<T::Context>>>::new(), HashMap::new());
+    let (places, groups) = read(reader, transform, kept, group)?;
+    let (mut places, mut made) = (places.into_iter().peekable(), Vec::new());
+    let items = groups.into_iter().map(|group| item(transform, group));
+    let mut advance = |made: &mut Vec<std::vec::IntoIter<Made<T::Aside>>>| {
+        let there = made.len();
+        let is_there = |place: &Place| !matches!(place, Place::Member(group) if *group >= there);
+        while let Some(place) = places.next_if(is_there) {
+            let (record, aside) = match place {
+                Place::Record(record) => (record, None),
+                Place::Member(group) => match made[group].next() {
+                    Some(made) => made,
+                    None => continue,
+                },
+            };
+            done(record, aside)?;
+        }
+        Ok(())
+    };
+    in_order(
+        items,
+        AHEAD * rayon::current_num_threads(),
+        |members| of_group(transform, members),
+        |group| {
+            made.push(group?.into_iter());
+            advance(&mut made)
+        },
+    )?;
+    advance(&mut made)
+}
+
+/// All records in their places, and the groups in the order of their first members.
+fn read<T: Together>(
+    reader: &mut Reader,
+    transform: &T,
+    mut kept: Kept,
+    group: impl Fn(&Sample) -> Result<Option<String>>,
+) -> Result<(Vec<Place>, Vec<Group<T::Context>>)> {
+    let (mut places, mut groups, mut known) = (Vec::new(), Vec::<Group<T::Context>>::new(), HashMap::new());
     let mut context = None;
     while let Some(record) = reader.read()? {
-        match record {
-            Record::Scene(mut scene) => {
-                context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
-                places.push(Place::Record(Record::Scene(scene)));
-            }
-            Record::Sample(sample) => {
-                let Some(context) = &context else { return Err(reader.no_scene()) };
-                let name = group(&sample).map_err(|e| reader.at(e))?;
-                let is_whole = matches!(sample.error(), Ok(None));
-                let at = match name.filter(|_| is_whole) {
-                    Some(name) => *known.entry(name).or_insert(groups.len()),
-                    None => groups.len(),
-                };
-                if at == groups.len() {
-                    groups.push(Vec::new());
+        let Record::Sample(sample) = record else {
+            kept.pass()?;
+            places.push(Place::Record(match record {
+                Record::Scene(mut scene) => {
+                    context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
+                    Record::Scene(scene)
                 }
-                places.push(Place::Member(at, groups[at].len()));
-                groups[at].push(Member { context: Arc::clone(context), sample });
-            }
-            other => places.push(Place::Record(other)),
+                other => other,
+            }));
+            continue;
+        };
+        let Some(context) = &context else { return Err(reader.no_scene()) };
+        let name = group(&sample).map_err(|e| reader.at(e))?;
+        let is_whole = matches!(sample.error(), Ok(None));
+        let at = match name.filter(|_| is_whole) {
+            Some(name) => *known.entry(name).or_insert(groups.len()),
+            None => groups.len(),
+        };
+        if at == groups.len() {
+            groups.push(Group { members: Vec::new(), kept: Vec::new() });
         }
+        places.push(Place::Member(at));
+        groups[at].kept.push(kept.sample(|kept| transform.is_made(&sample, kept))?);
+        groups[at].members.push(Member { context: Arc::clone(context), sample });
     }
-    let made: Result<Vec<Vec<Made<T::Aside>>>> =
-        groups.into_par_iter().map(|members| of_group(transform, members)).collect();
-    let mut made: Vec<Vec<Option<Made<T::Aside>>>> =
-        made?.into_iter().map(|group| group.into_iter().map(Some).collect()).collect();
-    for place in places {
-        match place {
-            Place::Record(record) => done(record, None)?,
-            Place::Member(group, member) => {
-                if let Some((record, aside)) = made[group][member].take() {
-                    done(record, aside)?;
-                }
-            }
+    Ok((places, groups))
+}
+
+/// What is made of a group, or what it is to be made of.
+fn item<T: Together>(
+    transform: &T,
+    Group { members, kept }: Group<T::Context>,
+) -> Item<Vec<Member<T::Context>>, Result<Vec<Made<T::Aside>>>> {
+    match kept.into_iter().collect::<Option<Vec<Sample>>>() {
+        Some(kept) if transform.are_made(&kept) => {
+            Item::Known(Ok(kept.into_iter().map(|sample| (Record::Sample(sample), None)).collect()))
         }
+        _ => Item::ToDo(members),
     }
-    Ok(())
 }
 
 fn of_group<T: Together>(transform: &T, mut members: Vec<Member<T::Context>>) -> Result<Vec<Made<T::Aside>>> {

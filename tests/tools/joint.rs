@@ -240,3 +240,37 @@ fn records_name_their_sheet() {
     let ids: Vec<_> = samples.iter().map(|one| one["id"].as_str().unwrap()).collect();
     assert_eq!(ids, ["sheet-45", "sheet-72", "other-45", "sheet-45", "sheet-72"]);
 }
+
+/// However often a run was killed and wherever its file was cut; sheets that are there are not estimated again, but for one of which a
+/// photograph is missing.
+#[test]
+fn joint_estimates_go_on() {
+    let run = Workdir::new().sh(&format!(
+        r#"{GLOSSY}
+        cat sheet-45.ndjson other-45.ndjson sheet-72.ndjson > all.ndjson
+        join() {{ vestimate -q --join "$@" -; }}
+        join < all.ndjson > whole.ndjson
+        for lines in 0 1 2 3 5 6; do
+            {{ head -n $lines whole.ndjson; printf '{{"kind":"s'; }} > out.ndjson
+            join --resume out.ndjson < all.ndjson
+            cmp out.ndjson whole.ndjson
+        done
+        : > out.ndjson
+        for tenths in 2 6 12; do
+            vestimate -q --join --resume out.ndjson - < all.ndjson & tool=$!
+            sleep $((tenths / 10)).$((tenths % 10))
+            kill -9 $tool 2>/dev/null || :
+            wait $tool 2>/dev/null || :
+        done
+        join --resume out.ndjson < all.ndjson
+        cmp out.ndjson whole.ndjson
+        sed 's/"iterations":[0-9]*/"iterations":4711/' whole.ndjson > out.ndjson
+        join --resume out.ndjson < all.ndjson
+        grep -c '"iterations":4711' out.ndjson
+        cat sheet-45.ndjson other-45.ndjson > fewer.ndjson
+        head -n 2 whole.ndjson > out.ndjson
+        join --resume out.ndjson < fewer.ndjson || echo $?"#
+    ));
+    assert_eq!((run.status, run.stdout.as_str()), (0, "3\n1\n"), "{run:?}");
+    assert!(run.stderr.contains("out.ndjson:2: "), "{}", run.stderr);
+}

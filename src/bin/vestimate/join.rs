@@ -7,7 +7,7 @@ use vfold::estimate::Exposure;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::verdict::Doubt;
-use vfold::stream::{Fields, Member, Reader, Record, Sample, Scene, Together, pipe_together};
+use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Scene, Together, pipe_together};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -90,6 +90,7 @@ pub fn run(
     join: &Join,
     reader: &mut Reader,
     estimator: &Estimator,
+    kept: Kept,
     done: impl FnMut(Record, Option<Vec<Fields>>) -> Result<()>,
 ) -> Result<()> {
     let named = RefCell::new(match join {
@@ -100,7 +101,7 @@ pub fn run(
         named.borrow_mut().retain(|id| *id != sample.id());
         join.sheet(sample)
     };
-    pipe_together(reader, estimator, sheet, done)?;
+    pipe_together(reader, estimator, kept, sheet, done)?;
     match named.into_inner().as_slice() {
         [] => Ok(()),
         [id, ..] => Err(Error::usage(
@@ -152,6 +153,16 @@ impl Together for Estimator<'_> {
             self.joined(&one.context, &mut one.sample, estimate, (doubt.as_ref(), &ids))
         };
         estimates.map(joined).collect()
+    }
+
+    fn are_made(&self, together: &[Sample]) -> bool {
+        let ids: Vec<String> = together.iter().map(Sample::id).collect();
+        let joined = |one: &Sample| one.estimate().ok().flatten().map(|estimate| estimate.joined);
+        match together {
+            // what failed alone fails again
+            [one] => joined(one).is_none_or(|others| others.is_empty()),
+            _ => together.iter().all(|one| joined(one).as_ref() == Some(&ids)),
+        }
     }
 }
 
