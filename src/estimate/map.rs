@@ -252,7 +252,8 @@ impl Found {
         });
         Estimate {
             total: None,
-            reflectance: self.point[..bands].to_vec(),
+            // shares of a mean may add up to a rounding more than 1
+            reflectance: self.point[..bands].iter().map(|r| r.min(1.0)).collect(),
             fitted: of_exposure.into_iter().chain(unknowns).collect(),
             findings: Vec::new(),
             skipped: Vec::new(),

@@ -371,9 +371,11 @@ fn mean(maxima: Vec<Maximum>, trace: &[Vec<Iteration>]) -> Option<Vec<Estimate>>
     }
     let best = maxima.into_iter().next()?;
     let spread = DMatrix::from_rows(&rows);
+    // shares may add up to a rounding more than 1
+    let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     let of = |seen: Seen| Estimate {
-        total: Some(albedo.clone()),
-        reflectance: reflectance.iter().copied().collect(),
+        total: Some(within(&albedo)),
+        reflectance: within(reflectance.as_slice()),
         spread: Some(spread.clone()),
         exposure: seen.exposure,
         fitted: seen.fitted,
