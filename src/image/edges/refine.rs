@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::edge::{Edge, Side};
 use crate::image::photograph::Photograph;
-use crate::image::placing::{Lens, Point};
+use crate::image::placing::{Homography, Lens, Point};
 use crate::{Error, Result};
 
 /// Where a panel was seen, and which of its corners it shares.
@@ -61,7 +61,7 @@ const LEAST_SDS: f64 = 3.0;
 /// - `reach_px`: how far from a given side an edge is looked for, above 0.
 ///
 /// # Errors
-/// [`Error::Usage`] if two panels do not have a corner that they share in one place.
+/// [`Error::Corners`] if a panel's corners are none, [`Error::Usage`] if two panels do not have a corner that they share in one place.
 ///
 /// # Example
 /// ```
@@ -79,6 +79,7 @@ const LEAST_SDS: f64 = 3.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
+    panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
     let given: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
     let sides = sides(panels);

@@ -58,6 +58,7 @@ impl Homography {
     /// ```
     pub fn through(lens: Lens, corners: [Point; 4]) -> Result<Self> {
         let ideal = corners.map(|corner| lens.undistort(corner));
+        check_seen(&corners, &ideal)?;
         check_quadrilateral(&ideal)?;
         let to_image = square_to_quadrilateral(&ideal);
         let lie_on_a_line = || bad_corners("the corners lie on a line".to_owned());
@@ -131,8 +132,18 @@ fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix3<f64> {
 /// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a line.
 const DEGENERATE: f64 = 1e-6;
 
+fn check_seen(corners: &[Point; 4], ideal: &[Point; 4]) -> Result<()> {
+    let is_dark = |k: &usize| corners[*k].is_finite() && !ideal[*k].is_finite();
+    (0..4).find(is_dark).map_or(Ok(()), |k| {
+        Err(Error::Corners {
+            problem: format!("corner {} lies where the lens shows nothing", k + 1),
+            remedy: "mark it within the picture, and check --distortion".to_owned(),
+        })
+    })
+}
+
 fn check_quadrilateral(corners: &[Point; 4]) -> Result<()> {
-    if let Some(k) = corners.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+    if let Some(k) = corners.iter().position(|p| !p.is_finite()) {
         return Err(bad_corners(format!("corner {} is not a finite number", k + 1)));
     }
     let size = corners.iter().map(|p| p.distance(corners[0])).fold(0.0, f64::max);

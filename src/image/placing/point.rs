@@ -19,6 +19,10 @@ impl Point {
     pub(in crate::image) fn distance(self, other: Self) -> f64 {
         (self.x - other.x).hypot(self.y - other.y)
     }
+
+    pub(super) fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite()
+    }
 }
 
 /// Twice the signed area of the triangle a, b, c.
