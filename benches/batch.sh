@@ -1,7 +1,7 @@
 #!/bin/bash
 # Batches: samples a second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
 # megapixels; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and batch.csv. Some six
-# minutes on two cores; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools
+# minutes on two cores, and eleven more of real sheets; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools
 # openssh-server zstd) and 6 GB in $TMPDIR.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -88,6 +88,23 @@ for threads in 1 2; do
     eval "measure 'vextract 24 megapixels TIFF of 16 bits' 16 $threads 1 vextract -j $threads $(cat flags-6000x4000) tif-6000x4000/*"
     eval "measure 'vextract 24 megapixels JPEG' 16 $threads 1 vextract -j $threads $(cat flags-6000x4000) jpg-6000x4000/*"
 done
+
+# photographs of real sheets: rough and glossy, by daylight and by lamplight, again and again under other names
+again() { # N FILE
+    awk -v n="$1" 'NR == 1 { print; next } { line[++count] = $0 }
+        END { for (k = 0; k < n; k++) { one = line[k % count + 1]; sub(/"id":"/, "&" k "-", one); print one } }' "$2"
+}
+for light in D65 A; do
+    for chip in orange foliage blue-sky red yellow neutral-8 cyan magenta; do
+        vforward scene.json --reflectance cc24:$chip --illuminant $light --exposure 0.5 --gloss 0.5 --body-roughness-deg 15 \
+            --noise-sd 1e-3 --render $chip-$light.tif --render-size 320x240 >/dev/null 2>&1
+    done
+    eval "vextract $(cat flags-320x240) --illuminant $light ./*-$light.tif" > real-$light.ndjson
+done
+again "$some" real-D65.ndjson > real.ndjson
+measure 'vestimate, photographs of real sheets' "$some" 2 1 vestimate -q -j 2 real.ndjson
+{ again "$((few / 2))" real-D65.ndjson; again "$((few / 2))" real-A.ndjson; } > pairs.ndjson
+measure 'vestimate --join, two photographs of each sheet' "$few" 2 1 vestimate -q -j 2 --join pairs.ndjson
 
 # bytes
 vestimate -q "$few.ndjson" --save facet_rgb=facet_rgb.npy --save reflectance=reflectance.npy --save reflectance_sd=sd.npy > estimates.ndjson

@@ -14,14 +14,14 @@ use ndarray::Array2;
 
 use super::{FoldSetting, Unmodelled};
 use crate::error::Result;
-use crate::estimate::measured::check_shape;
+use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::Told;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::forward::render::{FoldView, Frame, Viewpoint};
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
-use crate::stream::{Colours, Framing, Sample};
+use crate::stream::{Framing, Sample};
 
 /// Sizes at which changes of the fold are known: more degrees between the panels, radii of the crease, degrees of bow.
 const ANGLES_DEG: [f64; 2] = [-2.0, 2.0];
@@ -37,8 +37,7 @@ const SIZE: [u32; 2] = [640, 480];
 
 /// What of a photograph its parts are made of.
 struct Picture<'a> {
-    rgb: &'a Colours,
-    sd: Option<&'a Colours>,
+    measured: &'a Measured<'a>,
     framing: Framing,
     exposure: Option<f64>,
     /// Whether a chart or a card told the exposure.
@@ -66,33 +65,32 @@ impl<'a> PhotographedFold<'a> {
         Self { left_out: Some(sheet.to_owned()), ..self }
     }
 
-    /// The parts of a photograph, or why there are none.
+    /// The parts of a photograph of which facets were measured, or why there are none.
     ///
     /// # Errors
     /// [`Error::Field`] if facets or corners do not fit the scene.
     pub fn parts(
         &self,
         sample: &Sample,
+        measured: &Measured,
         exposure: Option<f64>,
     ) -> Result<std::result::Result<Parts, Unmodelled>> {
         if let Some(why) = self.setting.unmodelled()? {
             return Ok(Err(why));
         }
         let Some(framing) = sample.framing()? else { return Ok(Err(Unmodelled::NoPose)) };
-        let (rgb, sd) = (sample.facet_rgb()?, sample.facet_sd()?);
         let by_chart = exposure.is_some() && sample.fields.has("calibration");
-        self.of_picture(&Picture { rgb: &rgb, sd: sd.as_ref(), framing, exposure, by_chart })
+        self.of_picture(&Picture { measured, framing, exposure, by_chart })
     }
 
-    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own: facets as the model has them, and their
-    /// standard deviations; or why there are none.
+    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own, its facets as the model has them; or why there
+    /// are none.
     ///
     /// # Errors
     /// [`Error::Field`] if facets do not fit the scene, [`Error::Usage`] if the fold cannot be seen.
     pub fn planned(
         &self,
-        rgb: &Colours,
-        sd: &Colours,
+        measured: &Measured,
         exposure: Option<f64>,
     ) -> Result<std::result::Result<Parts, Unmodelled>> {
         if let Some(why) = self.setting.unmodelled()? {
@@ -104,19 +102,19 @@ impl<'a> PhotographedFold<'a> {
             panels[panel] = Some(corners.map(|corner| [corner.x, corner.y]));
         }
         let framing = Framing { panels, size: SIZE };
-        self.of_picture(&Picture { rgb, sd: Some(sd), framing, exposure, by_chart: false })
+        self.of_picture(&Picture { measured, framing, exposure, by_chart: false })
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
         let (setting, fold) = (self.setting, self.setting.fold());
-        let Picture { rgb, sd, exposure, .. } = *picture;
+        let Picture { measured, exposure, .. } = *picture;
         let Some(pose) = Pose::of(&picture.framing, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
         let (light, facets) = (setting.light()?, fold.facets());
         let eye = eye::of(setting)?;
         let shape = [2 * facets.len(), eye.sensitivities.nrows()];
-        check_shape("facet_rgb", rgb, shape)?;
-        sd.map_or(Ok(()), |sd| check_shape("facet_sd", sd, shape))?;
-        let bins = Bins::new(fold, rgb, sd, &pose);
+        check_shape("facet_rgb", measured.rgb, shape)?;
+        check_shape("facet_sd", measured.sd, shape)?;
+        let bins = Bins::new(fold, measured, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
         let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);

@@ -241,6 +241,23 @@ fn records_name_their_sheet() {
     assert_eq!(ids, ["sheet-45", "sheet-72", "other-45", "sheet-45", "sheet-72"]);
 }
 
+/// Error bars are those of the noise, and of the error of the model, that were given.
+#[test]
+fn noise_that_was_given_counts() {
+    let run = Workdir::new().sh(&format!(
+        "{GLOSSY}
+        cat sheet-45.ndjson sheet-72.ndjson > both.ndjson
+        for flags in '' '--noise-sd 0.03' '--model-error 0.3'; do vestimate -q --join $flags both.ndjson; done"
+    ));
+    let samples = samples(&run);
+    let mean_sd = |n: usize| {
+        let sd = numbers(&samples[2 * n]["estimate"]["reflectance_sd"]);
+        sd.iter().sum::<f64>() / sd.len() as f64
+    };
+    let [usual, noisy, doubted] = [0, 1, 2].map(mean_sd);
+    assert!(noisy > 1.1 * usual && doubted > 1.1 * usual, "{usual} {noisy} {doubted}");
+}
+
 /// However often a run was killed and wherever its file was cut; sheets that are there are not estimated again, but for one of which a
 /// photograph is missing.
 #[test]

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
@@ -122,7 +123,9 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let known = measured_name(path);
     let (scene, sample) = material(path);
     let setting = FoldSetting::of(&scene).unwrap();
-    let parts = PhotographedFold::of(&setting).leaving_out(known).parts(&sample, exposure).unwrap().unwrap();
+    let [rgb, sd] = [sample.facet_rgb().unwrap(), sample.facet_sd().unwrap().unwrap()];
+    let fold = PhotographedFold::of(&setting).leaving_out(known);
+    let parts = fold.parts(&sample, &Measured { rgb: &rgb, sd: &sd }, exposure).unwrap().unwrap();
     let grid = scene.grid().unwrap();
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
     let estimate = photograph::estimate(&[parts], &prior, ModelError::OF_PHOTOGRAPHS).unwrap();

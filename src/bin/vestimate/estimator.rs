@@ -308,7 +308,7 @@ impl<'a> Estimator<'a> {
     }
 
     /// What facets are worth.
-    fn noise(&self, sample: &Sample) -> Result<Noise> {
+    pub fn noise(&self, sample: &Sample) -> Result<Noise> {
         let sd = match self.args.noise_sd {
             NoiseSd::All(sd) => Some(sd),
             NoiseSd::Auto => None,

@@ -15,6 +15,7 @@ use vfold::{Error, Result};
 
 use super::context::{Believed, Context};
 use super::estimator::Estimator;
+use super::said::Deviations;
 
 /// Misfit of a fold as it was told up to which another angle is tried at once: what sets real sheets apart from ideal ones mostly makes more.
 const NEAR: f64 = 8.0;
@@ -74,7 +75,7 @@ impl Estimator<'_> {
         if (misfit < EXPLAINED && stands_in.is_none()) || given.exposure == Exposure::Sum {
             return Ok(told());
         }
-        match self.parts(record, sample)? {
+        match self.parts(record, sample, given.measured)? {
             Ok(parts) => {
                 let told_deg = parts.told.angle_deg;
                 let found = photograph::estimate(&[parts], prior, ModelError::OF_PHOTOGRAPHS)?;
@@ -118,12 +119,21 @@ impl Estimator<'_> {
             Error::field("id", problem)
         };
         let Some(record) = &context.record else { return Err(alone("the scene is no fold".to_owned())) };
-        self.parts(record, sample)?.map_err(|why| alone(why.to_string()))
+        let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
+        let deviations = Deviations::of(&noise, context.believed(sample).model.facets(), &rgb)?;
+        let measured = Measured { rgb: &rgb, sd: &deviations.sd };
+        self.parts(record, sample, &measured)?.map_err(|why| alone(why.to_string()))
     }
 
     /// What a photograph of the scene of `record` is made of, or why that is not modelled.
-    fn parts(&self, record: &Scene, sample: &Sample) -> Result<std::result::Result<Parts, Unmodelled>> {
-        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, self.exposure_of(sample)?.known())
+    fn parts(
+        &self,
+        record: &Scene,
+        sample: &Sample,
+        measured: &Measured,
+    ) -> Result<std::result::Result<Parts, Unmodelled>> {
+        let exposure = self.exposure_of(sample)?.known();
+        PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, measured, exposure)
     }
 }
 

@@ -3,6 +3,7 @@
 use clap::Args;
 use rayon::prelude::*;
 use vfold::cli::{Common, OpticsArgs};
+use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
@@ -122,8 +123,9 @@ impl PlanArgs {
             let fold = FoldSetting::of(&scene)?;
             let photographed = PhotographedFold::of(&fold);
             let parts = |rgb: &Colours| {
-                let sd = deviations(rgb, |_, _| noise_sd, 0.0);
-                photographed.planned(rgb, &sd, exposure.known())?.map_err(|why| {
+                let sd = deviations(rgb, |_, _| noise_sd, estimator.args().model_error.unwrap_or(0.0));
+                let measured = Measured { rgb, sd: &sd };
+                photographed.planned(&measured, exposure.known())?.map_err(|why| {
                     Error::field("geometry", format!("{why}; real sheets are planned of other folds alone"))
                 })
             };

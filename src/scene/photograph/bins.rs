@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 use ndarray::Array2;
 
 use super::framing::Pose;
+use crate::estimate::measured::Measured;
 use crate::estimate::photograph::parts::{Place, Radiance};
 use crate::geometry::Fold;
-use crate::stream::Colours;
 
 /// Most rows and columns of a panel.
 const ROWS: usize = 10;
@@ -23,7 +23,7 @@ pub struct Bins {
 
 impl Bins {
     /// Those of the facets that were measured.
-    pub fn new(fold: &Fold, rgb: &Colours, sd: Option<&Colours>, pose: &Pose) -> Self {
+    pub fn new(fold: &Fold, Measured { rgb, sd }: &Measured, pose: &Pose) -> Self {
         let grid = fold.facets();
         let (rows, columns) = (grid.rows.min(ROWS), grid.cols.min(COLUMNS));
         let mut members = vec![Vec::new(); 2 * rows * columns];
@@ -62,9 +62,7 @@ impl Bins {
         let places = members.iter().map(mean_place).collect();
         let channels = rgb.iter().flatten().next().map_or(0, Vec::len);
         let of = |facet: usize, channel: usize| rgb[facet].as_ref().map_or(0.0, |values| values[channel]);
-        let noise = |facet: usize, channel: usize| {
-            sd.and_then(|sd| sd.get(facet)?.as_ref()?.get(channel).copied()).unwrap_or(0.0)
-        };
+        let noise = |facet: usize, channel: usize| sd[facet].as_ref().map_or(0.0, |sd| sd[channel]);
         let pooled = |facets: &Vec<usize>| {
             let mean = |c| facets.iter().map(|facet| of(*facet, c)).sum::<f64>() / facets.len() as f64;
             (0..channels).map(mean).collect()

@@ -1,6 +1,8 @@
 //! Photographs of real sheets: what an ideal fold leaves out is estimated with the spectrum.
 
 use vfold::Result;
+use vfold::estimate::measured::Measured;
+use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{Parts, estimate};
 use vfold::estimate::prior::Prior;
@@ -35,7 +37,10 @@ fn parts_of(stream: &str) -> Option<(Parts, WavelengthGrid)> {
 
 fn parts(scene: &Scene, sample: &Sample) -> Result<Option<(Parts, WavelengthGrid)>> {
     let setting = FoldSetting::of(scene)?;
-    let parts = PhotographedFold::of(&setting).parts(sample, sample.exposure()?)?;
+    let rgb = sample.facet_rgb()?;
+    let sd = sample.facet_sd()?.unwrap_or_else(|| deviations(&rgb, |_, _| 1e-3, 0.0));
+    let measured = Measured { rgb: &rgb, sd: &sd };
+    let parts = PhotographedFold::of(&setting).parts(sample, &measured, sample.exposure()?)?;
     Ok(parts.ok().zip(Some(scene.grid()?)))
 }
 
