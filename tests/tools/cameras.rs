@@ -89,6 +89,8 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     let warning = "warning: nobody measured the curves of NIKON CORPORATION NIKON D5200: nikon-";
     assert!(run.stderr.contains(warning) && run.stderr.contains("--save-camera"), "{}", run.stderr);
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    let judged = folder.sh("sh extract --quiet | vestimate -q --prior cc24 | tail -n 1");
+    assert!(judged.stdout.contains("another camera's stand in for them"), "{judged:?}");
     let run = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract");
     assert!(run.stderr.contains("the most usual of all makers"), "{}", run.stderr);
     let run = folder.sh("sh picture '' ''; sh extract");

@@ -20,6 +20,7 @@ mod ill_posed;
 mod install;
 mod joint;
 mod measure;
+mod not_modelled;
 mod photographs;
 mod picker;
 mod plots;

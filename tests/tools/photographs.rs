@@ -121,8 +121,9 @@ fn by_chart(sidecar: &Value, photo: &Path, shift_px: f64, flags: &str) -> (f64, 
 cat > truth.csv <<END
 {truth}END
 vkernel --angle-deg 45 |
-vextract "{photo}" --camera canon-5d-mark-ii {flags} --panel0 "{panel0}" --panel1 "{panel1}" --chart "{chart}" |
+vextract -v "{photo}" --camera canon-5d-mark-ii {flags} --panel0 "{panel0}" --panel1 "{panel1}" --chart "{chart}" 2>said |
 vestimate -q | vscore --truth truth.csv
+grep -q "exposure .* ± .*, residuals .* % (most .* % in " said
 "#,
         truth = csv(sidecar, "reflectance"),
         photo = photo.display(),
