@@ -1,8 +1,8 @@
 #!/bin/bash
 # Batches: samples a second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
-# megapixels; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and batch.csv. Some six
-# minutes on two cores, and eleven more of real sheets; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools
-# openssh-server zstd) and 6 GB in $TMPDIR.
+# megapixels and of real sheets; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and
+# batch.csv. Some 17 minutes on two cores, most of it for N/10 real sheets; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get
+# install time parallel openimageio-tools openssh-server zstd) and 6 GB in $TMPDIR.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 cargo build --quiet --release --bins
@@ -102,9 +102,9 @@ for light in D65 A; do
     eval "vextract $(cat flags-320x240) --illuminant $light ./*-$light.tif" > real-$light.ndjson
 done
 again "$some" real-D65.ndjson > real.ndjson
-measure 'vestimate, photographs of real sheets' "$some" 2 1 vestimate -q -j 2 real.ndjson
+measure 'vestimate of photographs of real sheets' "$some" 2 1 vestimate -q -j 2 real.ndjson
 { again "$((few / 2))" real-D65.ndjson; again "$((few / 2))" real-A.ndjson; } > pairs.ndjson
-measure 'vestimate --join, two photographs of each sheet' "$few" 2 1 vestimate -q -j 2 --join pairs.ndjson
+measure 'vestimate --join of two photographs of each sheet' "$few" 2 1 vestimate -q -j 2 --join pairs.ndjson
 
 # bytes
 vestimate -q "$few.ndjson" --save facet_rgb=facet_rgb.npy --save reflectance=reflectance.npy --save reflectance_sd=sd.npy > estimates.ndjson
