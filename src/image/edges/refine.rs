@@ -61,7 +61,7 @@ const LEAST_SDS: f64 = 3.0;
 /// - `reach_px`: how far from a given side an edge is looked for, above 0.
 ///
 /// # Errors
-/// [`Error::Corners`] if a panel's corners are none, [`Error::Usage`] if two panels do not have a corner that they share in one place.
+/// [`Error::Corners`] for corners that no panel has, [`Error::Usage`] if two panels do not have a corner that they share in one place.
 ///
 /// # Example
 /// ```
