@@ -41,6 +41,15 @@ enum Place {
     Member(usize),
 }
 
+/// All records in their places, and the groups in the order of their first members.
+struct Stream<C> {
+    places: Vec<Place>,
+    groups: Vec<Group<C>>,
+}
+
+/// What is made of a group, or what it is to be made of.
+type Task<T> = Item<Vec<Member<<T as Transform>::Context>>, Result<Vec<Made<<T as Transform>::Aside>>>>;
+
 /// Passes all records of `reader` through `transform`, samples of one `group` together, wherever they stand in the stream: all are read
 /// before the first is written, and each is written as soon as it and those before it are made. A sample of no group, and one that is alone
 /// in its own, passes as through [`super::pipe`]. Groups that `kept` has are not made again.
@@ -54,9 +63,9 @@ pub fn pipe_together<T: Together + Sync>(
     group: impl Fn(&Sample) -> Result<Option<String>>,
     mut done: impl FnMut(Record, Option<T::Aside>) -> Result<()>,
 ) -> Result<()> {
-    let (places, groups) = read(reader, transform, kept, group)?;
+    let Stream { places, groups } = read(reader, transform, kept, group)?;
     let (mut places, mut made) = (places.into_iter().peekable(), Vec::new());
-    let items = groups.into_iter().map(|group| item(transform, group));
+    let tasks = groups.into_iter().map(|group| task(transform, group));
     let mut advance = |made: &mut Vec<std::vec::IntoIter<Made<T::Aside>>>| {
         let there = made.len();
         let is_there = |place: &Place| !matches!(place, Place::Member(group) if *group >= there);
@@ -73,7 +82,7 @@ pub fn pipe_together<T: Together + Sync>(
         Ok(())
     };
     in_order(
-        items,
+        tasks,
         AHEAD * rayon::current_num_threads(),
         |members| of_group(transform, members),
         |group| {
@@ -84,13 +93,12 @@ pub fn pipe_together<T: Together + Sync>(
     advance(&mut made)
 }
 
-/// All records in their places, and the groups in the order of their first members.
 fn read<T: Together>(
     reader: &mut Reader,
     transform: &T,
     mut kept: Kept,
     group: impl Fn(&Sample) -> Result<Option<String>>,
-) -> Result<(Vec<Place>, Vec<Group<T::Context>>)> {
+) -> Result<Stream<T::Context>> {
     let (mut places, mut groups, mut known) = (Vec::new(), Vec::<Group<T::Context>>::new(), HashMap::new());
     let mut context = None;
     while let Some(record) = reader.read()? {
@@ -119,14 +127,10 @@ fn read<T: Together>(
         groups[at].kept.push(kept.sample(|kept| transform.is_made(&sample, kept))?);
         groups[at].members.push(Member { context: Arc::clone(context), sample });
     }
-    Ok((places, groups))
+    Ok(Stream { places, groups })
 }
 
-/// What is made of a group, or what it is to be made of.
-fn item<T: Together>(
-    transform: &T,
-    Group { members, kept }: Group<T::Context>,
-) -> Item<Vec<Member<T::Context>>, Result<Vec<Made<T::Aside>>>> {
+fn task<T: Together>(transform: &T, Group { members, kept }: Group<T::Context>) -> Task<T> {
     match kept.into_iter().collect::<Option<Vec<Sample>>>() {
         Some(kept) if transform.are_made(&kept) => {
             Item::Known(Ok(kept.into_iter().map(|sample| (Record::Sample(sample), None)).collect()))
