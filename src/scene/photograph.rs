@@ -68,7 +68,7 @@ impl<'a> PhotographedFold<'a> {
     /// The parts of a photograph of which facets were measured, or why there are none.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets or corners do not fit the scene.
+    /// [`crate::Error::Field`] if facets or corners do not fit the scene.
     pub fn parts(
         &self,
         sample: &Sample,
@@ -87,7 +87,7 @@ impl<'a> PhotographedFold<'a> {
     /// are none.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets do not fit the scene, [`Error::Usage`] if the fold cannot be seen.
+    /// [`crate::Error::Field`] if facets do not fit the scene, [`crate::Error::Usage`] if the fold cannot be seen.
     pub fn planned(
         &self,
         measured: &Measured,
