@@ -16,8 +16,8 @@ fn assert_said(run: &Ended, words: &[&str]) {
 #[test]
 fn a_panel_that_is_shorter_is_said() {
     let folder = Workdir::new();
-    let run = folder.sh(&format!("{SHORT}\nvestimate short.ndjson | grep -c '\"verdict\":\"good\"'"));
-    assert_eq!(run.stdout, "0\n");
+    let run = folder.sh(&format!("{SHORT}\nvestimate short.ndjson | grep -o '\"level\":\"[a-z]*\"'"));
+    assert_eq!(run.stdout, "\"level\":\"wrong\"\n");
     assert_said(
         &run,
         &[

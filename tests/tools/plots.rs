@@ -91,6 +91,29 @@ fn facets_that_were_not_measured_are_grey() {
     assert!(run.stdout.contains("not measured") && run.stdout.trim_end().ends_with("\n0"), "{run:?}");
 }
 
+/// Each has its name and its true spectrum, and what is not shown is counted.
+#[test]
+fn more_estimates_than_one_drawing_holds_have_a_chart_each() {
+    let folder = Workdir::new();
+    let of = |set: &str| {
+        format!(
+            "vkernel --facets 2x2 | vforward --reflectance {set} | vestimate -q --plot drawn.svg >/dev/null; cat drawn.svg"
+        )
+    };
+    let chart = words(&folder.sh(&of("cc24")).stdout);
+    assert_eq!(chart.iter().filter(|word| word.starts_with("cc24:")).count(), 24, "{chart:?}");
+    assert!(
+        chart[0].starts_with("reflectance over wavelength in nm") && chart[0].ends_with("dashed: true"),
+        "{chart:?}"
+    );
+    let chips = words(&folder.sh(&of("munsell")).stdout);
+    assert!(chips[0].starts_with("60 of 1269 samples; "), "{:?}", chips[0]);
+    assert_eq!(chips.iter().filter(|word| word.starts_with("munsell:")).count(), 60);
+    let shown =
+        folder.sh("vkernel --facets 2x2 | vforward --reflectance cc24 | vestimate -q --plot - >/dev/null");
+    assert!(shown.stderr.ends_with("\n7 of 24 samples\n"), "{}", shown.stderr);
+}
+
 #[test]
 fn many_samples_are_drawn_as_a_batch() {
     let folder = Workdir::new();
