@@ -27,7 +27,7 @@ impl Accordion {
     /// then by column along y. Valleys open towards z; a bent panel is one flat strip per row.
     ///
     /// # Errors
-    /// No crease or too many, an angle out of its range, or too many facets.
+    /// No crease or too many, an angle out of its range, too many facets, or panels that pass through each other.
     ///
     /// # Example
     /// ```
@@ -40,10 +40,19 @@ impl Accordion {
     /// ```
     pub fn shape(&self) -> Result<Shape> {
         self.check()?;
+        let profiles = self.profiles();
+        if let Some([one, other]) = crossing(&profiles) {
+            let problem = format!("panels {one} and {other} pass through each other");
+            return Err(Error::usage(
+                "--folds",
+                problem,
+                "open --angle-deg or --ridge-deg, or bend the panels less",
+            ));
+        }
         let FacetGrid { rows, cols } = self.valley.facets();
         let width = self.valley.width();
         let (mut vertices, mut faces, mut groups) = (Vec::new(), Vec::new(), Vec::new());
-        for (panel, profile) in self.profiles().iter().enumerate() {
+        for (panel, profile) in profiles.iter().enumerate() {
             let (first, first_face) = (vertices.len(), faces.len());
             for [x, z] in profile {
                 let y = |col: usize| width * (col as f64 / cols as f64 - 0.5);
@@ -121,6 +130,39 @@ impl Accordion {
     }
 }
 
+/// The first two panels that pass through each other, if any do. To touch is allowed.
+fn crossing(profiles: &[Vec<[f64; 2]>]) -> Option<[usize; 2]> {
+    let extents: Vec<[[f64; 2]; 2]> = profiles.iter().map(|profile| extent(profile)).collect();
+    let apart = |a: usize, b: usize| {
+        (0..2).any(|axis| {
+            extents[a][1][axis] < extents[b][0][axis] || extents[b][1][axis] < extents[a][0][axis]
+        })
+    };
+    let cross = |a: usize, b: usize| {
+        profiles[a].windows(2).any(|one| profiles[b].windows(2).any(|other| strips_cross(one, other)))
+    };
+    (0..profiles.len()).flat_map(|b| (0..b).map(move |a| [a, b])).find(|&[a, b]| !apart(a, b) && cross(a, b))
+}
+
+/// Least and greatest coordinates.
+fn extent(profile: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let axis = |axis: usize| profile.iter().map(move |point| point[axis]);
+    [
+        [0, 1].map(|a| axis(a).fold(f64::INFINITY, f64::min)),
+        [0, 1].map(|a| axis(a).fold(f64::NEG_INFINITY, f64::max)),
+    ]
+}
+
+/// Whether each strip has its two ends on different sides of the other.
+fn strips_cross(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+    let side = |line: &[[f64; 2]], point: [f64; 2]| {
+        let [along, to] = [line[1], point].map(|end| [end[0] - line[0][0], end[1] - line[0][1]]);
+        along[0] * to[1] - along[1] * to[0]
+    };
+    let parted = |line: &[[f64; 2]], ends: &[[f64; 2]]| side(line, ends[0]) * side(line, ends[1]) < 0.0;
+    parted(one, other) && parted(other, one)
+}
+
 /// Turns the profile so that both its ends, the origin and `end`, lie equally high, and puts the middle between them and the
 /// lowest point at 0.
 fn level(profiles: &mut [Vec<[f64; 2]>], end: [f64; 2]) {
@@ -164,6 +206,20 @@ mod tests {
                 assert!((valley[0][0][0] - valley[1][0][0]).abs() < 1e-15);
             }
         }
+    }
+
+    #[test]
+    fn panels_do_not_pass_through_each_other() {
+        let valley = Fold::new(20.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();
+        let shape = |creases, ridge_deg, bow_deg| Accordion { valley, creases, ridge_deg, bow_deg }.shape();
+        // A trough closes where both panels lean over by half the angle more than they opened by.
+        assert!(shape(1, 90.0, -19.0).is_ok());
+        assert!(shape(1, 90.0, -21.0).unwrap_err().to_string().contains("panels 0 and 1 pass through"));
+        // Under a ridge it is the open book that closes.
+        assert!(shape(2, 30.0, 29.0).is_ok());
+        assert!(shape(2, 30.0, 31.0).unwrap_err().to_string().contains("and 2 pass through"));
+        assert!(shape(40, 20.0, 0.0).is_ok());
+        assert!(shape(40, 40.0, 0.0).unwrap_err().to_string().contains("pass through"));
     }
 
     /// The pages of a book leave the gutter steeply and then flatten out: both ends lie lower than those of a flat V.

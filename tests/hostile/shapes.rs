@@ -74,6 +74,7 @@ fn shapes() {
             case("vkernel --folds 3 --ridge-deg 400", 2, &["--ridge-deg"]),
             case("vkernel --folds 1000000", 2, &["--folds", "1 to 1000"]),
             case("vkernel --bow-deg 1e9", 2, &["--bow-deg"]),
+            case("vkernel --angle-deg 20 --bow-deg -25", 2, &["panels 0 and 1", "--angle-deg"]),
         ],
     );
 }
