@@ -1,7 +1,7 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Mean RMSE on sets that the prior was not made of, with the Munsell chips alone and with all kinds: benches/results/priors.md.
 # Further sets are CSV files given as arguments.
-set -eu
+set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
 cargo build --quiet --release --bins

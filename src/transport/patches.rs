@@ -5,9 +5,11 @@
 //! depends on the row and on the columns' differences.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 use ndarray::Array2;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::frame::Frame;
 use super::pooling::Pooling;
@@ -38,12 +40,12 @@ const NODES: usize = 7;
 /// The patches of both panels, with all directions between them.
 pub struct Patches {
     panels: [Panel; 2],
-    /// Angles between the directions of each row of patches, each pair once.
+    /// Angles of the distinct [`PAIRS`] of directions, row by row of patches.
     between: Vec<Angles>,
     /// The same of panel 1 where it is another.
     between_1: Option<Vec<Angles>>,
-    /// Which of these is between each direction and each: row by row of patches, from which, towards which.
-    places: Vec<usize>,
+    /// Whether both panels send the same: the sun stands on the plane that halves a symmetric fold.
+    alike: bool,
     pooling: Pooling,
 }
 
@@ -78,7 +80,7 @@ impl Patches {
             panels: [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p])),
             between: pairs(&to),
             between_1: to_1.as_ref().map(|to| pairs(to)),
-            places: places(),
+            alike: fold.is_symmetric() && frames[0].sun == frames[1].sun,
             pooling: Pooling::straight(fold, &middles, &columns),
         }
     }
@@ -87,28 +89,8 @@ impl Patches {
     /// [`shares`] interpolates.
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
-        let albedos = nodes();
-        let sun = self.panels.each_ref().map(|panel| Parts::of(shape, &panel.from_sun));
-        let eye = self.panels.each_ref().map(|panel| Parts::of(shape, &panel.to_eye));
-        let all = |pairs: &Vec<Angles>| Parts::of(shape, pairs).at(&self.places);
-        let (between, between_1) = (all(&self.between), self.between_1.as_ref().map(all));
-        let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
-        for (n, albedo) in albedos.into_iter().enumerate() {
-            let r = shape.reflectance_45_0(albedo) as f32;
-            let matrix = between.mixed(r);
-            let matrix_1 = between_1.as_ref().map(|between| between.mixed(r));
-            let matrices = [&matrix, matrix_1.as_ref().unwrap_or(&matrix)];
-            let sent = self.sent([0, 1].map(|p| self.panels[p].direct(&sun[p].mixed(r))), matrices);
-            for p in 0..2 {
-                let (panel, eye) = (&self.panels[p], eye[p].mixed(r));
-                for i in 0..COUNT {
-                    let from = (0..COUNT).map(|j| panel.factors[i * COUNT + j] * sent[1 - p][j * COUNT + i]);
-                    radiances[[p * COUNT + i, n]] =
-                        from.zip(&eye[i * COUNT..]).map(|(light, eye)| f64::from(light * eye)).sum();
-                }
-            }
-        }
-        radiances
+        // the widest vectors that the processor has: each of their numbers is summed for itself, so that sums are the same with all
+        Arch::new().dispatch(Radiances { patches: self, shape })
     }
 
     /// Means over the facets.
@@ -118,12 +100,18 @@ impl Patches {
     }
 
     /// Light sent by each patch of either panel to each of the other after two reflections and more.
-    fn sent(&self, direct: [Vec<f32>; 2], matrices: [&Vec<f32>; 2]) -> [Vec<f32>; 2] {
+    #[inline(always)]
+    fn sent(&self, direct: Vec<Vec<f32>>, matrices: [&Vec<f32>; 2]) -> Vec<Vec<f32>> {
         let first = total(&direct);
-        let (mut light, mut before, mut ratio) = (direct, first, 0.0);
-        let mut sent = [vec![0.0; COUNT * COUNT], vec![0.0; COUNT * COUNT]];
+        let (mut before, mut ratio) = (first, 0.0);
+        let mut sent = vec![vec![0.0; COUNT * COUNT]; direct.len()];
+        let mut light = direct;
         for _ in 1..REFLECTIONS {
-            light = [0, 1].map(|p| self.panels[p].reflected(&light[1 - p], matrices[p]));
+            let mut next = Vec::with_capacity(light.len());
+            for ((panel, matrix), light) in self.panels.iter().zip(matrices).zip(light.iter().rev()) {
+                next.push(panel.reflected(light, matrix));
+            }
+            light = next;
             let now = total(&light);
             add(&mut sent, &light, 1.0);
             let last = std::mem::replace(&mut ratio, now / before.max(f64::MIN_POSITIVE));
@@ -142,8 +130,61 @@ impl Patches {
     }
 }
 
+/// The computation of [`Patches::radiances`].
+struct Radiances<'a> {
+    patches: &'a Patches,
+    shape: &'a Shape,
+}
+
+impl WithSimd for Radiances<'_> {
+    type Output = Array2<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Array2<f64> {
+        let Self { patches, shape } = self;
+        let panels = &patches.panels;
+        // what panels send, of one if both send the same
+        let sending = &panels[..if patches.alike { 1 } else { 2 }];
+        let sun: Vec<Parts> = sending.iter().map(|panel| Parts::of(shape, &panel.from_sun)).collect();
+        let eye = panels.each_ref().map(|panel| Parts::of(shape, &panel.to_eye));
+        let all = |between: &Vec<Angles>| Parts::of(shape, between).of_pairs();
+        let between = [Some(&patches.between), patches.between_1.as_ref()].map(|between| between.map(all));
+        let buffer = |parts: &Parts| vec![0.0; parts.body.len()];
+        let mut matrices: Vec<Vec<f32>> = between.iter().flatten().map(buffer).collect();
+        let (mut from_sun, mut to_eye) = (buffer(&sun[0]), buffer(&eye[0]));
+        let albedos = nodes();
+        let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
+        for (n, albedo) in albedos.into_iter().enumerate() {
+            let r = shape.reflectance_45_0(albedo) as f32;
+            for (between, matrix) in between.iter().flatten().zip(&mut matrices) {
+                between.mix(r, matrix);
+            }
+            let mut direct = Vec::with_capacity(2);
+            for (panel, sun) in sending.iter().zip(&sun) {
+                sun.mix(r, &mut from_sun);
+                direct.push(panel.direct(&from_sun));
+            }
+            let sent = patches.sent(direct, [&matrices[0], &matrices[matrices.len() - 1]]);
+            for p in 0..2 {
+                let (panel, sent) = (&panels[p], &sent[(1 - p).min(sent.len() - 1)]);
+                eye[p].mix(r, &mut to_eye);
+                for i in 0..COUNT {
+                    let mut sum = 0.0;
+                    for j in 0..COUNT {
+                        let arriving = panel.factors[i * COUNT + j] * sent[j * COUNT + i];
+                        sum += f64::from(arriving * to_eye[i * COUNT + j]);
+                    }
+                    radiances[[p * COUNT + i, n]] = sum;
+                }
+            }
+        }
+        radiances
+    }
+}
+
 /// The sum of all light, none of it taken for negative.
-fn total(light: &[Vec<f32>; 2]) -> f64 {
+#[inline(always)]
+fn total(light: &[Vec<f32>]) -> f64 {
     let mut sums = [0.0; COUNT];
     for values in light.iter().flat_map(|panel| panel.as_chunks::<COUNT>().0) {
         sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value.abs());
@@ -158,15 +199,24 @@ impl Parts {
         Self { body, surface }
     }
 
-    /// Those at these places of the list.
-    fn at(&self, places: &[usize]) -> Self {
-        let at = |list: &[f32]| places.iter().map(|place| list[*place]).collect();
-        Self { body: at(&self.body), surface: at(&self.surface) }
+    /// Those of all directions of each row of patches to all, from those of the distinct pairs.
+    fn of_pairs(&self) -> Self {
+        let all = |distinct: &[f32]| {
+            let mut all = Vec::with_capacity(ROWS * PAIRS.places.len());
+            for row in distinct.chunks_exact(PAIRS.distinct.len()) {
+                all.extend(PAIRS.places.iter().map(|place| row[*place]));
+            }
+            all
+        };
+        Self { body: all(&self.body), surface: all(&self.surface) }
     }
 
     /// The reflection in which the body counts `r`.
-    fn mixed(&self, r: f32) -> Vec<f32> {
-        self.body.iter().zip(&self.surface).map(|(body, surface)| r * body + surface).collect()
+    #[inline(always)]
+    fn mix(&self, r: f32, mixed: &mut [f32]) {
+        for ((mixed, body), surface) in mixed.iter_mut().zip(&self.body).zip(&self.surface) {
+            *mixed = r * body + surface;
+        }
     }
 }
 
@@ -186,7 +236,8 @@ pub fn shares(albedos: &[f64]) -> Array2<f64> {
     shares.reversed_axes()
 }
 
-fn add(sums: &mut [Vec<f32>; 2], light: &[Vec<f32>; 2], weight: f32) {
+#[inline(always)]
+fn add(sums: &mut [Vec<f32>], light: &[Vec<f32>], weight: f32) {
     for (sum, value) in sums.iter_mut().flatten().zip(light.iter().flatten()) {
         *sum += weight * value;
     }
@@ -219,28 +270,44 @@ impl Panel {
     }
 
     /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
+    #[inline(always)]
     fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
-        let patches = (0..COUNT).flat_map(|i| (0..COUNT).map(move |k| (i, k)));
         let lit = (PI * self.lit) as f32;
-        patches.map(|(i, k)| lit * from_sun[i / COLS * DIRECTIONS + direction(i, k)]).collect()
+        let mut direct = Vec::with_capacity(COUNT * COUNT);
+        for i in 0..COUNT {
+            // towards the other panel's patches, row by row
+            let (first, of_row) = (COLS - 1 - i % COLS, &from_sun[i / COLS * DIRECTIONS..][..DIRECTIONS]);
+            for row in of_row.chunks_exact(SHIFTS) {
+                direct.extend(row[first..first + COLS].iter().map(|reflection| lit * reflection));
+            }
+        }
+        direct
     }
 
     /// What this panel's patches send on of the light that the other's sent.
+    #[inline(always)]
     fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
         let mut reflected = Vec::with_capacity(COUNT * COUNT);
-        let (rows, _) = matrix.as_chunks::<SHIFTS>();
-        let (directions, _) = rows.as_chunks::<ROWS>();
-        for (i, factors) in self.factors.chunks_exact(COUNT).enumerate() {
-            // towards the other panel's patches, row by row
+        // by direction from which light comes, then by row towards which it goes
+        let (towards, _) = matrix.as_chunks::<SHIFTS>().0.as_chunks::<ROWS>();
+        for (i, factors) in self.factors.as_chunks::<COUNT>().0.iter().enumerate() {
+            let mut arriving = [0.0; COUNT];
+            for ((arriving, factor), sent) in
+                arriving.iter_mut().zip(factors).zip(light.as_chunks::<COUNT>().0)
+            {
+                *arriving = factor * sent[i];
+            }
             let first = COLS - 1 - i % COLS;
+            let of_row = &towards[i / COLS * DIRECTIONS..][..DIRECTIONS];
             let mut sums = [[0.0; COLS]; ROWS];
-            for (j, factor) in factors.iter().enumerate() {
-                let arriving = factor * light[j * COUNT + i];
-                let towards = directions[i / COLS * DIRECTIONS + direction(i, j)].iter();
-                // arrays of known length stay in registers
-                let towards = towards.filter_map(|row| row[first..].first_chunk::<COLS>());
-                for (sums, row) in sums.iter_mut().zip(towards) {
-                    sums.iter_mut().zip(row).for_each(|(sum, f)| *sum += arriving * f);
+            for (arriving, from) in arriving.as_chunks::<COLS>().0.iter().zip(of_row.as_chunks::<SHIFTS>().0)
+            {
+                for (arriving, towards) in arriving.iter().zip(&from[first..first + COLS]) {
+                    // arrays of known length stay in registers
+                    for (sums, row) in sums.iter_mut().zip(towards) {
+                        let Some(row) = row[first..].first_chunk::<COLS>() else { continue };
+                        sums.iter_mut().zip(row).for_each(|(sum, f)| *sum += arriving * f);
+                    }
                 }
             }
             reflected.extend_from_slice(sums.as_flattened());
@@ -280,25 +347,33 @@ fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
     (0..ROWS).map(|row| ends.clone().map(|(other, shift)| mean(row, other, shift)).collect()).collect()
 }
 
-/// Angles between all directions of each row of patches, each pair once.
+/// Angles of the distinct pairs of directions, row by row of patches.
 fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
-    let row = |to: &Vec<Vector3<f64>>| {
-        let pairs = (0..DIRECTIONS).flat_map(|a| (0..=a).map(move |b| (a, b)));
-        pairs.map(|(a, b)| Angles::new(&to[a], &to[b])).collect::<Vec<_>>()
+    let of_row = |to: &Vec<Vector3<f64>>| {
+        PAIRS.distinct.iter().map(|&(a, b)| Angles::new(&to[a], &to[b])).collect::<Vec<_>>()
     };
-    to.iter().flat_map(row).collect()
+    to.iter().flat_map(of_row).collect()
 }
 
-/// Which of all pairs is between each direction of a row of patches and each, row by row.
-fn places() -> Vec<usize> {
-    let count = DIRECTIONS * (DIRECTIONS + 1) / 2;
-    let pair = |(from, to): (usize, usize)| {
-        let (high, low) = (from.max(to), from.min(to));
-        high * (high + 1) / 2 + low
-    };
-    let of_row = |row: usize| {
-        let all = (0..DIRECTIONS).flat_map(|from| (0..DIRECTIONS).map(move |to| (from, to)));
-        all.map(move |directions| row * count + pair(directions))
-    };
-    (0..ROWS).flat_map(of_row).collect()
+/// Pairs of directions from a row of patches between which the sheet reflects differently: light goes both ways alike, and the same if both
+/// are mirrored along the crease.
+struct Pairs {
+    distinct: Vec<(usize, usize)>,
+    /// Which of these each direction makes with each: from which, towards which.
+    places: Vec<usize>,
 }
+
+static PAIRS: LazyLock<Pairs> = LazyLock::new(|| {
+    let mirrored = |direction: usize| direction / SHIFTS * SHIFTS + SHIFTS - 1 - direction % SHIFTS;
+    let first_alike = |(a, b): (usize, usize)| {
+        let (c, d) = (mirrored(a), mirrored(b));
+        (a, b).min((b, a)).min((c, d)).min((d, c))
+    };
+    let all: Vec<_> =
+        (0..DIRECTIONS).flat_map(|a| (0..DIRECTIONS).map(move |b| first_alike((a, b)))).collect();
+    let mut distinct = all.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let places = all.iter().map(|pair| distinct.partition_point(|other| other < pair)).collect();
+    Pairs { distinct, places }
+});

@@ -1,6 +1,6 @@
 //! From values at a grid of places on both panels to means over facets.
 
-use ndarray::{Array2, Array3, Axis};
+use ndarray::{Array2, Array3, ArrayView1, Axis};
 
 use crate::geometry::Fold;
 use crate::kernel::quadrature::{Lagrange, Rule};
@@ -62,13 +62,13 @@ impl Pooling {
             for ((line, col), weights) in (0..out).flat_map(|line| {
                 self.along.outer_iter().enumerate().map(move |(col, weights)| ((line, col), weights))
             }) {
-                for (place, weight) in weights.iter().enumerate() {
+                for (place, weight) in counting(weights) {
                     let value = values.row((panel * out + line) * along + place);
                     lines.index_axis_mut(Axis(0), line).row_mut(col).scaled_add(*weight, &value);
                 }
             }
             for (row, weights) in self.out.outer_iter().enumerate() {
-                for (line, weight) in weights.iter().enumerate() {
+                for (line, weight) in counting(weights) {
                     for col in 0..cols {
                         let value = lines.index_axis(Axis(0), line);
                         pooled
@@ -80,6 +80,11 @@ impl Pooling {
         }
         pooled
     }
+}
+
+/// Weights that are not zero, with their places.
+fn counting(weights: ArrayView1<'_, f64>) -> impl Iterator<Item = (usize, &f64)> {
+    weights.into_iter().enumerate().filter(|(_, weight)| **weight != 0.0)
 }
 
 /// Mean weights over each of the intervals between `edges`.

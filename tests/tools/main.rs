@@ -34,6 +34,7 @@ mod ready;
 mod real_sheets;
 mod report;
 mod resume;
+mod scripts;
 mod silence;
 mod spectra_files;
 mod tables;

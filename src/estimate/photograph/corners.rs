@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::findings::Finding;
 use super::parts::Place;
 
-/// How the values of all facets change, facet by facet and in each channel by channel, for each corner that is off by one depth of a
+/// How the values of all facets change, channel by channel and in each facet by facet, for each corner that is off by one depth of a
 /// panel: the two ends of the crease, then the two outer corners of either panel.
 ///
 /// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is told by the facets before and
@@ -16,13 +16,10 @@ use super::parts::Place;
 #[must_use]
 pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let slopes = slopes(places, values);
-    let channels = values.ncols();
     let width = places.iter().map(|place| place.along).fold(0.0, f64::max)
         + places.iter().map(|place| place.along).fold(f64::INFINITY, f64::min);
     let column = |share: &dyn Fn(&Place) -> f64| {
-        DVector::from_fn(values.len(), |n, _| {
-            share(&places[n / channels]) * slopes[(n / channels, n % channels)]
-        })
+        DVector::from_fn(slopes.len(), |n, _| share(&places[n % places.len()]) * slopes[n])
     };
     let ends: [fn(f64) -> f64; 2] = [|along| 1.0 - along, |along| along];
     let mut all = Vec::new();

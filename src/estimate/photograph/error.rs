@@ -39,7 +39,7 @@ impl ModelError {
     pub const OF_PHOTOGRAPHS: Self =
         Self { shared: 0.015, own: 0.01, white: 0.004, at_crease: 0.05, at_outer_side: 0.03, corner: 0.008 };
 
-    /// The inverse of the Cholesky factor of the covariance of all values, facet by facet and in each channel by channel.
+    /// The inverse of the Cholesky factor of the covariance of all values, channel by channel and in each facet by facet.
     ///
     /// # Arguments
     /// - `places`: of the facets; `values`, `sd`: facet by channel, the values and the standard deviations of their noise.
@@ -50,9 +50,9 @@ impl ModelError {
         values: &DMatrix<f64>,
         sd: &DMatrix<f64>,
     ) -> Option<DMatrix<f64>> {
-        let channels = values.ncols();
+        let facets = values.nrows();
         let covariance = |i: usize, j: usize| {
-            let ((a, c), (b, d)) = ((i / channels, i % channels), (j / channels, j % channels));
+            let ((a, c), (b, d)) = ((i % facets, i / facets), (j % facets, j / facets));
             let own = if c == d { self.own.powi(2) } else { 0.0 };
             let mut relative = (self.shared.powi(2) + own) * correlation(&places[a], &places[b]);
             if a == b {

@@ -1,6 +1,8 @@
 //! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's albedo, the unknowns
 //! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
 
+use std::borrow::Cow;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
@@ -22,19 +24,19 @@ const DARKEST: f64 = 1e-6;
 /// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
 #[derive(Clone, Debug)]
 struct Terms {
-    /// Node by waveband.
+    /// Waveband by node.
     values: DMatrix<f64>,
-    /// Their derivatives by albedo.
+    /// Their derivatives by albedo, node by waveband.
     slopes: DMatrix<f64>,
 }
 
 /// Facets as they are predicted, with what they are made of.
-struct Predicted {
+struct Predicted<'a> {
     /// Facet by channel.
     values: DMatrix<f64>,
     lens: Lens,
     /// Radiances and weights (channel by waveband) of the lights.
-    lights: Vec<(Radiance, DMatrix<f64>)>,
+    lights: Vec<(Cow<'a, Radiance>, DMatrix<f64>)>,
 }
 
 /// What makes values of radiances.
@@ -54,6 +56,15 @@ impl Lens {
             channel.add_scalar_mut(self.glare * mean);
         }
         values
+    }
+}
+
+/// Adds the product of two matrices, the second of few columns, which a general product is slow for.
+fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
+    for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(b.column_iter()) {
+        for (column, share) in a.as_slice().chunks_exact(a.nrows()).zip(&shares) {
+            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
+        }
     }
 }
 
@@ -91,7 +102,7 @@ fn unknowns_of(parts: &Parts) -> Vec<Expected> {
 }
 
 impl<'a> PhotographModel<'a> {
-    /// The model; `whitening` makes residuals of all values, facet by facet and in each channel by channel, standard normal.
+    /// The model; `whitening` makes residuals of all values, channel by channel and in each facet by facet, standard normal.
     #[must_use]
     pub fn new(
         parts: &'a Parts,
@@ -155,7 +166,7 @@ impl<'a> PhotographModel<'a> {
 
     fn terms(&self, albedo: &[f64]) -> Terms {
         let (values, slopes) = chebyshev(albedo, self.coefficients.nrows());
-        Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes }
+        Terms { values: (&self.coefficients * values).transpose(), slopes: &self.coefficients * slopes }
     }
 
     /// Logits of albedo.
@@ -172,13 +183,13 @@ impl<'a> PhotographModel<'a> {
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
             departure: self.kinds.departure(self.kind, &conditions, &variations),
-            exposure: self.exposure(&conditions),
+            exposure: self.exposure(&conditions, self.white(&conditions, &self.powers(&conditions)).as_ref()),
             conditions,
         }
     }
 
-    /// Sunlight on the facets.
-    fn sunlit(&self, conditions: &Conditions, variations: &[f64]) -> Radiance {
+    /// Sunlight on the facets, of which a sheet that is not Lambertian sends `beyond` more.
+    fn sunlit(&self, conditions: &Conditions, beyond: &Radiance) -> Radiance {
         let sun = &self.parts.sun;
         let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
         let mut radiance = cos * &sun.even + sin * &sun.odd;
@@ -186,7 +197,14 @@ impl<'a> PhotographModel<'a> {
         sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
         sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
         sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
-        radiance + self.kinds.departure(self.kind, conditions, variations).radiance
+        radiance + beyond
+    }
+
+    /// What the facets have more than those of a Lambertian sheet.
+    fn beyond(&self, w: &DVector<f64>) -> Radiance {
+        let [_, sheet, camera, _] = self.layout();
+        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        self.kinds.departure(self.kind, &self.conditions(w), &variations).radiance
     }
 
     /// Powers of sun, sky and ground, the sun giving 1 in the reference channel, the others for an irradiance of 1 by the sky in
@@ -218,70 +236,77 @@ impl<'a> PhotographModel<'a> {
         [sky, conditions.ground * (self.parts.sun_height + sky)]
     }
 
-    /// What a chart or a card that faces the sun receives, channel by channel, the light of the sun as it was said being 1.
-    fn white(&self, conditions: &Conditions) -> DVector<f64> {
-        let [sun, sky, ground] = self.powers(conditions);
-        let (eye, [sky_amount, ground_amount]) = (&self.parts.eye, self.ambient(conditions));
-        let said = &eye.sensitivities * &eye.sun;
-        let said = &said / said[eye.reference];
-        let light =
-            sun + sky_amount * self.parts.sky.open * sky + ground_amount * self.parts.ground.open * ground;
-        (&eye.sensitivities * light).component_div(&said)
+    /// What a chart or a card that faces the sun receives in light of these powers, channel by channel, the light of the sun as it was said
+    /// being 1; none if there is neither.
+    fn white(&self, conditions: &Conditions, [sun, sky, ground]: &[DVector<f64>; 3]) -> Option<DVector<f64>> {
+        let (parts, [sky_amount, ground_amount]) = (self.parts, self.ambient(conditions));
+        let eye = &parts.eye;
+        parts.told.by_chart.then(|| {
+            let said = &eye.sensitivities * &eye.sun;
+            let said = &said / said[eye.reference];
+            let light = sun + sky_amount * parts.sky.open * sky + ground_amount * parts.ground.open * ground;
+            (&eye.sensitivities * light).component_div(&said)
+        })
     }
 
-    fn exposure(&self, conditions: &Conditions) -> f64 {
-        let reference = self.parts.eye.reference;
-        let lit = if self.parts.told.by_chart { self.white(conditions)[reference] } else { 1.0 };
-        conditions.exposure / lit
+    /// The exposure, a chart or card receiving `white`.
+    fn exposure(&self, conditions: &Conditions, white: Option<&DVector<f64>>) -> f64 {
+        conditions.exposure / white.map_or(1.0, |white| white[self.parts.eye.reference])
     }
 
-    fn predicted(&self, w: &DVector<f64>, terms: &Terms) -> Predicted {
+    /// The facets of a sheet that sends `beyond` more than a Lambertian one.
+    fn predicted(&self, w: &DVector<f64>, terms: &Terms, beyond: &Radiance) -> Predicted<'a> {
         let (parts, conditions) = (self.parts, self.conditions(w));
-        let [_, sheet, camera, _] = self.layout();
-        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        let [.., camera, _] = self.layout();
         let mut sensitivities = parts.eye.sensitivities.clone();
+        let channels = sensitivities.nrows();
         for ((channel, error), size) in parts.eye.errors.iter().zip(w.rows(camera, w.len() - camera).iter()) {
             for (sensitivity, error) in sensitivities.row_mut(*channel).iter_mut().zip(error.iter()) {
                 *sensitivity += size * error;
             }
         }
-        let weighted = |power: &DVector<f64>| {
-            DMatrix::from_fn(sensitivities.nrows(), sensitivities.ncols(), |c, band| {
-                sensitivities[(c, band)] * power[band]
-            })
+        let weighted = |amount: f64, power: &DVector<f64>| {
+            let mut weights = sensitivities.clone();
+            for (weights, power) in weights.as_mut_slice().chunks_exact_mut(channels).zip(power.iter()) {
+                weights.iter_mut().for_each(|weight| *weight *= amount * power);
+            }
+            weights
         };
-        let [sun, sky, ground] = self.powers(&conditions);
-        let amounts = self.ambient(&conditions);
-        let ambient = |light: &Ambient, amount: f64, power| (amount * &light.radiance, weighted(power));
-        let mut lights = vec![(self.sunlit(&conditions, &variations), weighted(&sun))];
+        let powers = self.powers(&conditions);
+        let (white, amounts) = (self.white(&conditions, &powers), self.ambient(&conditions));
+        let [sun, sky, ground] = powers;
+        let ambient =
+            |light: &'a Ambient, amount, power| (Cow::Borrowed(&light.radiance), weighted(amount, power));
+        let mut lights = vec![(Cow::Owned(self.sunlit(&conditions, beyond)), weighted(1.0, &sun))];
         if parts.told.daylight.is_some() {
             lights.push(ambient(&parts.sky, amounts[0], &sky));
             lights.push(ambient(&parts.ground, amounts[1], &ground));
         }
-        let mut gains = DVector::from_element(sensitivities.nrows(), 1.0);
-        if parts.told.by_chart {
+        let mut gains = DVector::from_element(channels, 1.0);
+        if let Some(white) = &white {
             // a chart makes the channels those of the light that was said, in the light that there is
-            let white = self.white(&conditions);
             gains = white.map(|value| white[parts.eye.reference] / value);
         }
         if gains.len() == 3 {
             gains[0] *= conditions.gains[0];
             gains[2] *= conditions.gains[1];
         }
-        let exposure = self.exposure(&conditions);
-        let scale = DMatrix::from_fn(parts.places.len(), gains.len(), |facet, c| {
+        let exposure = self.exposure(&conditions, white.as_ref());
+        let scale = DMatrix::from_fn(parts.places.len(), channels, |facet, c| {
             exposure * gains[c] * (1.0 - conditions.vignetting * parts.places[facet].off_centre)
         });
         let lens = Lens { scale, glare: conditions.glare };
-        let radiances: DMatrix<f64> =
-            lights.iter().map(|(radiance, weights)| radiance * (&terms.values * weights.transpose())).sum();
+        let mut radiances = DMatrix::zeros(parts.places.len(), channels);
+        for (light, weights) in &lights {
+            add_product(&mut radiances, light, &terms.values.tr_mul(&weights.transpose()));
+        }
         Predicted { values: lens.seen(&radiances), lens, lights }
     }
 
-    /// Values in the order of residuals, in which they are compared.
+    /// Values in the order of residuals, channel by channel, as they are compared.
     fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
         let most = values.max();
-        DVector::from_iterator(values.len(), values.transpose().iter().map(|value| value.max(DARKEST * most)))
+        DVector::from_iterator(values.len(), values.iter().map(|value| value.max(DARKEST * most)))
     }
 
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
@@ -318,7 +343,7 @@ impl<'a> PhotographModel<'a> {
     #[must_use]
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        &self.parts.values - self.predicted(w, &self.terms(&albedo)).values
+        &self.parts.values - self.predicted(w, &self.terms(&albedo), &self.beyond(w)).values
     }
 }
 
@@ -331,32 +356,32 @@ impl Model for PhotographModel<'_> {
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let predicted = self.predicted(w, &self.terms(&albedo));
+        let predicted = self.predicted(w, &self.terms(&albedo), &self.beyond(w));
         self.whitening * (Self::in_order(&self.parts.values) - Self::in_order(&predicted.values))
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let terms = self.terms(&albedo);
-        let Predicted { values, lens, lights } = self.predicted(w, &terms);
+        let beyond = self.beyond(w);
+        let Predicted { values, lens, lights } = self.predicted(w, &terms, &beyond);
         let ordered = Self::in_order(&values);
         let [scene, sheet, camera, end] = self.layout();
-        let (channels, bands) = (values.ncols(), albedo.len());
-        let mut by_logit = DMatrix::<f64>::zeros(values.len(), bands);
+        let mut by_logit = DMatrix::<f64>::zeros(values.len(), albedo.len());
         for (radiance, weights) in &lights {
-            let slopes = radiance * &terms.slopes;
-            for facet in 0..values.nrows() {
-                for channel in 0..channels {
-                    let scale = lens.scale[(facet, channel)];
-                    let mut row = by_logit.row_mut(facet * channels + channel);
-                    for (band, entry) in row.iter_mut().enumerate() {
-                        *entry += scale * weights[(channel, band)] * slopes[(facet, band)];
+            let slopes = radiance.as_ref() * &terms.slopes;
+            for (band, mut column) in by_logit.column_iter_mut().enumerate() {
+                let (slopes, change) = (slopes.column(band), albedo[band] * (1.0 - albedo[band]));
+                let of_channels = column.as_mut_slice().chunks_exact_mut(values.nrows());
+                for ((entries, scale), weight) in
+                    of_channels.zip(lens.scale.column_iter()).zip(weights.column(band).iter())
+                {
+                    let weight = weight * change;
+                    for ((entry, scale), slope) in entries.iter_mut().zip(scale.iter()).zip(slopes.iter()) {
+                        *entry += weight * scale * slope;
                     }
                 }
             }
-        }
-        for (mut column, r) in by_logit.column_iter_mut().zip(&albedo) {
-            column *= r * (1.0 - r);
         }
         let mut jacobian = DMatrix::zeros(values.len(), end);
         jacobian.columns_mut(0, scene).gemm(1.0, &by_logit, self.gaussian.basis(), 0.0);
@@ -364,24 +389,32 @@ impl Model for PhotographModel<'_> {
             if self.kind.has(expected.unknown) {
                 let mut beside = w.clone();
                 beside[n] += STEP;
-                let moved = Self::in_order(&self.predicted(&beside, &terms).values);
+                let moved = if expected.unknown.is_of_sheet() {
+                    self.predicted(&beside, &terms, &self.beyond(&beside))
+                } else {
+                    self.predicted(&beside, &terms, &beyond)
+                };
+                let moved = Self::in_order(&moved.values);
                 jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
             }
         }
         // variations of the sheet and errors of the curves enter in proportion
         let (radiance, weights) = &lights[0];
-        let to_channels = &terms.values * weights.transpose();
+        let to_channels = terms.values.tr_mul(&weights.transpose());
         for (n, change) in (sheet..).zip(self.kinds.by_variation(self.kind)) {
-            let seen = lens.seen(&(change * &to_channels));
-            jacobian.column_mut(n).copy_from(&DVector::from_column_slice(seen.transpose().as_slice()));
+            let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
+            add_product(&mut radiances, &change, &to_channels);
+            jacobian.column_mut(n).copy_from_slice(lens.seen(&radiances).as_slice());
         }
-        let given = radiance * &terms.values;
+        let given = radiance.as_ref() * terms.values.transpose();
         let [power, ..] = self.powers(&self.conditions(w));
-        for (n, (channel, error)) in self.parts.eye.errors.iter().enumerate() {
-            let column = &given * error.component_mul(&power);
-            for facet in 0..values.nrows() {
-                jacobian[(facet * channels + channel, camera + n)] =
-                    lens.scale[(facet, *channel)] * column[facet];
+        let errors: Vec<_> =
+            self.parts.eye.errors.iter().map(|(_, error)| error.component_mul(&power)).collect();
+        if !errors.is_empty() {
+            let seen = given * DMatrix::from_columns(&errors);
+            for (n, (channel, _)) in self.parts.eye.errors.iter().enumerate() {
+                let seen = seen.column(n).component_mul(&lens.scale.column(*channel));
+                jacobian.view_mut((channel * seen.len(), camera + n), (seen.len(), 1)).copy_from(&seen);
             }
         }
         Linearised {

@@ -36,7 +36,9 @@ impl Change {
         let [a, b] = self.sizes;
         let shares = [size * (size - b) / (a * (a - b)), size * (size - a) / (b * (b - a))];
         for (share, radiance) in shares.into_iter().zip(&self.radiance) {
-            sum.zip_apply(radiance, |sum, radiance| *sum += share * radiance);
+            for (sum, radiance) in sum.as_mut_slice().iter_mut().zip(radiance.as_slice()) {
+                *sum += share * radiance;
+            }
         }
     }
 }

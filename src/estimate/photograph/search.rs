@@ -204,12 +204,12 @@ impl About {
         let by_logit = solution.at.jacobian.columns(0, scene) * coordinates_of;
         let by_others = solution.at.jacobian.columns(scene, count).into_owned();
         let residuals = solution.at.residuals.clone();
-        let mut information = by_others.tr_mul(&by_others);
+        let mut information = by_others.transpose() * &by_others;
         (0..count).for_each(|n| information[(n, n)] += 1.0);
-        let both = by_others.tr_mul(&by_logit);
+        let both = by_others.transpose() * &by_logit;
         let left = Cholesky::new(information)?.solve(&both);
         let at_prior = &residuals + &by_others * &others;
-        let told = by_logit.tr_mul(&by_logit) - both.tr_mul(&left);
+        let told = by_logit.transpose() * &by_logit - both.transpose() * &left;
         let off = by_logit.tr_mul(&at_prior) - left.tr_mul(&by_others.tr_mul(&at_prior));
         let Eigen { values, vectors } = Eigen::of_symmetric(told);
         let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
@@ -261,7 +261,7 @@ impl About {
         jacobian.columns_mut(coordinates, self.others.len()).copy_from(&self.by_others);
         let residuals =
             &self.residuals + &self.by_logit * (&self.logit - own.mean()) + &self.by_others * &self.others;
-        let mut information = jacobian.tr_mul(&jacobian);
+        let mut information = jacobian.transpose() * &jacobian;
         (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
         Some(Cholesky::new(information)?.solve(&jacobian.tr_mul(&residuals)))
     }

@@ -29,7 +29,9 @@ impl Departure {
     /// Adds a share of another, the reflectance of which counts from `reference`.
     pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
-            self.radiance.zip_apply(&other.radiance, |sum, one| *sum += share * one);
+            for (sum, one) in self.radiance.as_mut_slice().iter_mut().zip(other.radiance.as_slice()) {
+                *sum += share * one;
+            }
             let departed = other.reflectance.iter().zip(&reference);
             for (sum, (other, reference)) in self.reflectance.iter_mut().zip(departed) {
                 *sum += share * (other - reference);
