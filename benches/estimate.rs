@@ -19,7 +19,7 @@ use common::timed;
 use samples::{Batch, Shot};
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::{Estimate, classes, map, smooth};
+use vfold::estimate::{Estimate, map, smooth};
 use vfold::score::rmse;
 use vfold::spectrum::illuminant;
 use vfold::{Error, Result};
@@ -30,8 +30,7 @@ fn main() -> Result<()> {
         .find_map(|argument| argument.parse().ok())
         .ok_or_else(|| Error::Numeric("no weight of smoothness; write one after --".to_owned()))?;
     let batch = Batch::read("-")?;
-    let classes = classes::of_munsell();
-    let prior = Prior::from_spectra(batch.grid.wavelengths_nm(), &batch.chips()?, Some(&classes))?;
+    let prior = Prior::built_in(batch.grid.wavelengths_nm())?;
     let default = row(&batch, |shot| Ok(map::estimate(&shot.data(&batch.scene)?, &prior, None)))?;
     let grey = vec![0.5; batch.grid.len()];
     let papers = row(&batch, |shot| smooth::estimate(&shot.unweighted(&batch.scene)?, smoothness, &grey))?;

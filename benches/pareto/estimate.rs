@@ -5,7 +5,7 @@ use std::path::Path;
 use vfold::estimate::Estimate;
 use vfold::estimate::components::{FlatSheet, autocorrelation};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::{classes, khan, map, park, smooth};
+use vfold::estimate::{khan, map, park, smooth};
 use vfold::score::rmse;
 
 use crate::common::timed_once;
@@ -51,8 +51,7 @@ fn photograph(set: &str, noise: &str, flags: &str, believed: &str) -> Batch {
 }
 
 fn prior(batch: &Batch) -> Prior {
-    let classes = classes::of_munsell();
-    Prior::from_spectra(batch.grid.wavelengths_nm(), &batch.chips().unwrap(), Some(&classes)).unwrap()
+    Prior::built_in(batch.grid.wavelengths_nm()).unwrap()
 }
 
 fn folded(panel: &str, set: &str, noise: &str) {

@@ -15,11 +15,20 @@ struct Cell {
     estimate: &'static str,
 }
 
+const ESTIMATES: &str = "benches/results/estimates.md";
 const STRESS: &str = "benches/results/stress.md";
 const PRIORS: &str = "docs/priors.md";
 const NOISY: &str = "vkernel | vforward --reflectance cc24 --noise-sd 1e-3";
 
-const CELLS: [Cell; 8] = [
+const CELLS: [Cell; 9] = [
+    Cell {
+        page: ESTIMATES,
+        heading: "# Estimates",
+        row: "| cc24 | canon-5d-mark-ii | 1e-3 |",
+        column: 3,
+        samples: "vkernel | vforward --reflectance cc24 --camera canon-5d-mark-ii --noise-sd 1e-3",
+        estimate: "vestimate",
+    },
     Cell {
         page: STRESS,
         heading: "## Noise",
