@@ -171,7 +171,7 @@ fn real_sheet(page: &mut String, work: &Path) {
     let took = median((0..5).map(|_| one()).collect()) / PHOTOGRAPHS as f64;
     line(
         page,
-        "vestimate -j 1, a photograph with everything unknown, mean of 20",
+        "vestimate -j 1, a photograph with everything unknown and another camera, mean of 20",
         &milliseconds(took),
         "60 ms",
     );
