@@ -139,6 +139,7 @@ struct Radiances<'a> {
 impl WithSimd for Radiances<'_> {
     type Output = Array2<f64>;
 
+    // what is inlined here takes those vectors, too; what is called does not
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Array2<f64> {
         let Self { patches, shape } = self;
