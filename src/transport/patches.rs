@@ -378,3 +378,27 @@ static PAIRS: LazyLock<Pairs> = LazyLock::new(|| {
     let places = all.iter().map(|pair| distinct.partition_point(|other| other < pair)).collect();
     Pairs { distinct, places }
 });
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::geometry::FacetGrid;
+    use crate::sheet::Family;
+
+    /// Under a sun a hair beside the middle both panels are followed, under one in the middle a single one.
+    #[test]
+    fn panels_that_send_the_same_are_followed_once() {
+        let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 4 }).unwrap();
+        let glossy = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+        let eye = Point3::new(1.0, 1.1, 8.4);
+        let [(one, once), (two, twice)] = [0.0, 1e-7].map(|x| {
+            let frames = [0, 1].map(|panel| Frame::new(&fold, panel, &Vector3::new(x, 0.1, 1.0), &eye));
+            let patches = Patches::new(&fold, &frames);
+            (patches.alike, patches.radiances(&glossy))
+        });
+        assert!(one && !two);
+        assert!(once.iter().zip(&twice).all(|(a, b)| (a - b).abs() < 1e-5 * (0.01 + b.abs())));
+    }
+}
