@@ -43,8 +43,9 @@ impl Accordion {
         let profiles = self.profiles();
         if let Some([one, other]) = crossing(&profiles) {
             let problem = format!("panels {one} and {other} pass through each other");
+            let flag = if self.bow_deg == 0.0 { "--ridge-deg" } else { "--bow-deg" };
             return Err(Error::usage(
-                "--folds",
+                flag,
                 problem,
                 "open --angle-deg or --ridge-deg, or bend the panels less",
             ));
@@ -212,14 +213,15 @@ mod tests {
     fn panels_do_not_pass_through_each_other() {
         let valley = Fold::new(20.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();
         let shape = |creases, ridge_deg, bow_deg| Accordion { valley, creases, ridge_deg, bow_deg }.shape();
-        // A trough closes where both panels lean over by half the angle more than they opened by.
+        // Half of the bow is by how much the chord of either panel leans over: a trough closes where it is half of the angle.
         assert!(shape(1, 90.0, -19.0).is_ok());
-        assert!(shape(1, 90.0, -21.0).unwrap_err().to_string().contains("panels 0 and 1 pass through"));
+        let closed = shape(1, 90.0, -21.0).unwrap_err().to_string();
+        assert!(closed.starts_with("--bow-deg: panels 0 and 1 pass through"), "{closed}");
         // Under a ridge it is the open book that closes.
         assert!(shape(2, 30.0, 29.0).is_ok());
         assert!(shape(2, 30.0, 31.0).unwrap_err().to_string().contains("and 2 pass through"));
         assert!(shape(40, 20.0, 0.0).is_ok());
-        assert!(shape(40, 40.0, 0.0).unwrap_err().to_string().contains("pass through"));
+        assert!(shape(40, 40.0, 0.0).unwrap_err().to_string().starts_with("--ridge-deg: panels"));
     }
 
     /// The pages of a book leave the gutter steeply and then flatten out: both ends lie lower than those of a flat V.
