@@ -31,14 +31,17 @@ impl Expected {
     /// The end of its range that `value` lies beyond, if it does.
     #[must_use]
     pub fn bound_of(self, value: f64) -> Option<f64> {
-        let (least, greatest) = (*self.unknown.range.start(), *self.unknown.range.end());
-        if value < least {
-            Some(least)
-        } else if value > greatest {
-            Some(greatest)
-        } else {
-            None
-        }
+        let Unknown { range, scale, .. } = self.unknown;
+        let (least, greatest) = (*range.start(), *range.end());
+        // a reciprocal that is negative is beyond the greatest value, not the least
+        let is_beyond = |end: f64, other: f64| {
+            let [end, other, number] = [end, other, value].map(|value| scale.normal(value));
+            if end < other { number < end } else { number > end }
+        };
+        [(least, greatest), (greatest, least)]
+            .into_iter()
+            .find(|(end, other)| is_beyond(*end, *other))
+            .map(|(end, _)| end)
     }
 }
 
@@ -156,7 +159,17 @@ impl Amounts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimate::unknowns::sky_colour::SKY_COLOUR;
+    use crate::estimate::unknowns::{SKY, SKY_COLOUR};
+
+    /// Skies bluer than any have a reciprocal temperature below nothing.
+    #[test]
+    fn bounds_are_those_that_were_passed() {
+        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 } };
+        let bound = |mired: f64| colour.bound_of(1e6 / mired);
+        assert_eq!([-20.0, 5.0, 100.0, 2000.0].map(bound), [Some(1e5), Some(1e5), None, Some(1e3)]);
+        let sky = Expected { unknown: &SKY, prior: Normal { mean: 0.0, sd: 0.25 } };
+        assert_eq!([-0.1, 0.0, 3.0].map(|amount| sky.bound_of(amount)), [Some(0.0), None, None]);
+    }
 
     #[test]
     fn a_temperature_is_the_reciprocal_of_its_normal_number() {

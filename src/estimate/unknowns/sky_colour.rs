@@ -11,7 +11,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     about: "Correlated colour temperature of the sky",
     unit: Some("K"),
     flag: SKY.flag,
-    range: 0.0..=f64::INFINITY,
+    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {

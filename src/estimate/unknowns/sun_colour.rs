@@ -13,7 +13,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
     about: "Correlated colour temperature of the sun",
     unit: Some("K"),
     flag: &Flag { value: "daylight", help: "Colour of the sun, where the illuminant is daylight" },
-    range: 0.0..=f64::INFINITY,
+    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
