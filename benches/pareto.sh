@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # What does a tenth of the error cost? Time against error of the kernel, the response, the estimate and of all tools together, at
 # every setting of what steers them, other libraries beside them, and how the kernel grows with the facets: tables and drawings in
-# benches/results, about eight minutes. Time is the processor's, one thread.
+# benches/results, about ten minutes. Time is the processor's, one thread.
 #
-#   benches/pareto.sh [kernel|response|estimate|pipeline|growth]... [SET.csv]...    all by default, and the ColorChecker
+#   benches/pareto.sh [kernel|response|estimate|pipeline|photographs|growth]... [SET.csv]...    all by default, and the ColorChecker
 #
-# Packages of other libraries come from pip; what it cannot install is left out. Further sets of reflectances are CSV files.
+# Photographs of real sheets are those of ../shared; without it they are left out. Packages of other libraries come from pip; what it cannot install is left out. Further sets of reflectances are CSV files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/peers.sh
@@ -27,7 +27,7 @@ draw() {
 }
 
 left_out() {
-    echo "$1: pip cannot install it here; left out" >&2
+    echo "$1: ${2:-pip cannot install it here}; left out" >&2
 }
 
 kernel() {
@@ -98,6 +98,10 @@ pipeline() {
     done
 }
 
+photographs() {
+    python3 benches/photographs.py "$bin" ../shared
+}
+
 stages=
 for argument in "$@"; do
     case $argument in
@@ -105,9 +109,10 @@ for argument in "$@"; do
         *) stages="$stages $argument" ;;
     esac
 done
-for stage in ${stages:-kernel response estimate pipeline growth}; do
+for stage in ${stages:-kernel response estimate pipeline photographs growth}; do
     echo "$stage" >&2
     case $stage in
+        photographs) if [ -e ../shared/real ]; then photographs | draw photographs; else left_out photographs '../shared is not there'; fi ;;
         kernel | response | estimate | pipeline) "$stage" | draw "$stage" ;;
         growth) measure growth ;;
         *) echo "benches/pareto.sh: there is no stage '$stage'" >&2 && exit 2 ;;
