@@ -115,7 +115,7 @@ impl Model for Facets<'_> {
         Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
     }
 
-    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> DMatrix<f64> {
+    fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
         let Curvature { slopes, reflectance, mut mixed, unknowns } =
             self.data.curvature(&at.by_reflectance, multipliers);
         let basis = self.gaussian.basis();
@@ -133,6 +133,6 @@ impl Model for Facets<'_> {
         all.view_mut((0, coordinates), mixed.shape()).copy_from(&mixed);
         all.view_mut((coordinates, 0), (count, coordinates)).tr_copy_from(&mixed);
         all.view_mut((coordinates, coordinates), (count, count)).copy_from(&unknowns);
-        all
+        Some(all)
     }
 }

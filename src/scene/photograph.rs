@@ -111,7 +111,7 @@ impl<'a> PhotographedFold<'a> {
         let Some(pose) = Pose::of(&picture.framing, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
         let (light, facets) = (setting.light()?, fold.facets());
         let eye = eye::of(setting)?;
-        let shape = [2 * facets.len(), eye.sensitivities.nrows()];
+        let shape = [2 * facets.len(), eye.sensitivities.ncols()];
         check_shape("facet_rgb", measured.rgb, shape)?;
         check_shape("facet_sd", measured.sd, shape)?;
         let bins = Bins::new(fold, measured, &pose);

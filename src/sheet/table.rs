@@ -50,10 +50,10 @@ fn nodes<const N: usize>() -> [f64; N] {
 }
 
 /// The cell of a share of the range, and how far into it.
-fn cell(share: f64, nodes: &[f64]) -> (usize, f32) {
+fn cell<const N: usize>(share: f64, nodes: &[f64; N]) -> (usize, f32) {
     let share = share.min(1.0);
-    let x = 1.0 - (1.0 - share).cbrt().powi(2);
-    let low = ((x * (nodes.len() - 1) as f64) as usize).min(nodes.len() - 2);
+    // of few nodes it is faster to compare all than to search
+    let low = nodes[1..N - 1].iter().filter(|node| **node <= share).count();
     (low, ((share - nodes[low]) / (nodes[low + 1] - nodes[low])) as f32)
 }
 

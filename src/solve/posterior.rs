@@ -42,8 +42,8 @@ pub trait Model {
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
     /// Residuals with derivatives.
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
-    /// `Σ λᵢ∇²mᵢ` at a point, one multiplier λ per residual.
-    fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> DMatrix<f64>;
+    /// `Σ λᵢ∇²mᵢ` at a point, one multiplier λ per residual; none if it is left out.
+    fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>>;
 }
 
 /// A model about a point.
@@ -224,9 +224,10 @@ impl<M: Model> Search<'_, M> {
         // What the linear model leaves of the residuals, not the residuals themselves: far from the minimum these are large and
         // would make a curvature of what the step is about to remove.
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
-        let hessian = &newton.hessian - newton.weight * self.model.curvature(&self.at.second, &multipliers);
+        let curvature =
+            self.model.curvature(&self.at.second, &multipliers).map(|of_data| newton.weight * of_data);
         for _ in 0..TRIALS {
-            if let Some(next) = self.trial(newton, hessian.clone()) {
+            if let Some(next) = self.trial(newton, curvature.as_ref()) {
                 self.at = self.model.linearise(&next);
                 self.w = next;
                 self.damping *= DAMPING_DOWN;
@@ -242,9 +243,15 @@ impl<M: Model> Search<'_, M> {
 
     /// Where the damped step leads, corrected to second order if it does not keep half of its promise; none if the Hessian is
     /// not positive, the step too long or the cost higher.
-    fn trial(&self, newton: &GaussNewton, mut hessian: DMatrix<f64>) -> Option<DVector<f64>> {
-        add_to_diagonal(&mut hessian, self.damping);
-        let direction = Cholesky::new(hessian)?.solve(&newton.descent);
+    fn trial(&self, newton: &GaussNewton, curvature: Option<&DMatrix<f64>>) -> Option<DVector<f64>> {
+        let direction = if curvature.is_none() && self.damping <= 0.0 {
+            newton.direction.clone()
+        } else {
+            let mut hessian = newton.hessian.clone();
+            curvature.into_iter().for_each(|curvature| hessian -= curvature);
+            add_to_diagonal(&mut hessian, self.damping);
+            Cholesky::new(hessian)?.solve(&newton.descent)
+        };
         if direction.norm() > LONGEST {
             return None;
         }
@@ -294,8 +301,8 @@ mod tests {
             Linearised { residuals: self.residuals(w), jacobian: DMatrix::from_element(1, 1, second), second }
         }
 
-        fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> DMatrix<f64> {
-            DMatrix::from_element(1, 1, multipliers[0] * at)
+        fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
+            Some(DMatrix::from_element(1, 1, multipliers[0] * at))
         }
     }
 

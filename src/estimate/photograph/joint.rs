@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::error::ModelError;
+use super::error::{ModelError, Whitening};
 use super::kinds::{Kind, Kinds};
 use super::model::PhotographModel;
 use super::parts::Parts;
@@ -17,7 +17,7 @@ pub struct Photograph<'a> {
     /// The kinds of sheets as it shows them.
     pub kinds: Kinds<'a>,
     /// What makes residuals standard normal.
-    pub whitening: DMatrix<f64>,
+    pub whitening: Whitening,
 }
 
 impl<'a> Photograph<'a> {
@@ -139,7 +139,7 @@ impl Model for JointModel<'_> {
     }
 
     /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
-    fn curvature(&self, (): &(), _: &DVector<f64>) -> DMatrix<f64> {
-        DMatrix::zeros(self.count, self.count)
+    fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
+        None
     }
 }

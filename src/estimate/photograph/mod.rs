@@ -13,6 +13,8 @@ pub mod error;
 pub mod findings;
 mod joint;
 pub mod kinds;
+mod lens;
+mod lighting;
 pub mod model;
 pub mod parts;
 pub mod search;

@@ -2,12 +2,16 @@
 //! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
 
 use std::borrow::Cow;
+use std::slice::ChunksExact;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
-use super::conditions::{Conditions, Daylight};
+use super::conditions::Conditions;
+use super::error::Whitening;
 use super::kinds::{Kind, Kinds};
+use super::lens::Lens;
+use super::lighting::Lighting;
 use super::parts::{Ambient, Parts, Radiance};
 use super::sheets::Departure;
 use crate::estimate::gaussian::{Gaussian, logistic};
@@ -24,10 +28,16 @@ const DARKEST: f64 = 1e-6;
 /// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
 #[derive(Clone, Debug)]
 struct Terms {
-    /// Waveband by node.
+    /// Node by waveband.
     values: DMatrix<f64>,
     /// Their derivatives by albedo, node by waveband.
     slopes: DMatrix<f64>,
+}
+
+/// Light on the facets, and what it counts in the channels: waveband by channel.
+struct Light<'a> {
+    radiance: Cow<'a, Radiance>,
+    weights: DMatrix<f64>,
 }
 
 /// Facets as they are predicted, with what they are made of.
@@ -35,34 +45,28 @@ struct Predicted<'a> {
     /// Facet by channel.
     values: DMatrix<f64>,
     lens: Lens,
-    /// Radiances and weights (channel by waveband) of the lights.
-    lights: Vec<(Cow<'a, Radiance>, DMatrix<f64>)>,
+    /// The sun's first.
+    lights: Vec<Light<'a>>,
 }
 
-/// What makes values of radiances.
-struct Lens {
-    /// Brightness of each facet and channel for radiance and weights of 1: exposure, gains, vignetting.
-    scale: DMatrix<f64>,
-    /// Share of a channel's mean that is spread over all facets.
-    glare: f64,
-}
-
-impl Lens {
-    /// Values of radiances through the camera's curves: facet by channel.
-    fn seen(&self, radiances: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut values = radiances.component_mul(&self.scale);
-        for mut channel in values.column_iter_mut() {
-            let mean = channel.mean();
-            channel.add_scalar_mut(self.glare * mean);
-        }
-        values
+impl Light<'_> {
+    /// Radiance of a light of these weights in the channels, from that at the nodes: node by channel.
+    fn to_channels(&self, terms: &Terms) -> DMatrix<f64> {
+        let mut to_channels = DMatrix::zeros(terms.values.nrows(), self.weights.ncols());
+        add_product(&mut to_channels, &terms.values, &self.weights);
+        to_channels
     }
+}
+
+/// Columns as slices, over which the compiler makes faster loops than over matrices.
+fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
+    matrix.as_slice().chunks_exact(matrix.nrows())
 }
 
 /// Adds the product of two matrices, the second of few columns, which a general product is slow for.
 fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
     for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(b.column_iter()) {
-        for (column, share) in a.as_slice().chunks_exact(a.nrows()).zip(&shares) {
+        for (column, share) in columns(a).zip(&shares) {
             sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
         }
     }
@@ -74,7 +78,7 @@ pub struct PhotographModel<'a> {
     kinds: &'a Kinds<'a>,
     kind: Kind,
     gaussian: &'a Gaussian,
-    whitening: &'a DMatrix<f64>,
+    whitening: &'a Whitening,
     unknowns: Vec<Expected>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
@@ -109,7 +113,7 @@ impl<'a> PhotographModel<'a> {
         kinds: &'a Kinds,
         kind: Kind,
         gaussian: &'a Gaussian,
-        whitening: &'a DMatrix<f64>,
+        whitening: &'a Whitening,
     ) -> Self {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
@@ -166,7 +170,7 @@ impl<'a> PhotographModel<'a> {
 
     fn terms(&self, albedo: &[f64]) -> Terms {
         let (values, slopes) = chebyshev(albedo, self.coefficients.nrows());
-        Terms { values: (&self.coefficients * values).transpose(), slopes: &self.coefficients * slopes }
+        Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes }
     }
 
     /// Logits of albedo.
@@ -183,7 +187,7 @@ impl<'a> PhotographModel<'a> {
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
             departure: self.kinds.departure(self.kind, &conditions, &variations),
-            exposure: self.exposure(&conditions, self.white(&conditions, &self.powers(&conditions)).as_ref()),
+            exposure: Lighting::new(self.parts, &conditions).exposure(self.parts, &conditions),
             conditions,
         }
     }
@@ -207,100 +211,57 @@ impl<'a> PhotographModel<'a> {
         self.kinds.departure(self.kind, &self.conditions(w), &variations).radiance
     }
 
-    /// Powers of sun, sky and ground, the sun giving 1 in the reference channel, the others for an irradiance of 1 by the sky in
-    /// that channel and for a reflectance of the ground of 1.
-    fn powers(&self, conditions: &Conditions) -> [DVector<f64>; 3] {
-        let eye = &self.parts.eye;
-        let sun = conditions.sun_mired.zip(self.parts.told.daylight).map_or_else(
-            || eye.sun.clone(),
-            |(mired, said)| {
-                let ratio = Daylight::power(&eye.daylight, mired)
-                    .component_div(&Daylight::power(&eye.daylight, said.mired()));
-                eye.sun.component_mul(&ratio)
-            },
-        );
-        let sky = conditions
-            .sky_mired
-            .map_or_else(|| eye.sky.clone(), |mired| Daylight::power(&eye.daylight, mired));
-        let white = |power: &DVector<f64>| eye.sensitivities.row(eye.reference).transpose().dot(power);
-        let (sun, sky) = (&sun / white(&sun), &sky / white(&sky));
-        let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
-        let ground =
-            DVector::from_iterator(sun.len(), eye.wavelengths_nm.iter().map(redness)).component_mul(&sun);
-        [sun, sky, ground]
-    }
-
-    /// Irradiance by sky and ground of open planes that face them.
-    fn ambient(&self, conditions: &Conditions) -> [f64; 2] {
-        let sky = conditions.sky.max(0.0);
-        [sky, conditions.ground * (self.parts.sun_height + sky)]
-    }
-
-    /// What a chart or a card that faces the sun receives in light of these powers, channel by channel, the light of the sun as it was said
-    /// being 1; none if there is neither.
-    fn white(&self, conditions: &Conditions, [sun, sky, ground]: &[DVector<f64>; 3]) -> Option<DVector<f64>> {
-        let (parts, [sky_amount, ground_amount]) = (self.parts, self.ambient(conditions));
-        let eye = &parts.eye;
-        parts.told.by_chart.then(|| {
-            let said = &eye.sensitivities * &eye.sun;
-            let said = &said / said[eye.reference];
-            let light = sun + sky_amount * parts.sky.open * sky + ground_amount * parts.ground.open * ground;
-            (&eye.sensitivities * light).component_div(&said)
-        })
-    }
-
-    /// The exposure, a chart or card receiving `white`.
-    fn exposure(&self, conditions: &Conditions, white: Option<&DVector<f64>>) -> f64 {
-        conditions.exposure / white.map_or(1.0, |white| white[self.parts.eye.reference])
-    }
-
-    /// The facets of a sheet that sends `beyond` more than a Lambertian one.
-    fn predicted(&self, w: &DVector<f64>, terms: &Terms, beyond: &Radiance) -> Predicted<'a> {
-        let (parts, conditions) = (self.parts, self.conditions(w));
+    /// How the camera sees with the errors of its curves at `w`: waveband by channel.
+    fn sensitivities(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        let Parts { eye, .. } = self.parts;
         let [.., camera, _] = self.layout();
-        let mut sensitivities = parts.eye.sensitivities.clone();
-        let channels = sensitivities.nrows();
-        for ((channel, error), size) in parts.eye.errors.iter().zip(w.rows(camera, w.len() - camera).iter()) {
-            for (sensitivity, error) in sensitivities.row_mut(*channel).iter_mut().zip(error.iter()) {
-                *sensitivity += size * error;
-            }
+        let mut sensitivities = eye.sensitivities.clone();
+        for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..]) {
+            let curve = &mut sensitivities.as_mut_slice()[channel * error.len()..];
+            curve.iter_mut().zip(error.as_slice()).for_each(|(value, error)| *value += size * error);
         }
-        let weighted = |amount: f64, power: &DVector<f64>| {
+        sensitivities
+    }
+
+    /// The facets of a sheet that sends `beyond` more than a Lambertian one, through curves of these sensitivities.
+    fn predicted(
+        &self,
+        w: &DVector<f64>,
+        terms: &Terms,
+        beyond: &Radiance,
+        sensitivities: &DMatrix<f64>,
+    ) -> Predicted<'a> {
+        let (parts, conditions) = (self.parts, self.conditions(w));
+        let lighting = Lighting::new(parts, &conditions);
+        let light = |radiance, amount: f64, power: &DVector<f64>| {
             let mut weights = sensitivities.clone();
-            for (weights, power) in weights.as_mut_slice().chunks_exact_mut(channels).zip(power.iter()) {
-                weights.iter_mut().for_each(|weight| *weight *= amount * power);
+            for channel in weights.as_mut_slice().chunks_exact_mut(power.len()) {
+                channel
+                    .iter_mut()
+                    .zip(power.as_slice())
+                    .for_each(|(weight, power)| *weight *= amount * power);
             }
-            weights
+            Light { radiance, weights }
         };
-        let powers = self.powers(&conditions);
-        let (white, amounts) = (self.white(&conditions, &powers), self.ambient(&conditions));
-        let [sun, sky, ground] = powers;
-        let ambient =
-            |light: &'a Ambient, amount, power| (Cow::Borrowed(&light.radiance), weighted(amount, power));
-        let mut lights = vec![(Cow::Owned(self.sunlit(&conditions, beyond)), weighted(1.0, &sun))];
+        let mut lights = vec![light(Cow::Owned(self.sunlit(&conditions, beyond)), 1.0, &lighting.sun)];
         if parts.told.daylight.is_some() {
-            lights.push(ambient(&parts.sky, amounts[0], &sky));
-            lights.push(ambient(&parts.ground, amounts[1], &ground));
+            let ambient = [&parts.sky, &parts.ground].into_iter().zip(&lighting.ambient);
+            lights.extend(ambient.map(|(Ambient { radiance, .. }, (amount, power))| {
+                light(Cow::Borrowed(radiance), *amount, power)
+            }));
         }
-        let mut gains = DVector::from_element(channels, 1.0);
-        if let Some(white) = &white {
-            // a chart makes the channels those of the light that was said, in the light that there is
-            gains = white.map(|value| white[parts.eye.reference] / value);
+        let lens = Lens::new(parts, &conditions, &lighting);
+        let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
+        for light in &lights {
+            add_product(&mut radiances, &light.radiance, &light.to_channels(terms));
         }
-        if gains.len() == 3 {
-            gains[0] *= conditions.gains[0];
-            gains[2] *= conditions.gains[1];
-        }
-        let exposure = self.exposure(&conditions, white.as_ref());
-        let scale = DMatrix::from_fn(parts.places.len(), channels, |facet, c| {
-            exposure * gains[c] * (1.0 - conditions.vignetting * parts.places[facet].off_centre)
-        });
-        let lens = Lens { scale, glare: conditions.glare };
-        let mut radiances = DMatrix::zeros(parts.places.len(), channels);
-        for (light, weights) in &lights {
-            add_product(&mut radiances, light, &terms.values.tr_mul(&weights.transpose()));
-        }
-        Predicted { values: lens.seen(&radiances), lens, lights }
+        Predicted { values: lens.seen(radiances), lens, lights }
+    }
+
+    /// [`Self::predicted`] from `w` alone.
+    fn predicted_at(&self, w: &DVector<f64>) -> Predicted<'a> {
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        self.predicted(w, &self.terms(&albedo), &self.beyond(w), &self.sensitivities(w))
     }
 
     /// Values in the order of residuals, channel by channel, as they are compared.
@@ -342,8 +303,7 @@ impl<'a> PhotographModel<'a> {
     /// Residuals before they are whitened: facet by channel.
     #[must_use]
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
-        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        &self.parts.values - self.predicted(w, &self.terms(&albedo), &self.beyond(w)).values
+        &self.parts.values - self.predicted_at(w).values
     }
 }
 
@@ -355,29 +315,29 @@ impl Model for PhotographModel<'_> {
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let predicted = self.predicted(w, &self.terms(&albedo), &self.beyond(w));
-        self.whitening * (Self::in_order(&self.parts.values) - Self::in_order(&predicted.values))
+        self.whitening
+            .of(&(Self::in_order(&self.parts.values) - Self::in_order(&self.predicted_at(w).values)))
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let terms = self.terms(&albedo);
         let beyond = self.beyond(w);
-        let Predicted { values, lens, lights } = self.predicted(w, &terms, &beyond);
+        let sensitivities = self.sensitivities(w);
+        let Predicted { values, lens, lights } = self.predicted(w, &terms, &beyond, &sensitivities);
         let ordered = Self::in_order(&values);
         let [scene, sheet, camera, end] = self.layout();
-        let mut by_logit = DMatrix::<f64>::zeros(values.len(), albedo.len());
-        for (radiance, weights) in &lights {
+        let (facets, bands) = (values.nrows(), albedo.len());
+        let mut by_logit = DMatrix::<f64>::zeros(values.len(), bands);
+        for Light { radiance, weights } in &lights {
             let slopes = radiance.as_ref() * &terms.slopes;
-            for (band, mut column) in by_logit.column_iter_mut().enumerate() {
-                let (slopes, change) = (slopes.column(band), albedo[band] * (1.0 - albedo[band]));
-                let of_channels = column.as_mut_slice().chunks_exact_mut(values.nrows());
-                for ((entries, scale), weight) in
-                    of_channels.zip(lens.scale.column_iter()).zip(weights.column(band).iter())
-                {
-                    let weight = weight * change;
-                    for ((entry, scale), slope) in entries.iter_mut().zip(scale.iter()).zip(slopes.iter()) {
+            let by_band = by_logit.as_mut_slice().chunks_exact_mut(values.len());
+            for (band, (column, slopes)) in by_band.zip(columns(&slopes)).enumerate() {
+                let change = albedo[band] * (1.0 - albedo[band]);
+                let of_channels = column.chunks_exact_mut(facets).zip(columns(&lens.scale));
+                for (channel, (entries, scale)) in of_channels.enumerate() {
+                    let weight = weights[(band, channel)] * change;
+                    for ((entry, scale), slope) in entries.iter_mut().zip(scale).zip(slopes) {
                         *entry += weight * scale * slope;
                     }
                 }
@@ -390,24 +350,23 @@ impl Model for PhotographModel<'_> {
                 let mut beside = w.clone();
                 beside[n] += STEP;
                 let moved = if expected.unknown.is_of_sheet() {
-                    self.predicted(&beside, &terms, &self.beyond(&beside))
+                    self.predicted(&beside, &terms, &self.beyond(&beside), &sensitivities)
                 } else {
-                    self.predicted(&beside, &terms, &beyond)
+                    self.predicted(&beside, &terms, &beyond, &sensitivities)
                 };
                 let moved = Self::in_order(&moved.values);
                 jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
             }
         }
         // variations of the sheet and errors of the curves enter in proportion
-        let (radiance, weights) = &lights[0];
-        let to_channels = terms.values.tr_mul(&weights.transpose());
+        let to_channels = lights[0].to_channels(&terms);
         for (n, change) in (sheet..).zip(self.kinds.by_variation(self.kind)) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
             add_product(&mut radiances, &change, &to_channels);
-            jacobian.column_mut(n).copy_from_slice(lens.seen(&radiances).as_slice());
+            jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
-        let given = radiance.as_ref() * terms.values.transpose();
-        let [power, ..] = self.powers(&self.conditions(w));
+        let given = lights[0].radiance.as_ref() * terms.values;
+        let power = Lighting::new(self.parts, &self.conditions(w)).sun;
         let errors: Vec<_> =
             self.parts.eye.errors.iter().map(|(_, error)| error.component_mul(&power)).collect();
         if !errors.is_empty() {
@@ -418,14 +377,14 @@ impl Model for PhotographModel<'_> {
             }
         }
         Linearised {
-            residuals: self.whitening * (Self::in_order(&self.parts.values) - ordered),
-            jacobian: self.whitening * jacobian,
+            residuals: self.whitening.of(&(Self::in_order(&self.parts.values) - ordered)),
+            jacobian: self.whitening.of_all(&jacobian),
             second: (),
         }
     }
 
     /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
-    fn curvature(&self, (): &(), _: &DVector<f64>) -> DMatrix<f64> {
-        DMatrix::zeros(self.unknowns(), self.unknowns())
+    fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
+        None
     }
 }

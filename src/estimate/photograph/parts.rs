@@ -74,7 +74,7 @@ pub struct Ambient {
 pub struct Eye {
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
-    /// Sensitivity times the width of the waveband: channel by waveband.
+    /// Sensitivity times the width of the waveband: waveband by channel.
     pub sensitivities: DMatrix<f64>,
     /// How the sensitivities may be off, in units of a standard deviation: error by waveband, with its channel.
     pub errors: Vec<(usize, DVector<f64>)>,

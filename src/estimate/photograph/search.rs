@@ -119,7 +119,7 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
     let of_scene = photographs.iter().zip(&best.seen).map(|(photograph, seen)| {
         let Photograph { parts, whitening, .. } = photograph;
         let shifts: Vec<_> =
-            corners::shifts(&parts.places, &parts.values).iter().map(|shift| whitening * shift).collect();
+            corners::shifts(&parts.places, &parts.values).iter().map(|shift| whitening.of(shift)).collect();
         let mut found = findings(&seen.fitted, &parts.told);
         found.extend(corners::findings(&shifts, &seen.residuals, error.corner));
         (found, skipped(&seen.fitted, skipped_searches))

@@ -28,13 +28,13 @@ pub fn of(setting: &FoldSetting) -> Result<Eye> {
     let wavelengths_nm = grid.wavelengths_nm().to_vec();
     let bands = wavelengths_nm.len();
     let widths = grid.trapezoid_weights_nm();
-    let sensitivities = DMatrix::from_fn(camera.sensitivities.len(), bands, |channel, band| {
+    let sensitivities = DMatrix::from_fn(bands, camera.sensitivities.len(), |band, channel| {
         camera.sensitivities[channel][band] * widths[band]
     });
     let sun = DVector::from_column_slice(&scene.illuminants()?[0].power);
     let sky = scene.sky_illuminant()?.map_or_else(|| sun.clone(), |sky| DVector::from_vec(sky.power));
     let daylight = vectors(&grid)?;
-    let white = &sensitivities * &sun;
+    let white = sensitivities.tr_mul(&sun);
     // a camera that stands in for another is off by what such cameras were measured to be
     let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));
     let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, sd);

@@ -1,5 +1,7 @@
 //! Kinds of sheets on the fold of a photograph, before its camera.
 
+use std::sync::LazyLock;
+
 use nalgebra::{Point3, Vector3};
 use ndarray::Axis;
 
@@ -22,24 +24,21 @@ pub fn of(
     bins: &Bins,
     left_out: Option<&str>,
 ) -> Result<Sheets> {
-    let families = families();
-    let fuzzy = FUZZ.map(|fuzz| Family { fuzz, ..families[MIDDLE] });
-    let distinct: Vec<usize> = (0..families.len()).filter(|n| is_distinct(*n)).collect();
-    let formulas = distinct.iter().map(|n| families[*n]).chain(fuzzy).map(Shape::from);
     let tables = measured()?.iter().zip(measured_names()).filter(|(_, name)| Some(*name) != left_out);
-    let all: Vec<Shape> = formulas.chain(tables.map(|(shape, _)| shape.clone())).collect();
+    let all: Vec<Shape> = FORMULAS.iter().chain(tables.map(|(shape, _)| shape)).cloned().collect();
     let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes);
     let departure = |(shape, radiance): (&Shape, ndarray::ArrayView2<f64>)| Departure {
         radiance: bins.pool(&radiance.to_owned()),
         reflectance: shape.slope_and_offset(),
     };
     let mut known: Vec<Departure> = all.iter().zip(beyond.axis_iter(Axis(0))).map(departure).collect();
-    let measured = known.split_off(distinct.len() + FUZZ.len());
-    let place = |n: usize| distinct.iter().position(|one| *one == representative(n)).unwrap_or(0);
-    let fuzz = [0, 1].map(|n| known[distinct.len() + n].less(&known[place(MIDDLE)]));
+    let measured = known.split_off(FORMULAS.len());
+    let fuzzy = known.split_off(FORMULAS.len() - FUZZ.len());
+    let place = |n: usize| n - (0..=n).filter(|one| representative(*one) != *one).count();
+    let of_family = |n: usize| &known[place(representative(n))];
     Ok(Sheets {
-        fuzz,
-        families: (0..families.len()).map(|n| known[place(n)].clone()).collect(),
+        fuzz: [0, 1].map(|n| fuzzy[n].less(of_family(MIDDLE))),
+        families: (0..FAMILIES).map(|n| of_family(n).clone()).collect(),
         measured,
         instrument: INSTRUMENT,
     })
@@ -48,23 +47,27 @@ pub fn of(
 /// The family in the middle of all nodes.
 const MIDDLE: usize = 13;
 
-/// The families at the nodes: strength and roughness of the surface, roughness of the body, the last fastest.
-fn families() -> Vec<Family> {
+/// Families at the nodes.
+const FAMILIES: usize = 27;
+
+/// Shapes that formulas give: of the families that differ, then those with fuzz.
+static FORMULAS: LazyLock<Vec<Shape>> = LazyLock::new(|| {
+    let distinct = (0..FAMILIES).filter(|n| representative(*n) == *n).map(family);
+    distinct.chain(FUZZ.map(|fuzz| Family { fuzz, ..family(MIDDLE) })).map(Shape::from).collect()
+});
+
+/// The family at a node: strength and roughness of the surface, roughness of the body, the last fastest.
+fn family(n: usize) -> Family {
     let nodes = FAMILY_NODES;
-    let of = |n: usize| Family {
+    Family {
         gloss: nodes.gloss[n / 9],
         roughness: nodes.gloss_roughness[n / 3 % 3],
         body_roughness_deg: nodes.body_roughness_deg[n % 3],
         ..Family::default()
-    };
-    (0..27).map(of).collect()
+    }
 }
 
 /// Without gloss its roughness makes no difference.
 fn representative(n: usize) -> usize {
     if n < 9 { n % 3 } else { n }
-}
-
-fn is_distinct(n: usize) -> bool {
-    representative(n) == n
 }

@@ -1,0 +1,48 @@
+//! What makes values of the radiances of facets.
+
+use nalgebra::DMatrix;
+
+use super::conditions::Conditions;
+use super::lighting::Lighting;
+use super::parts::Parts;
+
+/// Exposure, gains, vignetting and glare.
+pub struct Lens {
+    /// Brightness of each facet and channel for a radiance of 1: facet by channel.
+    pub scale: DMatrix<f64>,
+    /// Share of a channel's mean that is spread over all facets.
+    glare: f64,
+}
+
+impl Lens {
+    /// That of a photograph taken under these conditions, in this light.
+    #[must_use]
+    pub fn new(parts: &Parts, conditions: &Conditions, lighting: &Lighting) -> Self {
+        let brightness = lighting.exposure(parts, conditions) * lighting.gains(parts, conditions);
+        let mut scale = DMatrix::zeros(parts.places.len(), brightness.len());
+        for (column, brightness) in scale.as_mut_slice().chunks_exact_mut(parts.places.len()).zip(&brightness)
+        {
+            for (scale, place) in column.iter_mut().zip(&parts.places) {
+                *scale = brightness * (1.0 - conditions.vignetting * place.off_centre);
+            }
+        }
+        Self { scale, glare: conditions.glare }
+    }
+
+    /// Values of radiances: facet by channel.
+    #[must_use]
+    pub fn seen(&self, mut radiances: DMatrix<f64>) -> DMatrix<f64> {
+        let facets = radiances.nrows();
+        let columns = radiances.as_mut_slice().chunks_exact_mut(facets);
+        for (values, scale) in columns.zip(self.scale.as_slice().chunks_exact(facets)) {
+            let mut sum = 0.0;
+            for (value, scale) in values.iter_mut().zip(scale) {
+                *value *= scale;
+                sum += *value;
+            }
+            let spread = self.glare * sum / facets as f64;
+            values.iter_mut().for_each(|value| *value += spread);
+        }
+        radiances
+    }
+}

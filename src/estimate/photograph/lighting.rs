@@ -1,0 +1,73 @@
+//! The light in which a sheet stands: sun, sky and ground, and what a white chart makes of it.
+
+use nalgebra::DVector;
+
+use super::conditions::{Conditions, Daylight};
+use super::parts::Parts;
+
+/// Sun, sky and ground as the channels take them in.
+pub struct Lighting {
+    /// Power of the sun, which gives 1 in the reference channel.
+    pub sun: DVector<f64>,
+    /// Power of the sky and of the ground, each with the irradiance of an open plane that faces it: the first for an irradiance of 1 by the sky
+    /// in the reference channel, the second for a reflectance of the ground of 1.
+    pub ambient: [(f64, DVector<f64>); 2],
+    /// What a chart or a card that faces the sun receives, channel by channel, the light of the sun as it was said being 1; none if there is
+    /// neither.
+    white: Option<DVector<f64>>,
+}
+
+impl Lighting {
+    /// That of a photograph taken under these conditions.
+    #[must_use]
+    pub fn new(parts: &Parts, conditions: &Conditions) -> Self {
+        let [sun, sky, ground] = powers(parts, conditions);
+        let sky_amount = conditions.sky.max(0.0);
+        let ground_amount = conditions.ground * (parts.sun_height + sky_amount);
+        let white = parts.told.by_chart.then(|| {
+            let sensitivities = &parts.eye.sensitivities;
+            let said = sensitivities.tr_mul(&parts.eye.sun);
+            let light =
+                &sun + sky_amount * parts.sky.open * &sky + ground_amount * parts.ground.open * &ground;
+            sensitivities.tr_mul(&light).component_div(&said) * said[parts.eye.reference]
+        });
+        Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], white }
+    }
+
+    /// The exposure: value of a perfect white diffuser that faces the sun, in the sun alone.
+    #[must_use]
+    pub fn exposure(&self, parts: &Parts, conditions: &Conditions) -> f64 {
+        conditions.exposure / self.white.as_ref().map_or(1.0, |white| white[parts.eye.reference])
+    }
+
+    /// Gains of the channels: a chart makes them those of the light that was said, in the light that there is.
+    #[must_use]
+    pub fn gains(&self, parts: &Parts, conditions: &Conditions) -> DVector<f64> {
+        let Parts { eye, .. } = parts;
+        let mut gains = match &self.white {
+            Some(white) => white.map(|value| white[eye.reference] / value),
+            None => DVector::from_element(eye.sensitivities.ncols(), 1.0),
+        };
+        if let [first, _, last] = gains.as_mut_slice() {
+            *first *= conditions.gains[0];
+            *last *= conditions.gains[1];
+        }
+        gains
+    }
+}
+
+fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 3] {
+    let eye = &parts.eye;
+    let daylight = |mired: f64| Daylight::power(&eye.daylight, mired);
+    let sun = match conditions.sun_mired.zip(parts.told.daylight) {
+        Some((mired, said)) => eye.sun.component_mul(&daylight(mired).component_div(&daylight(said.mired()))),
+        None => eye.sun.clone(),
+    };
+    let sky = conditions.sky_mired.map_or_else(|| eye.sky.clone(), daylight);
+    let reference = eye.sensitivities.column(eye.reference);
+    let [sun, sky] = [sun, sky].map(|power| &power / reference.dot(&power));
+    let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
+    let ground = sun.as_slice().iter().zip(&eye.wavelengths_nm).map(|(power, nm)| power * redness(nm));
+    let ground = DVector::from_iterator(sun.len(), ground);
+    [sun, sky, ground]
+}
