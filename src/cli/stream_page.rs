@@ -14,16 +14,20 @@ pub(super) fn stream_page() -> String {
 
 fn records() -> String {
     let mut page = Roff::new();
-    for RecordOutline { kind, about, fields } in outline() {
-        page.control("SS", [kind.as_str()]).text([roman(about)]);
+    for RecordOutline { kind, about, writers, fields } in outline() {
+        page.control("SS", [kind.as_str()]).text([roman(about + &written(writers.as_deref()))]);
         fields.iter().for_each(|field| add(field, &mut page));
     }
     page.to_roff()
 }
 
 fn add(FieldOutline { path, holds, about, writers }: &FieldOutline, page: &mut Roff) {
-    let writers = writers.as_ref().map(|writers| format!(" Written by {writers}.")).unwrap_or_default();
     page.control("TP", [])
         .text([bold(path), roman("  "), italic(holds)])
-        .text([roman(format!("{about}{writers}"))]);
+        .text([roman(about.clone() + &written(writers.as_deref()))]);
+}
+
+/// The sentence on who writes something, if that is said.
+fn written(writers: Option<&str>) -> String {
+    writers.map(|writers| format!(" Written by {writers}.")).unwrap_or_default()
 }

@@ -1,4 +1,7 @@
-//! The form of the stream for people: every field of every record, one after the other, from the schemas.
+//! The form of the stream for people: every field of every record, one after the other, from the schemas. What several fields hold alike
+//! is listed once.
+
+use std::collections::HashMap;
 
 use serde_json::Value;
 
@@ -11,6 +14,8 @@ pub struct RecordOutline {
     pub kind: String,
     /// What it is.
     pub about: String,
+    /// Tools that write it, where all of its fields have the same.
+    pub writers: Option<String>,
     /// Its fields, those of a group after it.
     pub fields: Vec<FieldOutline>,
 }
@@ -18,13 +23,13 @@ pub struct RecordOutline {
 /// A field of a record, or one form that it can have.
 #[derive(Clone, Debug)]
 pub struct FieldOutline {
-    /// Names from the outermost on: `estimate.fit.sky`; `[]` is each of a list, `NAME` any name.
+    /// Names from the outermost on: `estimate.fit.sky`; `[]` is each of a list, `NAME` any name, or any of those just listed.
     pub path: String,
     /// Type and range: `[number from 0 to 1]`; `either` and `or` before its forms.
     pub holds: String,
     /// Meaning, unit and shape.
     pub about: String,
-    /// Tools that write it, if it is not within another.
+    /// Tools that write it, if it is not within another, and not those that write the record.
     pub writers: Option<String>,
 }
 
@@ -33,19 +38,26 @@ pub struct FieldOutline {
 /// # Example
 /// ```
 /// let records = vfold::stream::outline();
-/// let fit = records[1].fields.iter().find(|field| field.path == "estimate.fit.sky.sd").unwrap();
+/// let fit = records[1].fields.iter().find(|field| field.path == "estimate.fit.NAME.sd").unwrap();
 /// assert_eq!((records[1].kind.as_str(), fit.holds.as_str()), ("sample", "number from 0"));
 /// assert_eq!(fit.about, "Standard deviation.");
 /// ```
 #[must_use]
 pub fn outline() -> Vec<RecordOutline> {
-    records().into_iter().map(|(kind, schema)| of_record(kind, &schema)).collect()
-}
-
-fn of_record(kind: String, schema: &Value) -> RecordOutline {
-    let mut walk = Walk { root: schema, fields: Vec::new() };
-    walk.fields_of(schema, "");
-    RecordOutline { kind, about: text(schema, "description"), fields: walk.fields }
+    let records = records();
+    let mut names = HashMap::new();
+    let outline = |(kind, schema): &(String, Value)| {
+        let mut walk =
+            Walk { root: schema, kind, fields: Vec::new(), listed: HashMap::new(), names: &mut names };
+        walk.fields_of(schema, "");
+        RecordOutline {
+            kind: kind.clone(),
+            about: text(schema, "description"),
+            writers: schema["x-writer"].as_str().map(str::to_owned),
+            fields: walk.fields,
+        }
+    };
+    records.iter().map(outline).collect()
 }
 
 /// Text of a keyword on one line, code as it stands; empty if it is not there.
@@ -60,12 +72,20 @@ fn text(schema: &Value, keyword: &str) -> String {
 }
 
 /// A record's schema on the way through it.
-struct Walk<'a> {
+struct Walk<'a, 'n> {
     root: &'a Value,
+    kind: &'a str,
     fields: Vec<FieldOutline>,
+    /// Where an object that is referred to was listed.
+    listed: HashMap<&'a str, String>,
+    /// Where so many names were listed with their meanings, in any record.
+    names: &'n mut HashMap<String, String>,
 }
 
-impl<'a> Walk<'a> {
+/// So many fields in a row that hold the same objects, or that another record has too, are listed once.
+const MANY: usize = 3;
+
+impl<'a> Walk<'a, '_> {
     /// What a schema refers to, or itself.
     fn resolved(&self, schema: &'a Value) -> &'a Value {
         let target = schema["$ref"].as_str().and_then(|target| target.strip_prefix('#'));
@@ -77,14 +97,38 @@ impl<'a> Walk<'a> {
         let name = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         let is_needed =
             |field: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == field));
-        for (field, value) in schema["properties"].as_object().into_iter().flatten() {
-            self.field(name(field), value, is_needed(field));
-            if let Some(last) = self.fields.last_mut().filter(|last| last.about.is_empty()) {
-                last.about = text(schema, "description"); // a field that tells forms apart stands for its form
+        let properties: Vec<_> = schema["properties"].as_object().into_iter().flatten().collect();
+        if let Some(place) = self.listed_elsewhere(&properties, path) {
+            let about = format!("Of the same names as {place}.");
+            self.fields.push(FieldOutline {
+                path: name("NAME"),
+                holds: self.holds_if_there(properties[0].1),
+                about,
+                writers: None,
+            });
+            return;
+        }
+        let runs: Vec<_> = properties.chunk_by(|(_, a), (_, b)| self.are_alike(a, b)).collect();
+        for alike in runs {
+            for (field, value) in alike {
+                self.field(name(field), value, is_needed(field));
+                if let Some(last) = self.fields.last_mut().filter(|last| last.about.is_empty()) {
+                    last.about = text(schema, "description"); // a field that tells forms apart stands for its form
+                }
+                if alike.len() < MANY {
+                    self.fields_of(value, &name(field));
+                }
+            }
+            if alike.len() >= MANY {
+                self.fields_of(alike[0].1, &name("NAME"));
             }
         }
         if schema["additionalProperties"].is_object() {
             self.field(name("NAME"), &schema["additionalProperties"], false);
+            if let Some(last) = self.fields.last_mut().filter(|last| last.about.is_empty()) {
+                "Each of them.".clone_into(&mut last.about);
+            }
+            self.fields_of(&schema["additionalProperties"], &name("NAME"));
         }
         if schema["items"].is_object() {
             self.fields_of(&schema["items"], &format!("{path}[]"));
@@ -97,24 +141,51 @@ impl<'a> Walk<'a> {
             }
             self.fields_of(form, path);
         }
-        if !schema["$ref"].is_null() {
-            self.fields_of(self.resolved(schema), path);
+        if let Some(target) = schema["$ref"].as_str() {
+            let object = self.resolved(schema);
+            match (self.listed.get(target), self.fields.last_mut()) {
+                (Some(first), Some(last)) if object["properties"].is_object() => {
+                    last.about += &format!(" Its fields are those of {first}.");
+                }
+                _ => {
+                    self.listed.insert(target, path.to_owned());
+                    self.fields_of(object, path);
+                }
+            }
         }
     }
 
+    /// Where all these names were listed with the same meanings.
+    fn listed_elsewhere(&mut self, properties: &[(&String, &'a Value)], path: &str) -> Option<String> {
+        let all: Vec<_> = properties
+            .iter()
+            .map(|(name, value)| format!("{name}: {}", text(value, "description")))
+            .collect();
+        if all.len() < MANY || path.is_empty() {
+            return None;
+        }
+        let place = format!("{path} of a {}", self.kind);
+        let known = self.names.entry(all.join("\n")).or_insert_with(|| place.clone());
+        (*known != place && !known.ends_with(&format!(" of a {}", self.kind))).then(|| known.clone())
+    }
+
+    /// Whether two fields hold the same objects, whatever these mean.
+    fn are_alike(&self, a: &'a Value, b: &'a Value) -> bool {
+        let object = |schema| {
+            let form = self.forms(schema).first().copied().unwrap_or(schema);
+            Some(self.resolved(form)).filter(|form| form["properties"].is_object())
+        };
+        object(a).is_some_and(|a| object(b).is_some_and(|b| std::ptr::eq(a, b)))
+    }
+
     fn field(&mut self, path: String, schema: &'a Value, is_needed: bool) {
-        let holds = self.holds(schema);
-        let holds =
-            if is_needed { holds } else { holds.trim_end_matches(" or null").to_owned() + ", or absent" };
+        let holds = if is_needed { self.holds(schema) } else { self.holds_if_there(schema) };
         let about = match text(schema, "description") {
             none if none.is_empty() => text(self.resolved(schema), "description"),
             about => about,
         };
-        let is_outermost = !path.contains(['.', '[']);
-        let of_all = self.root["x-writer"].as_str().filter(|_| is_outermost);
-        let writers = schema["x-writer"].as_str().or(of_all).map(str::to_owned);
-        self.fields.push(FieldOutline { path: path.clone(), holds, about, writers });
-        self.fields_of(schema, &path);
+        let writers = schema["x-writer"].as_str().map(str::to_owned);
+        self.fields.push(FieldOutline { path, holds, about, writers });
     }
 
     /// Adds the `n`th form of a value, where no field tells its forms apart.
@@ -128,6 +199,11 @@ impl<'a> Walk<'a> {
     fn forms(&self, schema: &'a Value) -> Vec<&'a Value> {
         let forms = schema["anyOf"].as_array().or(schema["oneOf"].as_array());
         forms.into_iter().flatten().filter(|form| form["type"] != "null").collect()
+    }
+
+    /// Type and range of a field that may be absent.
+    fn holds_if_there(&self, schema: &'a Value) -> String {
+        self.holds(schema).trim_end_matches(" or null").to_owned() + ", or absent"
     }
 
     /// Type and range.
