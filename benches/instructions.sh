@@ -7,7 +7,7 @@
 #
 # Tools in the folder TOOLS are counted as they are.
 #
-# They are those of benches/counted.toml, a release without optimisation across crates: that would take longer than all the rest.
+# They are those of benches/counted.toml, which are nearly those of a release: that would take longer than all the rest.
 # A change, however large, is the reader's to judge; what cannot be built or counted is an error.
 set -eu
 cd "$(dirname "$0")/.."

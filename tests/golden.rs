@@ -11,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::Workdir;
+use rayon::prelude::*;
 use serde_json::Value;
 
 /// Programs that the cases call, each with a line that runs only where it is there, and what to do where it is not.
@@ -52,7 +53,7 @@ fn every_case_prints_what_it_did() {
         let found = Workdir::new().sh(line).status == 0;
         assert!(found, "the golden cases need {what}: {remedy}");
     }
-    let differing: Vec<_> = cases().iter().filter_map(|case| difference(case)).collect();
+    let differing: Vec<_> = cases().par_iter().filter_map(|case| difference(case)).collect();
     assert!(differing.is_empty(), "\n{}\nGOLDEN=write accepts what is printed now", differing.join("\n"));
 }
 
