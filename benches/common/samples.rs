@@ -5,9 +5,10 @@ use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::unknowns::SceneModel;
+use vfold::forward::FacetValues;
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
-use vfold::stream::{Colours, Reader, Record, Sample};
+use vfold::stream::{Reader, Record, Sample};
 use vfold::{Error, Result};
 
 /// Least change that counts, in standard deviations.
@@ -26,8 +27,8 @@ pub struct Batch {
 /// The facets of a sheet that is known.
 #[derive(Clone)]
 pub struct Shot {
-    rgb: Colours,
-    sd: Colours,
+    rgb: FacetValues,
+    sd: FacetValues,
     /// Value of white facing the sun.
     pub exposure: Exposure,
     /// Reflectance a waveband.
@@ -64,12 +65,10 @@ impl Shot {
     fn new(scene: &SceneModel, sample: &Sample) -> Result<Self> {
         let rgb = sample.facet_rgb()?;
         let sd = match sample.facet_sd()? {
-            Some(said) => {
-                deviations(&rgb, |facet, channel| said[facet].as_ref().map_or(0.0, |sd| sd[channel]), 0.0)
-            }
+            Some(said) => deviations(&rgb, |[facet, channel]| said.get(facet, channel).unwrap_or(0.0), 0.0),
             None => {
                 let noise = unexplained(scene.facets(), &rgb);
-                deviations(&rgb, |_, channel| noise[channel], 0.0)
+                deviations(&rgb, |[_, channel]| noise[channel], 0.0)
             }
         };
         let exposure = sample.exposure()?.map_or(Exposure::Free, Exposure::Known);
@@ -84,7 +83,7 @@ impl Shot {
 
     /// The same facets, thought to have `times` their noise.
     pub fn with_noise(mut self, times: f64) -> Self {
-        self.sd.iter_mut().flatten().flatten().for_each(|sd| *sd *= times);
+        self.sd = self.sd.map(|_, sd| times * sd);
         self
     }
 
@@ -95,7 +94,7 @@ impl Shot {
 
     /// The facets, white being 1, as the paper's objective has them.
     pub fn unweighted<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
-        let ones: Colours = self.rgb.iter().map(|rgb| rgb.as_ref().map(|rgb| vec![1.0; rgb.len()])).collect();
+        let ones = self.rgb.map(|_, _| 1.0);
         FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &ones }, self.exposure, 1e-8)
     }
 }

@@ -56,7 +56,7 @@ impl FlatSheet {
                 "the sheet is folded, and this method knows no bounces; use vkernel --angle-deg 180";
             Error::field("geometry.angle_deg", problem)
         })?;
-        let facets: Vec<_> = usable.iter().filter_map(|facet| measured.rgb[*facet].as_ref()).collect();
+        let facets: Vec<_> = usable.iter().filter_map(|facet| measured.rgb.facet(*facet)).collect();
         let mean = |channel: usize| facets.iter().map(|rgb| rgb[channel]).sum::<f64>() / facets.len() as f64;
         Ok(Self { values: (0..view.nrows()).map(mean).collect(), view, exposure })
     }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::measured::Measured;
-use crate::forward::FacetModel;
+use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
 /// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
@@ -13,8 +13,7 @@ pub fn weighted(
     usable: &[usize],
     channel: usize,
 ) -> (DVector<f64>, Vec<DMatrix<f64>>) {
-    let column =
-        |of: &[Option<Vec<f64>>], facet: usize| of[facet].as_ref().map_or(f64::NAN, |rgb| rgb[channel]);
+    let column = |of: &FacetValues, facet: usize| of.get(facet, channel).unwrap_or(f64::NAN);
     let weight: Vec<f64> = usable.iter().map(|facet| column(measured.sd, *facet).recip()).collect();
     let data = usable.iter().zip(&weight).map(|(facet, weight)| weight * column(measured.rgb, *facet));
     let entry = |facets: &DMatrix<f64>, row: usize, term| weight[row] * facets[(usable[row], term)];

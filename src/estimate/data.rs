@@ -92,10 +92,9 @@ pub struct Curvature {
 /// What directions of the model are weighed with: the exposure or, where it is to be found, no less than the brightest facet.
 /// At an exposure below 1 a few more directions are kept than the noise lets through.
 fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
-    let brightest = || measured.rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
     match exposure {
         Exposure::Known(exposure) => exposure.max(1.0),
-        Exposure::Free | Exposure::Sum => brightest().max(1.0),
+        Exposure::Free | Exposure::Sum => measured.rgb.greatest().max(1.0),
     }
 }
 
@@ -121,7 +120,11 @@ impl<'a> FacetData<'a> {
             models.push(ChannelModel { sources, weights: camera.map(DVector::from_column_slice).collect() });
         }
         let sums = SumRule {
-            measured: usable.iter().filter_map(|facet| measured.rgb[*facet].as_ref()).flatten().sum(),
+            measured: usable
+                .iter()
+                .filter_map(|facet| measured.rgb.facet(*facet))
+                .map(|facet| facet.sum())
+                .sum(),
             sources: model.sources().iter().map(|source| sum_of_rows(&source.facets, &usable)).collect(),
         };
         let count = usable.len() * channels;

@@ -1,32 +1,34 @@
 //! Facets that were measured: which of them can be used.
 
 use crate::error::{Error, Result};
-use crate::forward::FacetModel;
+use crate::forward::{FacetModel, FacetValues};
 
 /// A picture with less light in all its facets is dark: squares of such numbers are zero.
 const DARKEST: f64 = 1e-100;
 
-/// Facet RGB, and how far each may be off: facet by channel, none for a facet that was not measured.
+/// Facet RGB, and how far each may be off.
 pub struct Measured<'a> {
     /// Values.
-    pub rgb: &'a [Option<Vec<f64>>],
+    pub rgb: &'a FacetValues,
     /// Standard deviations, positive.
-    pub sd: &'a [Option<Vec<f64>>],
+    pub sd: &'a FacetValues,
 }
 
 /// Whether there are values of as many facets as the scene has, in as many channels where a facet was measured.
 ///
 /// # Errors
 /// [`Error::Field`] under that name if not.
-pub fn check_shape(name: &str, values: &[Option<Vec<f64>>], [facets, channels]: [usize; 2]) -> Result<()> {
+pub fn check_shape(name: &str, values: &FacetValues, [facets, channels]: [usize; 2]) -> Result<()> {
     if values.len() != facets {
         return Err(Error::field(name, format!("{} facets, but the scene has {facets}", values.len())));
     }
-    match values.iter().flatten().find(|row| row.len() != channels) {
-        None => Ok(()),
-        Some(odd) => Err(Error::field(
+    match values.channels() {
+        // nothing was measured
+        0 => Ok(()),
+        same if same == channels => Ok(()),
+        other => Err(Error::field(
             name,
-            format!("{} channels, but the scene has {channels}: its camera's in every picture", odd.len()),
+            format!("{other} channels, but the scene has {channels}: its camera's in every picture"),
         )),
     }
 }
@@ -37,11 +39,11 @@ pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usiz
     check_shape("facet_rgb", measured.rgb, [facets, channels])?;
     check_shape("facet_sd", measured.sd, [facets, channels])?;
     let usable: Vec<usize> =
-        (0..facets).filter(|f| measured.rgb[*f].is_some() && measured.sd[*f].is_some()).collect();
+        (0..facets).filter(|f| measured.rgb.facet(*f).is_some() && measured.sd.facet(*f).is_some()).collect();
     if usable.is_empty() {
         return Err(Error::field("facet_rgb", "no facet was measured; check corners and clipping"));
     }
-    if usable.iter().filter_map(|f| measured.rgb[*f].as_ref()).flatten().sum::<f64>() <= DARKEST {
+    if usable.iter().filter_map(|f| measured.rgb.facet(*f)).map(|facet| facet.sum()).sum::<f64>() <= DARKEST {
         return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
     }
     Ok(usable)

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::{Error, Result};
-use crate::forward::FacetModel;
+use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
 /// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
@@ -11,9 +11,6 @@ const FLOOR: f64 = 1e-6;
 
 /// Directions in which the terms move facets by less than the root of that share of the most are rounding.
 const ROUNDING: f64 = 1e-13;
-
-/// Facet by channel, none for a facet that was not measured.
-pub type FacetValues = Vec<Option<Vec<f64>>>;
 
 /// What an estimate takes facets to be worth.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,21 +43,20 @@ impl Noise {
     ///
     /// # Errors
     /// [`Error::Field`] if those of the noise are of another number of facets.
-    pub fn deviations(&self, model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Result<FacetValues> {
+    pub fn deviations(&self, model: &FacetModel, rgb: &FacetValues) -> Result<FacetValues> {
         match &self.source {
-            NoiseSource::Given(sd) => Ok(deviations(rgb, |_, _| *sd, self.model_error)),
+            NoiseSource::Given(sd) => Ok(deviations(rgb, |_| *sd, self.model_error)),
             NoiseSource::OfFacets(sd) => {
                 if sd.len() != rgb.len() {
                     let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
                     return Err(Error::field("facet_sd", problem));
                 }
-                let noise = |facet: usize, channel: usize| sd[facet].as_ref()?.get(channel).copied();
-                let noise = |facet, channel| noise(facet, channel).unwrap_or(0.0);
+                let noise = |[facet, channel]: [usize; 2]| sd.get(facet, channel).unwrap_or(0.0);
                 Ok(deviations(rgb, noise, self.model_error))
             }
             NoiseSource::Unexplained => {
                 let noise = unexplained(model, rgb);
-                let of_channel = |_, channel: usize| noise.get(channel).copied().unwrap_or(0.0);
+                let of_channel = |[_, channel]: [usize; 2]| noise.get(channel).copied().unwrap_or(0.0);
                 Ok(deviations(rgb, of_channel, self.model_error))
             }
         }
@@ -70,19 +66,9 @@ impl Noise {
 /// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel, `model_error` relative to
 /// the facet's value, and a millionth of the brightest facet, in quadrature.
 #[must_use]
-pub fn deviations(
-    rgb: &[Option<Vec<f64>>],
-    noise_sd: impl Fn(usize, usize) -> f64,
-    model_error: f64,
-) -> FacetValues {
-    let floor = FLOOR * rgb.iter().flatten().flatten().copied().fold(0.0, f64::max);
-    let facet = |(facet, values): (usize, &Option<Vec<f64>>)| {
-        let deviation = |(channel, value): (usize, &f64)| {
-            noise_sd(facet, channel).hypot(model_error * value).hypot(floor)
-        };
-        values.as_ref().map(|values| values.iter().enumerate().map(deviation).collect())
-    };
-    rgb.iter().enumerate().map(facet).collect()
+pub fn deviations(rgb: &FacetValues, noise_sd: impl Fn([usize; 2]) -> f64, model_error: f64) -> FacetValues {
+    let floor = FLOOR * rgb.greatest();
+    rgb.map(|place, value| noise_sd(place).hypot(model_error * value).hypot(floor))
 }
 
 /// Noise of each channel, told from the facets alone: the root mean square of what no reflectance explains.
@@ -90,9 +76,10 @@ pub fn deviations(
 /// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
 /// directions are noise. Zero where the terms can be any facets.
 #[must_use]
-pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
-    let usable: Vec<usize> =
-        (0..rgb.len().min(model.sources()[0].facets.nrows())).filter(|facet| rgb[*facet].is_some()).collect();
+pub fn unexplained(model: &FacetModel, rgb: &FacetValues) -> Vec<f64> {
+    let usable: Vec<usize> = (0..rgb.len().min(model.sources()[0].facets.nrows()))
+        .filter(|facet| rgb.facet(*facet).is_some())
+        .collect();
     let columns: Vec<DVector<f64>> = model
         .sources()
         .iter()
@@ -106,9 +93,8 @@ pub fn unexplained(model: &FacetModel, rgb: &[Option<Vec<f64>>]) -> Vec<f64> {
     let span = span(&columns);
     let freedom = usable.len() - span.ncols();
     let noise = |channel: usize| {
-        let value = |facet: &usize| rgb[*facet].as_ref().and_then(|rgb| rgb.get(channel)).copied();
-        let data =
-            DVector::from_iterator(usable.len(), usable.iter().map(|facet| value(facet).unwrap_or(0.0)));
+        let value = |facet: &usize| rgb.get(*facet, channel).unwrap_or(0.0);
+        let data = DVector::from_iterator(usable.len(), usable.iter().map(value));
         let left = &data - &span * span.tr_mul(&data);
         if freedom == 0 { 0.0 } else { (left.norm_squared() / freedom as f64).sqrt() }
     };

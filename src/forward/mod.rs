@@ -12,8 +12,10 @@ mod open_light;
 pub mod render;
 mod surface;
 mod terms;
+mod values;
 
 pub use lighting::{Lighting, Lit};
 pub use model::FacetModel;
 pub use open_light::OpenLight;
 pub use terms::Card;
+pub use values::FacetValues;

@@ -36,7 +36,7 @@ pub fn sheet(
     });
     let residuals = residuals(sample, scene).ok().flatten();
     let residuals = residuals.map(|facets| -> Result<_> {
-        Ok(Residuals { channels: channels_of_pictures(scene, &setting)?, facets })
+        Ok(Residuals { channels: channels_of_pictures(scene, &setting)?, facets: facets.rows() })
     });
     Ok(Some(Sheet { curve, colours, residuals: residuals.transpose()?, panels }))
 }

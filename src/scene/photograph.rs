@@ -137,8 +137,8 @@ impl<'a> PhotographedFold<'a> {
         Ok(Ok(Parts {
             told,
             places: bins.places().to_vec(),
-            sd: bins.sd(),
-            values,
+            sd: bins.sd().clone(),
+            values: values.clone(),
             sun: lit,
             sky,
             ground,

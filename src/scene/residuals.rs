@@ -1,17 +1,19 @@
 //! What an estimate leaves of the facets, computed from the records: scene, estimate and what facets were taken to be worth.
 
+use nalgebra::DMatrix;
+
 use super::Setting;
 use crate::error::{Error, Result};
+use crate::estimate::measured::check_shape;
 use crate::estimate::unknowns::{Expected, SceneModel};
-use crate::forward::FacetModel;
-use crate::stream::{Colours, EstimateRecord, Sample, Scene};
+use crate::forward::{FacetModel, FacetValues};
+use crate::stream::{EstimateRecord, Sample, Scene};
 
-/// Measured minus estimated facets in units of their standard deviations: facet by channel, none for a facet that was not
-/// measured; none at all without an estimate.
+/// Measured minus estimated facets in units of their standard deviations; none without an estimate.
 ///
 /// # Errors
 /// [`Error::Field`] if estimate and facets do not fit the scene.
-pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<Colours>> {
+pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<FacetValues>> {
     let Some(estimate) = sample.estimate()? else { return Ok(None) };
     let fit: Vec<_> = estimate.fitted().map(|(unknown, _)| unknown).collect();
     // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it says little.
@@ -21,15 +23,11 @@ pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<Colours>> {
     let (model, measured) = (Setting::of(scene)?.model_to_fit(&fit)?, sample.facet_rgb()?);
     let sd = sample.noise_of(&estimate)?.deviations(model.facets(), &measured)?;
     let fitted = facets(&estimate, &at_fit(&estimate, &model))?;
-    if fitted.len() != measured.len() {
-        let problem = format!("{} facets for a scene of {}", measured.len(), fitted.len());
-        return Err(Error::field("facet_rgb", problem));
-    }
-    let residuals = measured.iter().zip(&sd).zip(&fitted).map(|((rgb, sd), fitted)| {
-        let of = |((value, sd), fitted): ((&f64, &f64), &f64)| (value - fitted) / sd.max(f64::MIN_POSITIVE);
-        Some(rgb.as_ref()?.iter().zip(sd.as_ref()?).zip(fitted).map(of).collect())
-    });
-    Ok(Some(residuals.collect()))
+    check_shape("facet_rgb", &measured, [fitted.nrows(), fitted.ncols()])?;
+    Ok(Some(measured.map(|[facet, channel], value| {
+        let sd = sd.get(facet, channel).unwrap_or_default().max(f64::MIN_POSITIVE);
+        (value - fitted[(facet, channel)]) / sd
+    })))
 }
 
 /// The model where the estimate is.
@@ -42,13 +40,12 @@ fn at_fit(estimate: &EstimateRecord, model: &SceneModel) -> FacetModel {
 }
 
 /// The facets of the estimate, facet by channel.
-fn facets(estimate: &EstimateRecord, model: &FacetModel) -> Result<Vec<Vec<f64>>> {
+fn facets(estimate: &EstimateRecord, model: &FacetModel) -> Result<DMatrix<f64>> {
     if estimate.reflectance.len() != model.bands() {
         let problem = format!("{} values for {} wavebands", estimate.reflectance.len(), model.bands());
         return Err(Error::field("estimate.reflectance", problem));
     }
     let missing = || Error::field("estimate.exposure", "missing; estimate the sample again");
     let exposure = estimate.exposure.ok_or_else(missing)?;
-    let rgb = model.facet_rgb(&estimate.reflectance);
-    Ok(rgb.row_iter().map(|row| row.iter().map(|value| exposure * value).collect()).collect())
+    Ok(exposure * model.facet_rgb(&estimate.reflectance))
 }

@@ -8,18 +8,19 @@ use serde::Serialize;
 use super::Sample;
 use super::fields::{LARGEST, finite};
 use crate::error::{Error, Result};
+use crate::forward::FacetValues;
 
-/// Facet by channel, those of several pictures one after the other; none for a facet that was not measured in all of them.
-pub type Colours = Vec<Option<Vec<f64>>>;
+/// Facet by channel; none for a facet that was not measured.
+type Rows = Vec<Option<Vec<f64>>>;
 
 /// One value per channel, in the order of the camera's; null for a facet that was not measured.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColoursRecord {
     /// Of one picture: `[facet][channel]`.
-    Picture(Colours),
+    Picture(Rows),
     /// Of several: `[picture][facet][channel]`.
-    Pictures(Vec<Colours>),
+    Pictures(Vec<Rows>),
 }
 
 impl Sample {
@@ -27,23 +28,24 @@ impl Sample {
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_facets(&mut self, rgb: &Colours, sd: Option<&Colours>, pictures: usize) -> Result<()> {
+    pub fn set_facets(&mut self, rgb: &FacetValues, sd: Option<&FacetValues>, pictures: usize) -> Result<()> {
         for (name, facets) in std::iter::once(("facet_rgb", rgb)).chain(sd.map(|sd| ("facet_sd", sd))) {
-            finite(name, facets.iter().flatten().flatten())?;
+            let rows = facets.rows();
+            finite(name, rows.iter().flatten().flatten())?;
             let record = match pictures {
-                1 => ColoursRecord::Picture(facets.clone()),
-                _ => ColoursRecord::Pictures(by_picture(facets, pictures)),
+                1 => ColoursRecord::Picture(rows),
+                _ => ColoursRecord::Pictures(by_picture(&rows, pictures)),
             };
             self.fields.set(name, record)?;
         }
         Ok(())
     }
 
-    /// The facets' values.
+    /// The facets' values; a facet counts as measured if all pictures have it.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing.
-    pub fn facet_rgb(&self) -> Result<Colours> {
+    pub fn facet_rgb(&self) -> Result<FacetValues> {
         let rgb = self.colours("facet_rgb", -LARGEST..=LARGEST)?;
         rgb.ok_or_else(|| Error::field("facet_rgb", "missing; make it with vforward or vextract"))
     }
@@ -52,27 +54,29 @@ impl Sample {
     ///
     /// # Errors
     /// [`Error::Field`] if they are not numbers.
-    pub fn facet_sd(&self) -> Result<Option<Colours>> {
+    pub fn facet_sd(&self) -> Result<Option<FacetValues>> {
         self.colours("facet_sd", 0.0..=LARGEST)
     }
 
     /// A field, pictures beside each other.
-    fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<Colours>> {
-        let facets = match self.fields.get(name) {
+    fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<FacetValues>> {
+        let facets: Option<Rows> = match self.fields.get(name) {
             Ok(facets) => facets,
             Err(_) => Some(beside_each_other(name, &self.pictures(name)?)?),
         };
-        facets.as_ref().map_or(Ok(()), |facets| within(name, facets, range))?;
-        Ok(facets)
+        let Some(facets) = facets else { return Ok(None) };
+        within(name, &facets, range)?;
+        let ragged = || Error::field(name, "facets have different numbers of channels");
+        FacetValues::of_rows(&facets).ok_or_else(ragged).map(Some)
     }
 
-    fn pictures(&self, name: &str) -> Result<Vec<Colours>> {
+    fn pictures(&self, name: &str) -> Result<Vec<Rows>> {
         let needs = "needs lists of numbers, one per facet, or a list of such lists, one per picture";
         self.fields.require(name, "").map_err(|_| Error::field(name, needs))
     }
 }
 
-fn beside_each_other(name: &str, pictures: &[Colours]) -> Result<Colours> {
+fn beside_each_other(name: &str, pictures: &[Rows]) -> Result<Rows> {
     let facets = pictures[0].len();
     if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
         let problem = format!("{} facets in one picture, {facets} in another", other.len());
@@ -85,7 +89,7 @@ fn beside_each_other(name: &str, pictures: &[Colours]) -> Result<Colours> {
     Ok((0..facets).map(in_all).collect())
 }
 
-fn by_picture(facets: &Colours, pictures: usize) -> Vec<Colours> {
+fn by_picture(facets: &Rows, pictures: usize) -> Vec<Rows> {
     let part = |values: &Vec<f64>, picture: usize| {
         let channels = values.len() / pictures;
         values[picture * channels..(picture + 1) * channels].to_vec()
@@ -94,7 +98,7 @@ fn by_picture(facets: &Colours, pictures: usize) -> Vec<Colours> {
     (0..pictures).map(picture).collect()
 }
 
-fn within(name: &str, facets: &Colours, range: RangeInclusive<f64>) -> Result<()> {
+fn within(name: &str, facets: &Rows, range: RangeInclusive<f64>) -> Result<()> {
     match facets.iter().flatten().flatten().find(|value| !range.contains(*value)) {
         Some(value) => Err(Error::field(name, format!("{value:e} cannot be the value of a facet"))),
         None => Ok(()),
@@ -110,7 +114,7 @@ mod tests {
     #[test]
     fn facets_of_several_pictures_stand_beside_each_other() {
         let mut sample = Sample::new("fold", "sheet").unwrap();
-        let rgb: Colours = vec![Some(vec![0.1, 0.2, 0.3, 0.4]), None];
+        let rgb = FacetValues::of_rows(&[Some(vec![0.1, 0.2, 0.3, 0.4]), None]).unwrap();
         sample.set_facets(&rgb, None, 2).unwrap();
         assert_eq!(sample.fields.text("facet_rgb"), Some("[[[0.1,0.2],null],[[0.3,0.4],null]]"));
         assert_eq!(sample.facet_rgb().unwrap(), rgb);
@@ -120,6 +124,6 @@ mod tests {
     fn a_facet_counts_if_all_pictures_have_it() {
         let mut sample = Sample::new("fold", "sheet").unwrap();
         sample.fields.set("facet_rgb", json!([[[0.1], [0.2]], [[0.3], null]])).unwrap();
-        assert_eq!(sample.facet_rgb().unwrap(), [Some(vec![0.1, 0.3]), None]);
+        assert_eq!(sample.facet_rgb().unwrap().rows(), [Some(vec![0.1, 0.3]), None]);
     }
 }

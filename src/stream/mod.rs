@@ -50,7 +50,6 @@ mod trace;
 mod writer;
 
 pub use calibration::CalibrationRecord;
-pub use colours::Colours;
 pub use development::read_development;
 pub use estimate::{EstimateRecord, FindingRecord, FittedRecord, LevelRecord, NewEstimate, VerdictRecord};
 pub use failures::Failures;

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Sample;
 use super::development::DevelopmentRecord;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::forward::FacetValues;
 use crate::image::{FacetMeasurement, Grid, PhotographInfo, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
@@ -221,13 +222,15 @@ impl Sample {
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
     pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement]) -> Result<()> {
-        let column = |pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| facets.iter().map(pick).collect();
+        let column = |name: &str, pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
+            let rows: Vec<_> = facets.iter().map(pick).collect();
+            let ragged = || Error::field(name, "facets have different numbers of channels");
+            FacetValues::of_rows(&rows).ok_or_else(ragged)
+        };
         self.fields.set("image", image)?;
-        self.set_facets(
-            &column(|facet| facet.mean.clone()),
-            Some(&column(|facet| facet.standard_error.clone())),
-            1,
-        )?;
+        let rgb = column("facet_rgb", |facet| facet.mean.clone())?;
+        let sd = column("facet_sd", |facet| facet.standard_error.clone())?;
+        self.set_facets(&rgb, Some(&sd), 1)?;
         self.fields.set("facet_pixels", facets.iter().map(|facet| facet.pixels).collect::<Vec<_>>())?;
         self.fields.set("facet_clipped", facets.iter().map(|facet| facet.clipped).collect::<Vec<_>>())?;
         self.fields

@@ -141,7 +141,7 @@ fn samples() {
     folder.sh(STREAM);
     for (edit, says) in [
         (r#"2s/"facet_rgb":\[/&[0.1,0.1,0.1],/"#, "9 facets, but the scene has 8"),
-        (r#"2s/"facet_rgb":\[\[/&0.1,/"#, "channels, but the scene has 3"),
+        (r#"2s/"facet_rgb":\[\[/&0.1,/"#, "facets have different numbers of channels"),
         (
             r#"2s/"facet_rgb":[^}]*]]/"facet_rgb":[null,null,null,null,null,null,null,null]/"#,
             "no facet was measured",

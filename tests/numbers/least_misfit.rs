@@ -1,5 +1,6 @@
 //! A glance at a misfit beside the estimate that it stands for.
 
+use nalgebra::DMatrix;
 use vfold::camera::CameraResponse;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::map::CAUTION;
@@ -7,7 +8,7 @@ use vfold::estimate::measured::Measured;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::SceneModel;
 use vfold::estimate::{Exposure, map};
-use vfold::forward::{FacetModel, Lighting};
+use vfold::forward::{FacetModel, FacetValues, Lighting};
 use vfold::geometry::{FacetGrid, Fold, Light};
 use vfold::kernel::mesh::{Mesh, respond};
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
@@ -38,8 +39,8 @@ fn no_estimate_leaves_less_than_the_glance_says() {
                 let noise = (12.9898 * facet as f64 + 78.233 * channel as f64).sin() * 2.0_f64.sqrt();
                 (facets[(facet, channel)] * shine + NOISE_SD * noise).max(1e-6)
             };
-            let rgb: Vec<_> = (0..36).map(|f| Some((0..3).map(|c| value(f, c)).collect())).collect();
-            let sd = vec![Some(vec![NOISE_SD; 3]); 36];
+            let rgb = FacetValues::from(&DMatrix::from_fn(36, 3, value));
+            let sd = rgb.map(|_, _| NOISE_SD);
             for exposure in [Exposure::Known(1.0), Exposure::Free] {
                 let data = FacetData::new(&scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2).unwrap();
                 let (least, left) =

@@ -183,7 +183,7 @@ fn materials_facets_do_not_tell_all_that_an_instrument_says() {
                 // away from the crease
                 let facets = (0..200).filter(|facet| facet % 100 >= 20);
                 let ratio = |facet: usize| {
-                    measured[facet].as_ref().map(|rgb| rgb[channel] / predicted[(facet, channel)])
+                    measured.get(facet, channel).map(|value| value / predicted[(facet, channel)])
                 };
                 let ratios: Vec<f64> = facets.filter_map(ratio).collect();
                 ratios.iter().sum::<f64>() / ratios.len() as f64

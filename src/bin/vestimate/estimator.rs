@@ -9,9 +9,10 @@ use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
 use vfold::estimate::verdict::{Doubt, Verdict};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
+use vfold::forward::FacetValues;
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum};
-use vfold::stream::{Colours, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
+use vfold::stream::{Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -184,11 +185,11 @@ impl<'a> Estimator<'a> {
     pub fn of_facets(
         &self,
         context: &Context,
-        rgb: &Colours,
+        rgb: &FacetValues,
         noise_sd: f64,
         exposure: Exposure,
     ) -> Result<Estimate> {
-        let sd = deviations(rgb, |_, _| noise_sd, self.args.model_error.unwrap_or(0.0));
+        let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
         let data = FacetData::new(&context.told.model, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
         Ok(map::estimate(&data, self.prior_of(context)?, context.start.as_deref()))
     }
@@ -285,7 +286,7 @@ impl<'a> Estimator<'a> {
     fn smooth(
         &self,
         context: &Context,
-        rgb: &Colours,
+        rgb: &FacetValues,
         noise: &Noise,
         exposure: Exposure,
         smoothness: Smoothness,
@@ -318,7 +319,12 @@ impl<'a> Estimator<'a> {
 }
 
 /// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
-fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate: &Estimate) -> Result<()> {
+fn refuse_unexplained(
+    context: &Context,
+    rgb: &FacetValues,
+    noise: &Noise,
+    estimate: &Estimate,
+) -> Result<()> {
     if estimate.unexplained <= UNEXPLAINED {
         return Ok(());
     }
@@ -339,6 +345,6 @@ fn refuse_unexplained(context: &Context, rgb: &Colours, noise: &Noise, estimate:
 }
 
 /// The same standard deviation for every facet, white being 1.
-fn alike(rgb: &Colours) -> Colours {
-    rgb.iter().map(|facet| facet.as_ref().map(|values| vec![1.0; values.len()])).collect()
+fn alike(rgb: &FacetValues) -> FacetValues {
+    rgb.map(|_, _| 1.0)
 }

@@ -8,9 +8,10 @@ use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::{Estimate, Exposure};
+use vfold::forward::FacetValues;
 use vfold::scene::{ExpectedError, FoldSetting, PhotographedFold, Setting};
 use vfold::spectrum::{Outside, WavelengthGrid};
-use vfold::stream::{Colours, Fields, NewPlan, Output, Reader, Record, Scene, Transform, plan};
+use vfold::stream::{Fields, NewPlan, Output, Reader, Record, Scene, Transform, plan};
 use vfold::{Error, Result};
 
 use super::context::Context;
@@ -54,7 +55,7 @@ struct Planned {
 /// What is expected of the sheets.
 enum Sheets {
     /// Ideal folds: the facets of each.
-    Ideal(Vec<Colours>),
+    Ideal(Vec<FacetValues>),
     /// Real sheets, everything that sets them apart unknown: what the photograph of each is made of.
     Real(Vec<Parts>),
 }
@@ -109,9 +110,9 @@ impl PlanArgs {
         let spectra = estimator.args().common.reflectances(self.set())?;
         let facets = spectra.iter().map(|spectrum| {
             let facets = exposure * model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
-            Ok(facets.row_iter().map(|row| Some(row.iter().copied().collect())).collect())
+            Ok(FacetValues::from(&facets))
         });
-        let facets: Vec<Colours> = facets.collect::<Result<_>>()?;
+        let facets: Vec<FacetValues> = facets.collect::<Result<_>>()?;
         let angle_deg = match &setting {
             Setting::Fold(fold) => Some(fold.fold().angle_deg()),
             Setting::Surface(_) => None,
@@ -122,8 +123,8 @@ impl PlanArgs {
         let sheets = if estimator.args().join.is_some() || is_real {
             let fold = FoldSetting::of(&scene)?;
             let photographed = PhotographedFold::of(&fold);
-            let parts = |rgb: &Colours| {
-                let sd = deviations(rgb, |_, _| noise_sd, estimator.args().model_error.unwrap_or(0.0));
+            let parts = |rgb: &FacetValues| {
+                let sd = deviations(rgb, |_| noise_sd, estimator.args().model_error.unwrap_or(0.0));
                 let measured = Measured { rgb, sd: &sd };
                 photographed.planned(&measured, exposure.known())?.map_err(|why| {
                     Error::field("geometry", format!("{why}; real sheets are planned of other folds alone"))

@@ -6,14 +6,13 @@ use vfold::Result;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::noise::{Noise, NoiseSource};
 use vfold::estimate::{Estimate, Exposure};
-use vfold::forward::FacetModel;
+use vfold::forward::{FacetModel, FacetValues};
 use vfold::solve::Termination;
-use vfold::stream::Colours;
 
 /// How far each facet may be off, and how that is known.
 pub struct Deviations {
-    /// Facet by channel, white being 1.
-    pub sd: Colours,
+    /// White being 1.
+    pub sd: FacetValues,
     /// The part that is the model's, relative to the facet's value.
     model_error: f64,
     /// What tells the part that is noise.
@@ -22,7 +21,7 @@ pub struct Deviations {
 
 impl Deviations {
     /// Of facets `rgb` by their noise.
-    pub fn of(noise: &Noise, model: &FacetModel, rgb: &Colours) -> Result<Self> {
+    pub fn of(noise: &Noise, model: &FacetModel, rgb: &FacetValues) -> Result<Self> {
         let noise_from = match noise.source {
             NoiseSource::Given(_) => "--noise-sd",
             NoiseSource::OfFacets(_) => "facet_sd",
@@ -33,7 +32,7 @@ impl Deviations {
 
     /// Root mean square.
     pub fn rms(&self) -> f64 {
-        let values: Vec<f64> = self.sd.iter().flatten().flatten().copied().collect();
+        let values: Vec<f64> = self.sd.measured().collect();
         (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
     }
 }

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
-use vfold::forward::FacetModel;
 use vfold::forward::bounces::{Bounces, Truncation};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::FoldView;
+use vfold::forward::{FacetModel, FacetValues};
 use vfold::parallel::{Item, in_order};
 use vfold::scene::{FoldedSheet, GivenKernel, Setting};
 use vfold::stream::{Corners, Output, Sample, Scene, read_matrix};
@@ -115,14 +115,13 @@ impl<'a> Setup<'a> {
     fn sample(&self, id: &str, rgb: DMatrix<f64>, stream: u64) -> Result<Sample> {
         // A photograph has its own noise, pixel by pixel.
         let noise = if self.args.render.render.is_some() { Noise::default() } else { self.noise };
-        let clean = (self.args.exposure * rgb).transpose();
-        let mut values = clean.as_slice().to_vec();
-        noise.add(&mut values, self.args.seed, stream);
-        let rows = |values: &[f64]| values.chunks(clean.nrows()).map(|rgb| Some(rgb.to_vec())).collect();
-        let sd: Vec<f64> = clean.iter().map(|signal| noise.sd_at(*signal)).collect();
+        let clean = self.args.exposure * rgb;
+        let sd = (!noise.is_none()).then(|| FacetValues::from(&clean.map(|signal| noise.sd_at(signal))));
+        // facet by facet, as noise is drawn
+        let mut noisy = clean.transpose();
+        noise.add(noisy.as_mut_slice(), self.args.seed, stream);
         let mut sample = Sample::new(&self.scene.id()?, id)?;
-        let sd = (!noise.is_none()).then(|| rows(&sd));
-        sample.set_facets(&rows(&values), sd.as_ref(), self.setting.pictures()?)?;
+        sample.set_facets(&FacetValues::from(&noisy.transpose()), sd.as_ref(), self.setting.pictures()?)?;
         sample.fields.set("exposure", self.args.exposure)?;
         Ok(sample)
     }

@@ -6,6 +6,7 @@ use ndarray::Array2;
 use super::framing::Pose;
 use crate::estimate::measured::Measured;
 use crate::estimate::photograph::parts::{Place, Radiance};
+use crate::forward::FacetValues;
 use crate::geometry::Fold;
 
 /// Most rows and columns of a panel.
@@ -17,8 +18,9 @@ pub struct Bins {
     /// Numbers of the facets in each.
     members: Vec<Vec<usize>>,
     places: Vec<Place>,
-    values: Vec<Vec<f64>>,
-    sd: Vec<Vec<f64>>,
+    /// Mean values and standard deviations of their noise: bin by channel.
+    values: DMatrix<f64>,
+    sd: DMatrix<f64>,
 }
 
 impl Bins {
@@ -27,8 +29,8 @@ impl Bins {
         let grid = fold.facets();
         let (rows, columns) = (grid.rows.min(ROWS), grid.cols.min(COLUMNS));
         let mut members = vec![Vec::new(); 2 * rows * columns];
-        for (facet, values) in rgb.iter().enumerate() {
-            if values.as_ref().is_some_and(|values| values.iter().all(|value| *value > 0.0)) {
+        for (facet, values) in rgb.facets().enumerate() {
+            if values.is_some_and(|values| values.iter().all(|value| *value > 0.0)) {
                 let (panel, place) = (facet / grid.len(), facet % grid.len());
                 let (row, column) =
                     (place / grid.cols * rows / grid.rows, place % grid.cols * columns / grid.cols);
@@ -60,21 +62,21 @@ impl Bins {
             }
         };
         let places = members.iter().map(mean_place).collect();
-        let channels = rgb.iter().flatten().next().map_or(0, Vec::len);
-        let of = |facet: usize, channel: usize| rgb[facet].as_ref().map_or(0.0, |values| values[channel]);
-        let noise = |facet: usize, channel: usize| sd[facet].as_ref().map_or(0.0, |sd| sd[channel]);
-        let pooled = |facets: &Vec<usize>| {
-            let mean = |c| facets.iter().map(|facet| of(*facet, c)).sum::<f64>() / facets.len() as f64;
-            (0..channels).map(mean).collect()
+        let of = |values: &FacetValues, facet: &usize, channel| values.get(*facet, channel).unwrap_or(0.0);
+        let mean = |bin: usize, channel| {
+            let facets = &members[bin];
+            facets.iter().map(|facet| of(rgb, facet, channel)).sum::<f64>() / facets.len() as f64
         };
-        let pooled_sd = |facets: &Vec<usize>| {
-            let root = |c| facets.iter().map(|facet| noise(*facet, c).powi(2)).sum::<f64>().sqrt();
-            (0..channels).map(|c| root(c) / facets.len() as f64).collect()
+        let sd_of_mean = |bin: usize, channel| {
+            let facets = &members[bin];
+            facets.iter().map(|facet| of(sd, facet, channel).powi(2)).sum::<f64>().sqrt()
+                / facets.len() as f64
         };
+        let (bins, channels) = (members.len(), rgb.channels());
         Self {
             places,
-            values: members.iter().map(pooled).collect(),
-            sd: members.iter().map(pooled_sd).collect(),
+            values: DMatrix::from_fn(bins, channels, mean),
+            sd: DMatrix::from_fn(bins, channels, sd_of_mean),
             members,
         }
     }
@@ -84,13 +86,13 @@ impl Bins {
     }
 
     /// Mean values: bin by channel; none if nothing was measured.
-    pub fn values(&self) -> Option<DMatrix<f64>> {
-        (!self.members.is_empty()).then(|| matrix(&self.values))
+    pub fn values(&self) -> Option<&DMatrix<f64>> {
+        (!self.members.is_empty()).then_some(&self.values)
     }
 
     /// Standard deviations of their noise.
-    pub fn sd(&self) -> DMatrix<f64> {
-        matrix(&self.sd)
+    pub fn sd(&self) -> &DMatrix<f64> {
+        &self.sd
     }
 
     /// Means of what is known of every facet, facet by node.
@@ -100,8 +102,4 @@ impl Bins {
             facets.iter().map(|facet| of_facets[(*facet, node)]).sum::<f64>() / facets.len() as f64
         })
     }
-}
-
-fn matrix(rows: &[Vec<f64>]) -> DMatrix<f64> {
-    DMatrix::from_fn(rows.len(), rows[0].len(), |row, column| rows[row][column])
 }

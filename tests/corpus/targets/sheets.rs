@@ -38,7 +38,7 @@ fn parts_of(stream: &str) -> Option<(Parts, WavelengthGrid)> {
 fn parts(scene: &Scene, sample: &Sample) -> Result<Option<(Parts, WavelengthGrid)>> {
     let setting = FoldSetting::of(scene)?;
     let rgb = sample.facet_rgb()?;
-    let sd = sample.facet_sd()?.unwrap_or_else(|| deviations(&rgb, |_, _| 1e-3, 0.0));
+    let sd = sample.facet_sd()?.unwrap_or_else(|| deviations(&rgb, |_| 1e-3, 0.0));
     let measured = Measured { rgb: &rgb, sd: &sd };
     let parts = PhotographedFold::of(&setting).parts(sample, &measured, sample.exposure()?)?;
     Ok(parts.ok().zip(Some(scene.grid()?)))

@@ -7,6 +7,7 @@ use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{SKY, SceneModel, TILT};
 use vfold::estimate::{Exposure, map};
+use vfold::forward::FacetValues;
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
 use vfold::stream::{NewEstimate, Output, Reader, Record, Sample, Scene};
@@ -68,13 +69,9 @@ fn look_at(scene: &Scene) -> Result<(WavelengthGrid, SceneModel)> {
     let (grid, model) = (scene.grid()?, setting.model()?);
     for reflectance in [0.0, 0.5, 1.0] {
         let rgb = model.facet_rgb(&vec![reflectance; grid.len()]);
-        Sample::new("scene", "id")?.set_facets(&rows(&rgb), None, 1)?;
+        Sample::new("scene", "id")?.set_facets(&FacetValues::from(&rgb), None, 1)?;
     }
     Ok((grid, SceneModel::known(model)))
-}
-
-fn rows(rgb: &nalgebra::DMatrix<f64>) -> Vec<Option<Vec<f64>>> {
-    rgb.row_iter().map(|row| Some(row.iter().copied().collect())).collect()
 }
 
 fn look_at_sample(sample: &Sample) -> Result<()> {
@@ -106,7 +103,7 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
     let spectra: Vec<_> = reflectances("cc24")?.iter().map(on_grid).collect::<Result<_>>()?;
     let prior = Prior::from_spectra(grid.wavelengths_nm(), &spectra, Some(&[0; 24]))?;
     let noise = unexplained(scene.facets(), &rgb);
-    let sd = deviations(&rgb, |_, channel| noise.get(channel).copied().unwrap_or(0.0), 1e-3);
+    let sd = deviations(&rgb, |[_, channel]| noise.get(channel).copied().unwrap_or(0.0), 1e-3);
     let data = FacetData::new(scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
     let estimate = map::estimate(&data, &prior, None);
     let mut sample = sample.clone();
