@@ -1,8 +1,8 @@
 #!/bin/bash
 # Batches: samples a second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
 # megapixels and of real sheets; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and
-# batch.csv. Some six minutes on two cores, and what N/10 real sheets take; needs GNU time, GNU parallel, oiiotool, sshd and zstd (apt-get
-# install time parallel openimageio-tools openssh-server zstd) and 6 GB in $TMPDIR.
+# batch.csv. Some seven minutes on two cores, half of them for N/10 photographs of real sheets; needs GNU time, GNU parallel,
+# oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools openssh-server zstd) and 6 GB in $TMPDIR.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 cargo build --quiet --release --bins

@@ -151,7 +151,7 @@ fn panel(area: &Area, axes: &Axes, title: &str, points: &[&Point], names: &[&str
 /// Axes wide enough for the points, and the legend below those that fall.
 fn frame<'a, 'b>(area: &Area<'b>, axes: &Axes, title: &str, points: &[&Point]) -> Chart<'a, 'b> {
     let names = grouped(points.iter().copied(), |point| &point.series).len();
-    let legend = 0.05 * (1.0 + names as f64);
+    let legend = 0.05 * (2.0 + names as f64);
     let below = if axes.joins == Joins::Front { 1.1 * legend / (1.0 - legend) } else { 0.1 };
     let x_range = around(points.iter().map(|point| point.ms), [0.1, 0.1]);
     let y_range = around(points.iter().map(|point| point.error), [below, 0.1]);

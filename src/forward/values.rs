@@ -12,7 +12,7 @@ pub struct FacetValues {
 }
 
 impl FacetValues {
-    /// Those of a list of facets, none for one that was not measured; none at all if some have more channels than others.
+    /// From a list of facets, `None` for one that was not measured; none if facets have different numbers of channels.
     ///
     /// # Example
     /// ```
@@ -34,7 +34,7 @@ impl FacetValues {
         Some(Self { values, is_measured: rows.iter().map(Option::is_some).collect() })
     }
 
-    /// The same as a list of facets.
+    /// As a list of facets, `None` for one that was not measured.
     #[must_use]
     pub fn rows(&self) -> Vec<Option<Vec<f64>>> {
         self.facets().map(|facet| facet.map(|values| values.to_vec())).collect()
