@@ -22,15 +22,13 @@ pub fn check_shape(name: &str, values: &FacetValues, [facets, channels]: [usize;
     if values.len() != facets {
         return Err(Error::field(name, format!("{} facets, but the scene has {facets}", values.len())));
     }
-    match values.channels() {
-        // nothing was measured
-        0 => Ok(()),
-        same if same == channels => Ok(()),
-        other => Err(Error::field(
-            name,
-            format!("{other} channels, but the scene has {channels}: its camera's in every picture"),
-        )),
+    let other = values.channels();
+    if other != channels && values.facets().any(|facet| facet.is_some()) {
+        let problem =
+            format!("{other} channels, but the scene has {channels}: its camera's in every picture");
+        return Err(Error::field(name, problem));
     }
+    Ok(())
 }
 
 /// Facets with a value in every channel; checks the shapes on the way.
@@ -47,4 +45,20 @@ pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usiz
         return Err(Error::field("facet_rgb", "no light in any facet; check exposure and black level"));
     }
     Ok(usable)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn facets_have_the_channels_of_the_scene_or_none_was_measured() {
+        let check = |rows: &[Option<Vec<f64>>]| {
+            check_shape("facet_rgb", &FacetValues::of_rows(rows).unwrap(), [2, 3])
+        };
+        assert!(check(&[Some(vec![0.1; 3]), None]).is_ok() && check(&[None, None]).is_ok());
+        for rows in [vec![Some(vec![]), None], vec![Some(vec![0.1; 4]), None], vec![None]] {
+            assert!(check(&rows).is_err(), "{rows:?}");
+        }
+    }
 }

@@ -66,7 +66,9 @@ impl Sample {
         };
         let Some(facets) = facets else { return Ok(None) };
         within(name, &facets, range)?;
-        let ragged = || Error::field(name, "facets have different numbers of channels");
+        let ragged = || {
+            Error::field(name, "facets have different numbers of channels; each needs one number per channel")
+        };
         FacetValues::of_rows(&facets).ok_or_else(ragged).map(Some)
     }
 

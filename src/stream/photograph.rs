@@ -224,7 +224,12 @@ impl Sample {
     pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement]) -> Result<()> {
         let column = |name: &str, pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
             let rows: Vec<_> = facets.iter().map(pick).collect();
-            let ragged = || Error::field(name, "facets have different numbers of channels");
+            let ragged = || {
+                Error::field(
+                    name,
+                    "facets have different numbers of channels; each needs one number per channel",
+                )
+            };
             FacetValues::of_rows(&rows).ok_or_else(ragged)
         };
         self.fields.set("image", image)?;
