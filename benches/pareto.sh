@@ -5,7 +5,8 @@
 #
 #   benches/pareto.sh [kernel|response|estimate|pipeline|photographs|growth]... [SET.csv]...    all by default, and the ColorChecker
 #
-# Photographs of real sheets are those of ../shared; without it they are left out. Packages of other libraries come from pip; what it cannot install is left out. Further sets of reflectances are CSV files.
+# Photographs of real sheets are those of ../shared, packages of other libraries come from pip: what is not there is left out. Further sets of
+# reflectances are CSV files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/peers.sh
@@ -112,8 +113,8 @@ done
 for stage in ${stages:-kernel response estimate pipeline photographs growth}; do
     echo "$stage" >&2
     case $stage in
-        photographs) if [ -e ../shared/real ]; then photographs | draw photographs; else left_out photographs '../shared is not there'; fi ;;
-        kernel | response | estimate | pipeline) "$stage" | draw "$stage" ;;
+        photographs) [ -e ../shared/real ] || { left_out photographs '../shared is not there' && continue; } ;;&
+        kernel | response | estimate | pipeline | photographs) "$stage" | draw "$stage" ;;
         growth) measure growth ;;
         *) echo "benches/pareto.sh: there is no stage '$stage'" >&2 && exit 2 ;;
     esac

@@ -44,6 +44,7 @@ impl Noise {
     /// # Errors
     /// [`Error::Field`] if those of the noise are of another number of facets.
     pub fn deviations(&self, model: &FacetModel, rgb: &FacetValues) -> Result<FacetValues> {
+        let of_channels = |noise: &[f64], channel: usize| noise.get(channel).copied().unwrap_or(0.0);
         match &self.source {
             NoiseSource::Given(sd) => Ok(deviations(rgb, |_| *sd, self.model_error)),
             NoiseSource::OfFacets(sd) => {
@@ -51,16 +52,27 @@ impl Noise {
                     let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
                     return Err(Error::field("facet_sd", problem));
                 }
-                let noise = |[facet, channel]: [usize; 2]| sd.get(facet, channel).unwrap_or(0.0);
+                // facets of so few pixels that their noise is not known are no better than the others
+                let most = match sd.channels() {
+                    0 => unexplained(model, rgb),
+                    channels => (0..channels).map(|channel| greatest(sd, channel)).collect(),
+                };
+                let noise = |[facet, channel]: [usize; 2]| {
+                    sd.get(facet, channel).unwrap_or_else(|| of_channels(&most, channel))
+                };
                 Ok(deviations(rgb, noise, self.model_error))
             }
             NoiseSource::Unexplained => {
                 let noise = unexplained(model, rgb);
-                let of_channel = |[_, channel]: [usize; 2]| noise.get(channel).copied().unwrap_or(0.0);
-                Ok(deviations(rgb, of_channel, self.model_error))
+                Ok(deviations(rgb, |[_, channel]| of_channels(&noise, channel), self.model_error))
             }
         }
     }
+}
+
+/// The greatest value of a channel.
+fn greatest(values: &FacetValues, channel: usize) -> f64 {
+    values.facets().flatten().map(|facet| facet[channel]).fold(0.0, f64::max)
 }
 
 /// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel, `model_error` relative to
@@ -109,4 +121,37 @@ fn span(columns: &[DVector<f64>]) -> DMatrix<f64> {
     let least = ROUNDING * values.iter().copied().fold(0.0, f64::max);
     let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > least).collect();
     q * vectors.select_columns(&kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::CameraResponse;
+    use crate::forward::Lighting;
+    use crate::geometry::{FacetGrid, Fold, Light};
+    use crate::kernel::mesh::{Mesh, respond};
+    use crate::spectrum::WavelengthGrid;
+
+    #[test]
+    fn facets_of_unknown_noise_are_not_believed_more_than_others() {
+        let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 1 }).unwrap();
+        let (response, _) = respond(&fold, Mesh::Auto, 1e-3).unwrap();
+        let grid = WavelengthGrid::new(vec![500.0, 600.0]).unwrap();
+        let eye = CameraResponse::new(&grid, &[vec![1.0, 1.0]], &[1.0, 1.0]).unwrap();
+        let light = Light::new(&fold, 0.0, 0.0, 0.0).unwrap();
+        let model = FacetModel::one_sheet(&response, &Lighting { light, sun: eye.clone(), sky: eye });
+        let rows = |values: [Option<f64>; 6]| {
+            FacetValues::of_rows(&values.map(|value| value.map(|value| vec![value]))).unwrap()
+        };
+        let rgb = rows([0.5, 0.6, 0.4, 0.5, 0.6, 0.4].map(Some));
+        let sd_of = |sd| {
+            let noise = Noise { source: NoiseSource::OfFacets(rows(sd)), model_error: 0.0 };
+            noise.deviations(&model, &rgb).unwrap()
+        };
+        let sd = sd_of([Some(0.01), None, Some(0.02), Some(0.01), Some(0.01), Some(0.01)]);
+        assert!((sd.get(1, 0).unwrap() - 0.02).abs() < 1e-9, "{sd:?}");
+        // where nothing is said of any, what no reflectance explains tells
+        let noise = Noise { source: NoiseSource::Unexplained, model_error: 0.0 };
+        assert_eq!(sd_of([None; 6]), noise.deviations(&model, &rgb).unwrap());
+    }
 }

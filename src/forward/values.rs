@@ -86,7 +86,7 @@ impl FacetValues {
 
     /// All values that were measured.
     pub fn measured(&self) -> impl Iterator<Item = f64> {
-        self.facets().flatten().flat_map(|values| values.to_vec())
+        self.facets().flatten().flat_map(|values| values.into_iter().copied())
     }
 
     /// The greatest value that was measured, 0 if none is positive.

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::forward::FacetValues;
 
 /// Facet by channel; none for a facet that was not measured.
-type Rows = Vec<Option<Vec<f64>>>;
+pub(super) type Rows = Vec<Option<Vec<f64>>>;
 
 /// One value per channel, in the order of the camera's; null for a facet that was not measured.
 #[derive(Serialize, JsonSchema)]
@@ -66,16 +66,19 @@ impl Sample {
         };
         let Some(facets) = facets else { return Ok(None) };
         within(name, &facets, range)?;
-        let ragged = || {
-            Error::field(name, "facets have different numbers of channels; each needs one number per channel")
-        };
-        FacetValues::of_rows(&facets).ok_or_else(ragged).map(Some)
+        values(name, &facets).map(Some)
     }
 
     fn pictures(&self, name: &str) -> Result<Vec<Rows>> {
         let needs = "needs lists of numbers, one per facet, or a list of such lists, one per picture";
         self.fields.require(name, "").map_err(|_| Error::field(name, needs))
     }
+}
+
+/// A field's rows as values of facets.
+pub(super) fn values(name: &str, rows: &Rows) -> Result<FacetValues> {
+    let problem = "facets have different numbers of channels; each needs one number per channel";
+    FacetValues::of_rows(rows).ok_or_else(|| Error::field(name, problem))
 }
 
 fn beside_each_other(name: &str, pictures: &[Rows]) -> Result<Rows> {

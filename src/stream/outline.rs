@@ -144,7 +144,8 @@ impl<'a> Walk<'a, '_> {
         if let Some(target) = schema["$ref"].as_str() {
             let object = self.resolved(schema);
             match (self.listed.get(target), self.fields.last_mut()) {
-                (Some(first), Some(last)) if object["properties"].is_object() => {
+                // within itself, an object is listed again: which of its forms is meant would stay open
+                (Some(first), Some(last)) if object["properties"].is_object() && !path.starts_with(first) => {
                     last.about += &format!(" Its fields are those of {first}.");
                 }
                 _ => {

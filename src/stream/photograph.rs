@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Sample;
+use super::colours;
 use super::development::DevelopmentRecord;
-use crate::error::{Error, Result};
-use crate::forward::FacetValues;
+use crate::error::Result;
 use crate::image::{FacetMeasurement, Grid, PhotographInfo, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
@@ -223,14 +223,7 @@ impl Sample {
     /// [`crate::Error::Field`] if a number is not finite.
     pub fn set_photograph(&mut self, image: &ImageRecord, facets: &[FacetMeasurement]) -> Result<()> {
         let column = |name: &str, pick: fn(&FacetMeasurement) -> Option<Vec<f64>>| {
-            let rows: Vec<_> = facets.iter().map(pick).collect();
-            let ragged = || {
-                Error::field(
-                    name,
-                    "facets have different numbers of channels; each needs one number per channel",
-                )
-            };
-            FacetValues::of_rows(&rows).ok_or_else(ragged)
+            colours::values(name, &facets.iter().map(pick).collect())
         };
         self.fields.set("image", image)?;
         let rgb = column("facet_rgb", |facet| facet.mean.clone())?;
