@@ -6,9 +6,9 @@ use crate::kernel::continuum::{Continuum, Resolution};
 use crate::response::{ModeLight, Modes, Response};
 use crate::room;
 
-/// Most unknowns of one solution: its matrix then takes 800 MB.
+/// Most unknowns of one solution: its matrix then has 800 MB, if nothing in it is negligible.
 const UNKNOWNS_MAX: usize = 10_000;
-/// Most multiplications of one solution, a quarter of a minute: a 1° fold takes hundreds of products with its matrix.
+/// Most multiplications of one solution, of which one in six is done: a few seconds. A 1° fold takes hundreds of products with its matrix.
 const PRODUCTS_MAX: f64 = 1.5e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
 const AIM: f64 = 0.25;

@@ -1,6 +1,7 @@
 //! Small copies of pictures, for reports.
 
-use std::io::Cursor;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
@@ -39,8 +40,10 @@ pub struct Thumbnail {
 /// ```
 pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     let unreadable = |error: image::ImageError| Error::picture(path, error, "give a PNG, JPEG or TIFF");
-    let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
-    let picture = reader.map_err(|e| Error::file(path.display(), e))?.decode().map_err(unreadable)?;
+    let no_file = |source| Error::file(path.display(), source);
+    let mut file = BufReader::new(File::open(path).map_err(no_file)?);
+    let reader = ImageReader::new(&mut file).with_guessed_format().map_err(no_file)?;
+    let picture = reader.decode().map_err(unreadable)?;
     let picture = if picture.width().max(picture.height()) > longest_px {
         picture.resize(longest_px, longest_px, FilterType::Triangle)
     } else {
@@ -48,7 +51,6 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     };
     let rgb = DynamicImage::ImageRgb8(picture.to_rgb8());
     let mut jpeg = Vec::new();
-    rgb.write_with_encoder(JpegEncoder::new_with_quality(Cursor::new(&mut jpeg), QUALITY))
-        .map_err(unreadable)?;
+    rgb.write_with_encoder(JpegEncoder::new_with_quality(&mut jpeg, QUALITY)).map_err(unreadable)?;
     Ok(Thumbnail { jpeg, width: rgb.width(), height: rgb.height() })
 }

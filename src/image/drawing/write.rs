@@ -3,11 +3,12 @@
 //! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
 //! old file or none.
 
-use std::io::{BufWriter, Cursor, Write};
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::files::Saved;
 use crate::{Error, Result};
+use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
@@ -78,9 +79,7 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
         .filter(|_| count > 0)
         .ok_or_else(|| failed(format!("{count} numbers do not fill {width} x {height} RGB pixels")))?;
     let mut png = Vec::new();
-    picture
-        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
-        .map_err(|error| failed(error.to_string()))?;
+    picture.write_with_encoder(PngEncoder::new(&mut png)).map_err(|error| failed(error.to_string()))?;
     Ok(png)
 }
 

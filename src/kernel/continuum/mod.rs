@@ -10,10 +10,12 @@
 //!
 //! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only the shift
 //! `z = x − y` matters (`correlation`), and the result is a function of the distance q across it alone (`table`); the integrals
-//! across become weights of that function's values (`rows`), and all entries of two rows are a few matrix products (`blocks`).
+//! across become weights of that function's values (`rows`), and all entries of two rows are a few matrix products (`blocks`). Of these,
+//! those that matter are kept (`compressed`) and multiplied (`exchange`).
 //! Lengths are in units of panel 0's depth.
 
 mod blocks;
+mod compressed;
 mod correlation;
 mod exchange;
 mod layout;
@@ -28,7 +30,7 @@ use nalgebra::{DMatrix, DMatrixView, DVectorView};
 
 pub use self::resolution::Resolution;
 
-use self::blocks::assemble;
+use self::blocks::Blocks;
 use self::exchange::Exchange;
 use self::layout::Layout;
 use self::reading::Reading;
@@ -60,17 +62,19 @@ impl Continuum {
         let alike = fold.is_symmetric();
         let reading = Reading::new(&layout, fold);
         let table = tabulate(&panel0.along, &panel1.along, layout.width, &nodes);
-        let matrix = assemble(fold, [panel0, panel1], alike, &nodes, &table);
+        let exchange = Blocks::new(fold, [panel0, panel1], &nodes, &table);
+        let exchange = if alike {
+            Exchange::Alike(exchange.compressed_half(resolution.negligible))
+        } else {
+            Exchange::Differing(exchange.compressed(resolution.negligible))
+        };
         let table = tabulate(&reading.spaces[0].along, &panel1.along, layout.width, &nodes);
         let view = |panel: usize| {
-            assemble(fold, [&reading.spaces[panel], &layout.panels[1 - panel]], false, &nodes, &table)
+            let spaces = [&reading.spaces[panel], &layout.panels[1 - panel]];
+            Blocks::new(fold, spaces, &nodes, &table).dense()
         };
         Self {
-            exchange: if alike {
-                Exchange::Alike(matrix)
-            } else {
-                Exchange::Differing([matrix.transpose(), matrix])
-            },
+            exchange,
             uniform: [panel0.uniform(), panel1.uniform()],
             facets: fold.facets(),
             views: (0..if alike { 1 } else { 2 }).map(view).collect(),

@@ -6,6 +6,9 @@ use super::layout::Layout;
 use super::reading::Reading;
 use crate::geometry::Fold;
 
+/// Exchange that is left out, relative to the error that is aimed at and the share of light that a bounce loses at least.
+const NEGLIGIBLE: f64 = 0.01;
+
 /// How finely the radiosity of a panel is resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
@@ -17,6 +20,8 @@ pub struct Resolution {
     pub order: usize,
     /// Nodes per e-fold of the distance.
     pub nodes: usize,
+    /// Exchange between two functions, of 1 at most, that is left out below this.
+    pub negligible: f64,
 }
 
 impl Resolution {
@@ -33,6 +38,8 @@ impl Resolution {
             end_strips: count(2.6, 0.85),
             order: count(6.5 + 2.5 * narrow, 1.95),
             nodes: count(7.0, 1.7).max(4),
+            // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
+            negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
         }
     }
 
