@@ -10,7 +10,7 @@ use crate::common::{Workdir, is_there};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/scenes");
 /// Cells of a wall in each direction; its corners do not lie in one plane, and each cell is two triangles.
-const CELLS: usize = 4;
+const CELLS: usize = 2;
 /// Width and height of the picture, px.
 const SIZE: f64 = 120.0;
 
