@@ -96,7 +96,7 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
     Ok(rows)
 }
 
-/// Names of what is built in; those that stand for any of a kind, such as `daylight:CCT`, are none.
+/// Names of what is built in, without those that stand for any of a kind, such as `daylight:CCT`.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.

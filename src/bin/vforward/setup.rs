@@ -55,7 +55,7 @@ impl<'a> Setup<'a> {
         Ok(Self { args, scene, setting, given, noise, bounces, model, sheet })
     }
 
-    /// Writes a sample a sheet or file; the first says where its panels are `seen`.
+    /// Writes one sample per sheet or file; the first says where its panels are `seen`.
     pub fn samples(&self, subject: &Subject, seen: &[(usize, Corners)], out: &mut Output) -> Result<()> {
         match subject {
             Subject::Sheets { sheets, .. } => self.sheets(sheets, seen, out),

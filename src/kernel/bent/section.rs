@@ -10,7 +10,7 @@ use super::BentFold;
 const EDGES: [f64; 8] = [0.0, 0.02, 0.06, 0.13, 0.25, 0.45, 0.7, 1.0];
 /// Strips on either half of the rounding.
 const ROUNDING: usize = 3;
-/// Roundings and bows below this, in panel depths and radians, are none.
+/// Roundings and bows below this, in panel depths and radians, count as zero.
 const NONE: f64 = 1e-9;
 /// The rounding ends at this share of a panel at the latest.
 const ROUNDING_MAX: f64 = 0.9;
