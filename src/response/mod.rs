@@ -9,6 +9,7 @@ mod exchange;
 mod fold;
 mod known;
 mod lanczos;
+mod orthogonality;
 mod panel;
 mod reduced;
 mod surface;
