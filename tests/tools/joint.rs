@@ -143,7 +143,7 @@ fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
             seed=$((seed + 1))
             vkernel --angle-deg $2 > scene.json
             vforward scene.json --reflectance cc24:$chip --gloss 0.4 --gloss-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
-                --noise-sd 2e-3 --seed $seed --exposure 0.5 --render $1.tif -q -o simulated.json
+                --noise-sd 2e-3 --seed $seed --exposure 0.5 --render-size 480x360 --render $1.tif -q -o simulated.json
             vextract $1.tif --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
         }
         for chip in dark-skin foliage blue-flower orange moderate-red yellow-green cyan neutral-5; do
