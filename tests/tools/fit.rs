@@ -152,3 +152,24 @@ fn a_trace_has_a_line_an_iteration() {
         }
     }
 }
+
+/// Blue light alone comes from the sky, which the scene does not say: no colour of daylight has that.
+#[test]
+fn a_sky_bluer_than_any_is_fitted_on_the_bound() {
+    let run = Workdir::new().sh(r#"
+        { echo nm,blue; for nm in $(seq 400 5 700); do echo $nm,$((nm < 470)); done; } > blue.csv
+        vkernel --sky 0.4 --tilt-deg 10 -o scene.json
+        simulate() { vforward scene.json --noise-sd 1e-3 -q --reflectance "$@"; }
+        for chip in white cyan moderate-red; do
+            { simulate cc24:$chip | head -n 1; simulate cc24:$chip --sky-illuminant blue.csv | tail -n 1; } | vestimate -q --fit sky
+        done"#);
+    assert!(run.status == 0, "{}", run.stderr);
+    let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let samples: Vec<Value> = records.filter(|record| record["kind"] == "sample").collect();
+    assert_eq!(samples.len(), 3);
+    for sample in samples {
+        let estimate = &sample["estimate"];
+        assert_eq!(estimate["fit"]["sky_cct_k"]["value"].as_f64(), Some(1e5), "{estimate}");
+        assert!(estimate["verdict"]["level"] != "good", "{}", estimate["verdict"]);
+    }
+}
