@@ -93,8 +93,9 @@ impl Compressed {
 fn runs(column: &[f64], negligible: f64) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for (piece, start) in column.chunks(PIECE).zip((0..).step_by(PIECE)) {
-        // All are looked at, which takes less time than to stop at the first.
-        if piece.iter().fold(false, |matters, entry| matters | (entry.abs() >= negligible)) {
+        // All are looked at, which takes less time than to stop at the first; what is not a number is kept, so that it shows.
+        let is_negligible = piece.iter().fold(true, |all, entry| all & (entry.abs() < negligible));
+        if !is_negligible {
             let end = start + piece.len();
             match runs.last_mut() {
                 Some(run) if run.end == start => run.end = end,
@@ -118,5 +119,6 @@ mod tests {
         assert_eq!(runs(&column, 1e-6), [0..8, 24..42]);
         assert_eq!(runs(&column, 0.0).first(), Some(&(0..42)));
         assert!(runs(&column, 2.0).is_empty());
+        assert_eq!(runs(&[0.0, f64::NAN], 1e-6).first(), Some(&(0..2)));
     }
 }
