@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use nalgebra::DMatrix;
+
 use super::facets::FacetOperator;
 use super::fold_kernel::FoldKernel;
 use crate::response::PanelOperator;
@@ -137,7 +139,8 @@ pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
         }
         diagonal.push(along);
         length = dot(&next, &next).sqrt();
-        let found = Eigen::of_tridiagonal(&diagonal, &beside).values.into_iter().fold(0.0, f64::max);
+        let eigen = Eigen::seen(DMatrix::zeros(0, diagonal.len()), &diagonal, &beside);
+        let found = eigen.values.into_iter().fold(0.0, f64::max);
         let settled = found - largest <= 1e-15 * found || length <= 1e-15 * found;
         if settled || diagonal.len() == STEPS_MAX {
             return found.max(0.0).sqrt();

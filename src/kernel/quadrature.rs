@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::DMatrix;
+
 use crate::solve::Eigen;
 
 /// A quadrature rule: `∫ f ≈ Σ weights[i] f(nodes[i])`.
@@ -58,7 +60,8 @@ impl Rule {
             before = std::mem::replace(&mut now, next.iter().map(|p| p / norm).collect());
             beside.push(norm);
         }
-        let Eigen { values, vectors } = Eigen::of_tridiagonal(&vec![0.0; order], &beside);
+        // The first components of the eigenvectors.
+        let Eigen { values, vectors } = Eigen::seen(DMatrix::identity(1, order), &vec![0.0; order], &beside);
         let mut rule: Vec<(f64, f64)> = (0..order).map(|k| (values[k], vectors[(0, k)].powi(2))).collect();
         rule.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (nodes, weights) = rule.into_iter().unzip();
@@ -98,13 +101,20 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// Values at `x` in [-1, 1] of the Legendre polynomials of degree 0 to `values.len() − 1`.
-pub fn legendre_series(x: f64, values: &mut [f64]) {
-    let (mut previous, mut value) = (0.0, 1.0);
-    for (k, out) in values.iter_mut().enumerate() {
-        *out = value;
-        let k = k as f64;
-        (previous, value) = (value, ((2.0 * k + 1.0) * x * value - k * previous) / (k + 1.0));
+/// Values at `points` in [-1, 1] of the Legendre polynomials of degree 0 on: one degree after the other, as many as `values` holds.
+pub fn legendre_series(points: &[f64], values: &mut [f64]) {
+    let mut degrees = values.chunks_exact_mut(points.len());
+    let Some(mut before) = degrees.next() else { return };
+    before.fill(1.0);
+    let Some(mut now) = degrees.next() else { return };
+    now.copy_from_slice(points);
+    for (next, k) in degrees.zip(1_u32..) {
+        let k = f64::from(k);
+        let (of_now, of_before) = ((2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0));
+        for (((next, x), now), before) in next.iter_mut().zip(points).zip(&*now).zip(&*before) {
+            *next = of_now * x * now - of_before * before;
+        }
+        (before, now) = (now, next);
     }
 }
 
@@ -139,14 +149,25 @@ impl Lagrange {
     /// assert!((weights[1] + 4.0 * weights[2] - 2.25).abs() < 1e-15);
     /// ```
     pub fn at(&self, x: f64, weights: &mut [f64]) {
-        let mut sum = 0.0;
-        for ((weight, node), scale) in weights.iter_mut().zip(&self.nodes).zip(&self.scale) {
-            let distance = x - node;
-            // At a node the others weigh nothing beside it.
-            *weight = scale / if distance.abs() < NEGLIGIBLE { NEGLIGIBLE } else { distance };
-            sum += *weight;
+        self.at_all(&[x], weights);
+    }
+
+    /// As [`Lagrange::at`] for many points: the weights of the first node at all of them, then those of the next.
+    pub fn at_all(&self, points: &[f64], weights: &mut [f64]) {
+        let mut sums = vec![0.0; points.len()];
+        let of_nodes = weights.chunks_exact_mut(points.len()).zip(&self.nodes).zip(&self.scale);
+        for ((weights, node), scale) in of_nodes {
+            for ((weight, x), sum) in weights.iter_mut().zip(points).zip(&mut sums) {
+                let distance = x - node;
+                // At a node the others weigh nothing beside it.
+                *weight = scale / if distance.abs() < NEGLIGIBLE { NEGLIGIBLE } else { distance };
+                *sum += *weight;
+            }
         }
-        weights.iter_mut().for_each(|weight| *weight /= sum);
+        sums.iter_mut().for_each(|sum| *sum = sum.recip());
+        for weights in weights.chunks_exact_mut(points.len()) {
+            weights.iter_mut().zip(&sums).for_each(|(weight, inverse)| *weight *= inverse);
+        }
     }
 }
 

@@ -9,9 +9,9 @@ use crate::room;
 /// Most unknowns of one solution: its matrix then has 800 MB, if nothing in it is negligible.
 const UNKNOWNS_MAX: usize = 10_000;
 /// Most multiplications of one solution, of which one in six is done: a few seconds. A 1° fold takes hundreds of products with its matrix.
-const PRODUCTS_MAX: f64 = 1.5e10;
+const PRODUCTS_MAX: f64 = 4e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
-const AIM: f64 = 0.25;
+const AIM: f64 = 0.2;
 /// The error that is believed, relative to the one that the solution should have from its forerunner's.
 const SAFETY: f64 = 3.0;
 /// How much finer a solution is than the coarser one that tells its error.
@@ -49,6 +49,11 @@ struct Solution {
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.
 pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
+    // On one of the pool's threads, which need not be woken up for every product.
+    rayon::scope(|_| refine_here(fold, tolerance))
+}
+
+fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     let start = COARSEST.min(AIM * tolerance * STEP);
     let Some((coarse, mut fine)) = first_two(fold, start)? else {
         return Err(Error::usage(

@@ -62,13 +62,17 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
 
     /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
     fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
-        let Eigen { values: poles, vectors } = Eigen::of_tridiagonal(diagonal, beside);
         let means: Vec<_> = basis.iter().map(|x| DVector::from_vec((self.means)(x))).collect();
-        let mut residues = DMatrix::from_columns(&means) * &vectors;
-        for (mut of_mode, in_start) in residues.column_iter_mut().zip(vectors.row(0).iter()) {
-            // The light starts along the first vector of the basis.
-            of_mode *= norm * in_start;
-        }
+        // The light starts along the first vector of the basis.
+        let mut rows = DMatrix::from_columns(&means).insert_row(0, 0.0);
+        rows[(0, 0)] = norm;
+        let Eigen { values: poles, vectors } = Eigen::seen(rows, diagonal, beside);
+        let in_start = vectors.row(0);
+        let mut residues = vectors.rows_range(1..).into_owned();
+        residues
+            .column_iter_mut()
+            .zip(in_start.iter())
+            .for_each(|(mut of_mode, in_start)| of_mode *= *in_start);
         match &self.direct {
             None => ModeSet { poles, residues },
             Some(direct) => after_a_bounce(direct, poles, residues),

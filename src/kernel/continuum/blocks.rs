@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
 
 use super::compressed::Compressed;
+use super::exchange::Exchange;
 use super::rows::{RowWeights, Rows};
 use super::space::Space;
 use super::table::Nodes;
@@ -33,63 +34,51 @@ impl<'a> Blocks<'a> {
         let (height, width) = (of.len(), with.of_strip());
         let mut matrix = DMatrix::zeros(height, with.len());
         let strips = matrix.as_mut_slice().par_chunks_exact_mut(width * height).enumerate();
-        strips.for_each(|(j, columns)| self.set(j, DMatrixViewMut::from_slice(columns, height, width)));
+        strips.for_each(|(j, columns)| {
+            let mut columns = DMatrixViewMut::from_slice(columns, height, width);
+            for i in 0..of.across.ends.len() {
+                self.set([i, j], columns.rows_mut(i * of.of_strip(), of.of_strip()));
+            }
+        });
         matrix
     }
 
-    /// Those that are not below `negligible`, one strip of panel 1 after the other.
-    pub(super) fn compressed(&self, negligible: f64) -> Vec<Compressed> {
+    /// Those that are not below `negligible`; of panels that are `alike`, the upper triangle with half the diagonal.
+    pub(super) fn exchange(&self, alike: bool, negligible: f64) -> Exchange {
         let [of, with] = self.spaces;
         let strip = |j: usize| {
-            let mut columns = DMatrix::zeros(of.len(), with.of_strip());
-            self.set(j, columns.as_view_mut());
-            Compressed::new(&columns, j * with.of_strip(), negligible)
+            let mut block = DMatrix::zeros(of.of_strip(), with.of_strip());
+            let last = if alike { j } else { of.across.ends.len() - 1 };
+            let mut compressed = |i: usize| {
+                self.set([i, j], block.as_view_mut());
+                if alike && i == j {
+                    block.fill_lower_triangle(0.0, 1);
+                    block.set_diagonal(&(0.5 * block.diagonal()));
+                }
+                Compressed::new(&block, [i * of.of_strip(), j * with.of_strip()], negligible)
+            };
+            (0..=last).map(&mut compressed).collect()
         };
-        (0..with.across.ends.len()).into_par_iter().map(strip).collect()
+        Exchange { alike, strips: (0..with.across.ends.len()).into_par_iter().map(strip).collect() }
     }
 
-    /// As [`Blocks::compressed`], of panels that are alike: the upper triangle with half the diagonal.
-    pub(super) fn compressed_half(&self, negligible: f64) -> Vec<Compressed> {
+    /// Sets what strip `i` of panel 0 gets from strip `j` of panel 1.
+    fn set(&self, [i, j]: [usize; 2], mut out: DMatrixViewMut<f64>) {
         let [of, with] = self.spaces;
-        let strip = |j: usize| {
-            let (height, width) = ((j + 1) * of.of_strip(), with.of_strip());
-            let mut columns = DMatrix::zeros(height, width);
-            self.set(j, columns.as_view_mut());
-            let mut square = columns.rows_mut(height - width, width);
-            square.fill_lower_triangle(0.0, 1);
-            square.set_diagonal(&(0.5 * square.diagonal()));
-            Compressed::new(&columns, j * width, negligible)
-        };
-        (0..with.across.ends.len()).into_par_iter().map(strip).collect()
-    }
-
-    /// Sets the columns of a strip of panel 1, as many rows as there are in `columns`.
-    fn set(&self, j: usize, mut columns: DMatrixViewMut<f64>) {
-        let [of, with] = self.spaces;
-        for (i, strip) in of.across.ends.iter().enumerate().take(columns.nrows() / of.of_strip()) {
-            let weights = self.rows.weights(*strip, with.across.ends[j]);
-            set(self.spaces, &weights, self.table, columns.rows_mut(i * of.of_strip(), of.of_strip()));
-        }
-    }
-}
-
-/// Sets what two strips across the crease exchange.
-fn set([of, with]: [&Space; 2], rows: &RowWeights, table: &DMatrix<f64>, mut out: DMatrixViewMut<f64>) {
-    let table = table.columns(rows.first, rows.weights.nrows());
-    let (strips_of, strips_with) = (of.along.ends.len(), with.along.ends.len());
-    let (order, pairs) = (of.order(), strips_of * strips_with);
-    for d in 0..with.order() {
-        // As many degrees along the crease go with one across it as the other way round.
-        let degrees = with.degrees(d);
-        let of_d = table.rows(d * order * pairs, order * pairs);
-        let block = of_d * rows.weights.columns(0, order * degrees);
-        for (mn, values) in block.column_iter().enumerate() {
-            let (m, n) = (mn % order, mn / order);
-            for f in 0..strips_with {
-                let mut column = out.column_mut(with.first(n) + d * strips_with + f);
-                let column = &mut column.as_mut_slice()[of.first(m)..of.first(m + 1)];
-                for (b, column) in column.chunks_exact_mut(strips_of).enumerate() {
-                    column.copy_from_slice(&values.as_slice()[b * pairs + f * strips_of..][..strips_of]);
+        let RowWeights { first, weights } = self.rows.weights(of.across.ends[i], with.across.ends[j]);
+        let (strips_of, strips_with) = (of.along.ends.len(), with.along.ends.len());
+        let (order, of_degree) = (of.order(), of.order() * strips_of * strips_with);
+        for d in 0..with.order() {
+            // As many degrees along the crease go with one across it as the other way round.
+            let of_pairs = weights.columns(0, order * with.degrees(d));
+            let block = self.table.view((d * of_degree, first), (of_degree, weights.nrows())) * of_pairs;
+            for (mn, values) in block.column_iter().enumerate() {
+                let (m, n) = (mn % order, mn / order);
+                for f in 0..strips_with {
+                    let mut column = out.column_mut(with.first(n) + d * strips_with + f);
+                    // Degrees along the crease that are too high come last.
+                    let column = &mut column.as_mut_slice()[of.first(m)..of.first(m + 1)];
+                    column.copy_from_slice(&values.as_slice()[f * order * strips_of..][..column.len()]);
                 }
             }
         }

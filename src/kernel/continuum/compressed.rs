@@ -1,109 +1,146 @@
-//! Columns of a matrix without their small entries.
+//! A block of a matrix without its small entries.
 //!
 //! Cells that are far from each other, measured by their size, exchange little but their lowest degrees: of the entries of a 45° fold that
-//! is solved to 1e-8, four of five are below a thousandth of that. What is left stands in runs, as degrees do.
-
-use std::ops::Range;
+//! is solved to 1e-8, four of five are below a thousandth of that. Of those that are left, most are so small that single precision holds
+//! them: a product takes as long as it takes to read them.
 
 use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
 
-use crate::solve::dot;
+/// Rows that are kept or left out together: as many numbers as the widest vectors of a processor hold.
+pub(super) const PIECE: usize = 8;
+/// What rounding to single precision changes a number by at most, relative to it.
+const SINGLE_ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
 
-/// Rows that are kept or left out together: so many products take less time than another run.
-const PIECE: usize = 8;
-
-/// Consecutive columns of runs.
+/// The entries of a block, where they stand in the matrix.
 pub(super) struct Compressed {
-    /// The first of the columns.
-    first: usize,
-    /// The runs of each column, in the order of columns.
-    columns: Vec<Vec<Run>>,
-    /// The entries of all runs, one after the other.
-    values: Vec<f64>,
+    exact: Pieces<f64>,
+    rounded: Pieces<f32>,
 }
 
-/// Consecutive rows of a column.
-struct Run {
-    rows: Range<usize>,
-    /// Where its values begin.
-    start: usize,
+/// What of a matrix A multiplies a vector.
+#[derive(Clone, Copy)]
+pub(super) enum Product {
+    /// `A·x`.
+    Straight,
+    /// `Aᵀ·x`.
+    Transposed,
+    /// `(A + Aᵀ)·x`: what is read serves both.
+    Both,
+}
+
+/// Pieces of consecutive columns.
+struct Pieces<T> {
+    /// The first of the columns.
+    first_column: usize,
+    /// The end of each column's pieces.
+    ends: Vec<usize>,
+    /// The first row of every piece.
+    rows: Vec<u32>,
+    values: Vec<[T; PIECE]>,
 }
 
 impl Compressed {
-    /// Those entries of `matrix` that are not below `negligible`; its columns are those from `first` on.
-    pub(super) fn new(matrix: &DMatrix<f64>, first: usize, negligible: f64) -> Self {
-        let mut values = Vec::new();
-        let mut compress = |column: &[f64]| {
-            let keep = |rows: Range<usize>| {
-                let start = values.len();
-                values.extend(&column[rows.clone()]);
-                Run { rows, start }
-            };
-            runs(column, negligible).into_iter().map(keep).collect()
-        };
-        let columns = matrix.column_iter().map(|column| compress(column.as_slice())).collect();
-        Self { first, columns, values }
-    }
-
-    /// Number of columns.
-    pub(super) fn len(&self) -> usize {
-        self.columns.len()
-    }
-
-    /// Adds these columns' share of `A·x` to `sums`.
-    pub(super) fn add_product(&self, x: &[f64], sums: &mut [f64]) {
-        for (runs, x) in self.columns.iter().zip(&x[self.first..]) {
-            for run in runs {
-                self.add(run, *x, sums);
+    /// Those entries of `block` that are not below `negligible`, to which all are rounded; `place`: row and column of its first entry.
+    pub(super) fn new(block: &DMatrix<f64>, place: [usize; 2], negligible: f64) -> Self {
+        let (mut exact, mut rounded) = (Pieces::new(place[1]), Pieces::new(place[1]));
+        for column in block.column_iter() {
+            for (piece, row) in column.as_slice().chunks(PIECE).zip((place[0]..).step_by(PIECE)) {
+                let mut values = [0.0; PIECE];
+                values[..piece.len()].copy_from_slice(piece);
+                // All are looked at, which takes less time than to stop at the first; what is not a number is kept, so that it shows.
+                let below = |limit: f64| values.iter().fold(true, |all, entry| all & (entry.abs() < limit));
+                if !below(negligible) {
+                    match below(negligible / SINGLE_ROUNDING) {
+                        true => rounded.push(row, values.map(|value| value as f32)),
+                        false => exact.push(row, values),
+                    }
+                }
             }
+            exact.end_column();
+            rounded.end_column();
         }
+        Self { exact, rounded }
     }
 
-    /// Sets `out` to these columns' rows of `Aᵀ·x`.
-    pub(super) fn set_transposed_product(&self, x: &[f64], out: &mut [f64]) {
-        for (runs, out) in self.columns.iter().zip(out) {
-            *out = runs.iter().map(|run| self.dot(run, x)).sum();
-        }
-    }
-
-    /// Adds these columns' share of `(A + Aᵀ)·x` to `sums`: what is read serves both.
-    pub(super) fn add_both_products(&self, x: &[f64], sums: &mut [f64]) {
-        for (n, runs) in (self.first..).zip(&self.columns) {
-            for run in runs {
-                self.add(run, x[n], sums);
-                sums[n] += self.dot(run, x);
-            }
-        }
-    }
-
-    fn add(&self, run: &Run, x: f64, sums: &mut [f64]) {
-        sums[run.rows.clone()].iter_mut().zip(self.values(run)).for_each(|(sum, a)| *sum += a * x);
-    }
-
-    fn dot(&self, run: &Run, x: &[f64]) -> f64 {
-        dot(self.values(run), &x[run.rows.clone()])
-    }
-
-    fn values(&self, run: &Run) -> &[f64] {
-        &self.values[run.start..][..run.rows.len()]
+    /// Adds this block's share of a product with `x` to `sums`.
+    ///
+    /// # Panics
+    /// If `x` and `sums` do not go on for [`PIECE`] numbers after the last row, which do not matter.
+    pub(super) fn add_product(&self, product: Product, x: &[f64], sums: &mut [f64]) {
+        Arch::new().dispatch(AddProduct { block: self, product, x, sums });
     }
 }
 
-/// The pieces of a column with an entry that is not below `negligible`, neighbours as one.
-fn runs(column: &[f64], negligible: f64) -> Vec<Range<usize>> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for (piece, start) in column.chunks(PIECE).zip((0..).step_by(PIECE)) {
-        // All are looked at, which takes less time than to stop at the first; what is not a number is kept, so that it shows.
-        let is_negligible = piece.iter().fold(true, |all, entry| all & (entry.abs() < negligible));
-        if !is_negligible {
-            let end = start + piece.len();
-            match runs.last_mut() {
-                Some(run) if run.end == start => run.end = end,
-                _ => runs.push(start..end),
+/// The computation of [`Compressed::add_product`].
+struct AddProduct<'a> {
+    block: &'a Compressed,
+    product: Product,
+    x: &'a [f64],
+    sums: &'a mut [f64],
+}
+
+impl WithSimd for AddProduct<'_> {
+    type Output = ();
+
+    // what is inlined here takes the processor's widest vectors, too; what is called does not
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { block: Compressed { exact, rounded }, product, x, sums } = self;
+        match product {
+            Product::Straight => {
+                exact.add::<true, false>(x, sums);
+                rounded.add::<true, false>(x, sums);
+            }
+            Product::Transposed => {
+                exact.add::<false, true>(x, sums);
+                rounded.add::<false, true>(x, sums);
+            }
+            Product::Both => {
+                exact.add::<true, true>(x, sums);
+                rounded.add::<true, true>(x, sums);
             }
         }
     }
-    runs
+}
+
+impl<T: Copy + Into<f64>> Pieces<T> {
+    fn new(first_column: usize) -> Self {
+        Self { first_column, ends: Vec::new(), rows: Vec::new(), values: Vec::new() }
+    }
+
+    fn push(&mut self, row: usize, values: [T; PIECE]) {
+        self.rows.push(u32::try_from(row).expect("no matrix has as many rows"));
+        self.values.push(values);
+    }
+
+    fn end_column(&mut self) {
+        self.ends.push(self.rows.len());
+    }
+
+    #[inline(always)]
+    fn add<const STRAIGHT: bool, const TRANSPOSED: bool>(&self, x: &[f64], sums: &mut [f64]) {
+        let mut start = 0;
+        for (n, end) in (self.first_column..).zip(&self.ends) {
+            let x_n = if STRAIGHT { x[n] } else { 0.0 };
+            let mut of_column = [0.0; PIECE];
+            for (row, values) in self.rows[start..*end].iter().zip(&self.values[start..*end]) {
+                let rows = *row as usize..*row as usize + PIECE;
+                let values: [f64; PIECE] = values.map(Into::into);
+                if TRANSPOSED {
+                    let x = &x[rows.clone()];
+                    of_column.iter_mut().zip(values).zip(x).for_each(|((sum, value), x)| *sum += value * x);
+                }
+                if STRAIGHT {
+                    sums[rows].iter_mut().zip(values).for_each(|(sum, value)| *sum += value * x_n);
+                }
+            }
+            if TRANSPOSED {
+                sums[n] += of_column.iter().sum::<f64>();
+            }
+            start = *end;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -111,14 +148,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_hold_all_but_what_is_negligible() {
-        let mut column = vec![1e-9; 42];
+    fn pieces_hold_all_but_what_is_negligible() {
+        let mut block = DMatrix::from_element(42, 2, 1e-9);
         for row in [0, 5, 30, 39, 41] {
-            column[row] = -1.0;
+            block[(row, 1)] = -1.0;
         }
-        assert_eq!(runs(&column, 1e-6), [0..8, 24..42]);
-        assert_eq!(runs(&column, 0.0).first(), Some(&(0..42)));
-        assert!(runs(&column, 2.0).is_empty());
-        assert_eq!(runs(&[0.0, f64::NAN], 1e-6).first(), Some(&(0..2)));
+        let kept = |block: &DMatrix<f64>, negligible: f64| {
+            let Compressed { exact, rounded } = Compressed::new(block, [100, 7], negligible);
+            [exact.rows, rounded.rows]
+        };
+        let none = Vec::<u32>::new();
+        assert_eq!(kept(&block, 1e-8), [vec![100, 124, 132, 140], none.clone()]);
+        assert_eq!(kept(&block, 1e-7), [none.clone(), vec![100, 124, 132, 140]]);
+        assert_eq!(kept(&block, 0.0)[0].len(), 12);
+        assert_eq!(kept(&block, 2.0), [none.clone(), none.clone()]);
+        assert_eq!(kept(&DMatrix::from_vec(2, 1, vec![0.0, f64::NAN]), 1e-6), [vec![100], none]);
     }
 }

@@ -7,8 +7,8 @@ use super::table::Nodes;
 use crate::kernel::quadrature::{Lagrange, Rule};
 
 /// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0, and the ρ that this leaves.
-const PEAK_GRADING: f64 = 4.0;
-const PEAK_RHO: f64 = 3.0;
+const PEAK_GRADING: f64 = 8.0;
+const PEAK_RHO: f64 = 2.09;
 
 /// Integrals `∫∫ P_b(x) P_d(y) q³/(q² + (x − y)²)² dx dy` over pairs of strips, for all distances q.
 ///
@@ -40,58 +40,63 @@ impl<'a> Correlation<'a> {
         }
     }
 
-    /// Strips `e` and `f`: pair (b, d), b fast, by distance. `mirror` reverses the polynomials of `f`.
+    /// Strips `e` and `f`: distance by pair (b, d), b fast. `mirror` reverses the polynomials of `f`.
     pub(super) fn integrals(&self, e: [f64; 2], f: [f64; 2], mirror: bool) -> DMatrix<f64> {
         let mut kinks = [e[0] - f[1], e[0] - f[0], e[1] - f[1], e[1] - f[0]];
         kinks.sort_by(f64::total_cmp);
-        let mut sum = DMatrix::zeros(self.orders[0] * self.orders[1], self.distances.len());
+        let mut sum = DMatrix::zeros(self.distances.len(), self.orders[0] * self.orders[1]);
         for piece in kinks.windows(2).filter(|piece| piece[1] > piece[0]) {
-            sum.gemm(1.0, &self.overlaps(e, f, mirror, piece), &self.moments(piece), 1.0);
+            sum.gemm(1.0, &self.moments(piece), &self.overlaps(e, f, mirror, piece), 1.0);
         }
         sum
     }
 
-    /// Overlaps of the polynomials at the points of a piece: pair by point.
+    /// Overlaps of the polynomials at the shifts of a piece: shift by pair.
     fn overlaps(&self, e: [f64; 2], f: [f64; 2], mirror: bool, piece: &[f64]) -> DMatrix<f64> {
         let [order_e, order_f] = self.orders;
-        let mut overlaps = DMatrix::zeros(order_e * order_f, self.overlap.nodes.len());
-        let (mut of_e, mut of_f) = (vec![0.0; order_e], vec![0.0; order_f]);
-        for (mut overlaps, (z, _)) in overlaps.column_iter_mut().zip(self.overlap.on(piece[0], piece[1])) {
-            for (x, weight) in self.product.on(e[0].max(f[0] + z), e[1].min(f[1] + z)) {
-                polynomials(e, x, &mut of_e);
-                polynomials(f, x - z, &mut of_f);
-                if mirror {
-                    // Legendre polynomials of odd degree are odd.
-                    of_f.iter_mut().skip(1).step_by(2).for_each(|value| *value = -*value);
-                }
-                for (overlaps, of_f) in overlaps.as_mut_slice().chunks_exact_mut(order_e).zip(&of_f) {
-                    overlaps.iter_mut().zip(&of_e).for_each(|(sum, of_e)| *sum += weight * of_e * of_f);
-                }
+        let shifts: Vec<_> = self.overlap.on(piece[0], piece[1]).map(|(z, _)| z).collect();
+        let products = shifts.iter().map(|z| self.product.on(e[0].max(f[0] + z), e[1].min(f[1] + z)));
+        // Shift by point.
+        let (points, weights): (Vec<_>, Vec<_>) = products.flatten().unzip();
+        let points = DMatrix::from_vec(self.product.nodes.len(), shifts.len(), points).transpose();
+        let weights = DMatrix::from_vec(self.product.nodes.len(), shifts.len(), weights).transpose();
+        let of_e = polynomials(e, points.as_slice(), order_e);
+        let shifted: Vec<_> = points.iter().zip(shifts.iter().cycle()).map(|(x, z)| x - z).collect();
+        let mut of_f = polynomials(f, &shifted, order_f);
+        for (d, mut of_f) in of_f.column_iter_mut().enumerate() {
+            // Legendre polynomials of odd degree are odd.
+            let sign = if mirror && d % 2 == 1 { -1.0 } else { 1.0 };
+            of_f.iter_mut().zip(&weights).for_each(|(of_f, weight)| *of_f *= sign * weight);
+        }
+        let mut overlaps = DMatrix::zeros(shifts.len(), order_e * order_f);
+        for (bd, mut overlaps) in overlaps.column_iter_mut().enumerate() {
+            let (of_e, of_f) = (of_e.column(bd % order_e), of_f.column(bd / order_e));
+            let of_points = of_e.as_slice().chunks_exact(shifts.len());
+            for (of_e, of_f) in of_points.zip(of_f.as_slice().chunks_exact(shifts.len())) {
+                let products = of_e.iter().zip(of_f).map(|(of_e, of_f)| of_e * of_f);
+                overlaps.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
             }
         }
         overlaps
     }
 
-    /// The kernel integrated against the polynomials through the points of a piece: point by distance.
+    /// The kernel integrated against the polynomials through the shifts of a piece: distance by shift.
     fn moments(&self, piece: &[f64]) -> DMatrix<f64> {
         // Half the least distance is the width of the kernel's peak.
         let panels = towards_peak(piece[0], piece[1], 0.5 * self.distances[0]);
-        let shifts: Vec<_> = panels.into_iter().flat_map(|[low, high]| self.peak.on(low, high)).collect();
-        let mut through = DMatrix::zeros(self.overlap.nodes.len(), shifts.len());
-        for (mut through, (z, weight)) in through.column_iter_mut().zip(&shifts) {
-            let x = (2.0 * z - piece[0] - piece[1]) / (piece[1] - piece[0]);
-            self.through_overlap.at(x, through.as_mut_slice());
-            through *= *weight;
-        }
-        let shifts2: Vec<_> = shifts.iter().map(|(z, _)| z * z).collect();
-        let mut kernel = DMatrix::zeros(shifts.len(), self.distances.len());
-        for (mut kernel, q) in kernel.column_iter_mut().zip(self.distances) {
-            for (kernel, z2) in kernel.as_mut_slice().iter_mut().zip(&shifts2) {
-                let r2 = q * q + z2;
-                *kernel = q * q * q / (r2 * r2);
+        let (shifts, weights): (Vec<_>, Vec<_>) =
+            panels.into_iter().flat_map(|[low, high]| self.peak.on(low, high)).unzip();
+        let place = |z: &f64| (2.0 * z - piece[0] - piece[1]) / (piece[1] - piece[0]);
+        let mut through = DMatrix::zeros(shifts.len(), self.overlap.nodes.len());
+        self.through_overlap.at_all(&shifts.iter().map(place).collect::<Vec<_>>(), through.as_mut_slice());
+        let mut kernel = DMatrix::zeros(self.distances.len(), shifts.len());
+        for ((mut kernel, z), weight) in kernel.column_iter_mut().zip(&shifts).zip(&weights) {
+            for (kernel, q) in kernel.as_mut_slice().iter_mut().zip(self.distances) {
+                let r2 = q * q + z * z;
+                *kernel = weight * q * q * q / (r2 * r2);
             }
         }
-        through * kernel
+        kernel * through
     }
 }
 

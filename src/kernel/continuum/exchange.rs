@@ -2,43 +2,35 @@
 
 use rayon::prelude::*;
 
-use super::compressed::Compressed;
+use super::compressed::{Compressed, PIECE, Product};
 
-/// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1, in columns of one strip each: always the same ones, so that
-/// sums do not depend on the number of threads.
-pub(super) enum Exchange {
-    /// Of panels that are alike: the upper triangle with half the diagonal, which with its transpose is all.
-    Alike(Vec<Compressed>),
-    /// Of panels that differ.
-    Differing(Vec<Compressed>),
+/// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1.
+pub(super) struct Exchange {
+    /// Whether the panels are alike: the upper triangle with half the diagonal is then all there is, which with its transpose is the matrix.
+    pub(super) alike: bool,
+    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of threads.
+    pub(super) strips: Vec<Vec<Compressed>>,
 }
 
 impl Exchange {
     /// `out = F·x`: what `panel` gets from function `x` of the other.
     pub(super) fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
-        match self {
-            Self::Alike(half) => sum(half, out, |strip, sums| strip.add_both_products(x, sums)),
-            Self::Differing(all) if panel == 0 => sum(all, out, |strip, sums| strip.add_product(x, sums)),
-            Self::Differing(all) => {
-                // All strips have as many functions.
-                let strips = out.par_chunks_exact_mut(all[0].len()).zip(all);
-                strips.for_each(|(out, strip)| strip.set_transposed_product(x, out));
-            }
+        let product = match (self.alike, panel) {
+            (true, _) => Product::Both,
+            (false, 0) => Product::Straight,
+            (false, _) => Product::Transposed,
+        };
+        let x = [x, &[0.0; PIECE]].concat();
+        let add = |strip: &Vec<Compressed>| {
+            let mut sums = vec![0.0; out.len() + PIECE];
+            strip.iter().for_each(|block| block.add_product(product, &x, &mut sums));
+            sums
+        };
+        let all: Vec<_> = self.strips.par_iter().map(add).collect();
+        out.fill(0.0);
+        for sums in all {
+            out.iter_mut().zip(sums).for_each(|(out, sum)| *out += sum);
         }
-    }
-}
-
-/// Sets `out` to the sum of what each strip adds.
-fn sum(strips: &[Compressed], out: &mut [f64], add: impl Fn(&Compressed, &mut [f64]) + Sync) {
-    let add = |strip| {
-        let mut sums = vec![0.0; out.len()];
-        add(strip, &mut sums);
-        sums
-    };
-    let all: Vec<_> = strips.par_iter().map(add).collect();
-    out.fill(0.0);
-    for sums in all {
-        out.iter_mut().zip(sums).for_each(|(out, sum)| *out += sum);
     }
 }
 
@@ -48,11 +40,14 @@ mod tests {
 
     use super::*;
 
-    /// Two strips of a matrix, its entries from 1e-6 on.
-    fn compressed(matrix: &DMatrix<f64>) -> Vec<Compressed> {
-        let width = matrix.ncols() / 2;
-        let strip = |j: usize| matrix.columns(j * width, width).into_owned();
-        (0..2).map(|j| Compressed::new(&strip(j), j * width, 1e-6)).collect()
+    /// Two strips of two blocks each, their entries from 1e-6 on.
+    fn strips(matrix: &DMatrix<f64>) -> Vec<Vec<Compressed>> {
+        let half = matrix.ncols() / 2;
+        let block = |i: usize, j: usize| {
+            let place = [i * half, j * half];
+            Compressed::new(&matrix.view(place.into(), (half, half)).into_owned(), place, 1e-6)
+        };
+        (0..2).map(|j| (0..2).map(|i| block(i, j)).collect()).collect()
     }
 
     #[test]
@@ -68,12 +63,12 @@ mod tests {
             exchange.apply(panel, x.as_slice(), out.as_mut_slice());
             out
         };
-        let differing = Exchange::Differing(compressed(&matrix));
-        assert!((product(&differing, 0) - &matrix * &x).amax() < 1e-6);
-        assert!((product(&differing, 1) - matrix.transpose() * &x).amax() < 1e-6);
+        let differing = Exchange { alike: false, strips: strips(&matrix) };
+        assert!((product(&differing, 0) - &matrix * &x).amax() < 1e-5);
+        assert!((product(&differing, 1) - matrix.transpose() * &x).amax() < 1e-5);
         let mut half = matrix.upper_triangle();
         half.set_diagonal(&(0.5 * half.diagonal()));
         let whole = &half + half.transpose();
-        assert!((product(&Exchange::Alike(compressed(&half)), 0) - whole * &x).amax() < 1e-6);
+        assert!((product(&Exchange { alike: true, strips: strips(&half) }, 0) - whole * &x).amax() < 1e-5);
     }
 }

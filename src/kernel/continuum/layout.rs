@@ -9,8 +9,11 @@ use crate::geometry::Fold;
 /// Distances below this share of that of the nearest strips count as equal: nothing changes there any more.
 const NEAREST: f64 = 0.05;
 
-/// How much further away the end of a strip is from one to the next, as a ratio.
-const GROWTH: f64 = 6.0;
+/// How much narrower the first strip is for each more that is asked for.
+const NARROWING: f64 = 6.0;
+
+/// How much further away the end of a strip is from one to the next, as a ratio at most.
+const GROWTH: f64 = 5.0;
 
 /// Width of the last strip at an outer edge, relative to how far the panels are apart there.
 const EDGE: f64 = 2.0;
@@ -68,7 +71,7 @@ impl Layout {
     }
 }
 
-/// Width of the first of this many strips, which together reach 0.5.
+/// Width of the first of this many strips, which together reach 0.5 where each narrows as it is meant to.
 fn first_strip(strips: usize) -> f64 {
-    0.5 * GROWTH.powf(1.0 - strips as f64)
+    0.5 * NARROWING.powf(1.0 - strips as f64)
 }

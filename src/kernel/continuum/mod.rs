@@ -62,12 +62,8 @@ impl Continuum {
         let alike = fold.is_symmetric();
         let reading = Reading::new(&layout, fold);
         let table = tabulate(&panel0.along, &panel1.along, layout.width, &nodes);
-        let exchange = Blocks::new(fold, [panel0, panel1], &nodes, &table);
-        let exchange = if alike {
-            Exchange::Alike(exchange.compressed_half(resolution.negligible))
-        } else {
-            Exchange::Differing(exchange.compressed(resolution.negligible))
-        };
+        let blocks = Blocks::new(fold, [panel0, panel1], &nodes, &table);
+        let exchange = blocks.exchange(alike, resolution.negligible);
         let table = tabulate(&reading.spaces[0].along, &panel1.along, layout.width, &nodes);
         let view = |panel: usize| {
             let spaces = [&reading.spaces[panel], &layout.panels[1 - panel]];
@@ -87,7 +83,7 @@ impl PanelOperator for Continuum {
     const AFTER_A_BOUNCE: bool = true;
 
     fn is_symmetric(&self) -> bool {
-        matches!(self.exchange, Exchange::Alike(_))
+        self.exchange.alike
     }
 
     fn uniform(&self, panel: usize) -> Vec<f64> {

@@ -30,14 +30,15 @@ impl Resolution {
     pub fn reaching(aim: f64, fold: &Fold) -> Self {
         // What a twentieth of the error takes.
         let levels = (1e-5 / aim).ln() / 20_f64.ln();
-        // From 0 at 45° to 1: in narrow folds light bounces longer and, between one and the next, spreads less.
-        let narrow = 1.0 - fold.angle_rad().min(FRAC_PI_4) / FRAC_PI_4;
+        // In narrow folds light spreads less between one bounce and the next, and bounces longer.
+        let open = fold.angle_rad().min(FRAC_PI_4) / FRAC_PI_4;
+        let (narrow, bounces) = (1.0 - open, -open.ln());
         let count = |at_1e5: f64, a_level: f64| (at_1e5 + a_level * levels).ceil().max(2.0) as usize;
         Self {
-            crease_strips: count(3.2 + narrow, 1.05),
-            end_strips: count(2.6, 0.85),
-            order: count(6.5 + 2.5 * narrow, 1.95),
-            nodes: count(7.0, 1.7).max(4),
+            crease_strips: count(3.28 + narrow, 0.95),
+            end_strips: count(2.6, 0.67),
+            order: count(6.6 + 1.1 * narrow + 0.35 * bounces, 1.4 + 0.6 * narrow),
+            nodes: count(5.6 + narrow, 1.6).max(4),
             // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
             negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
         }

@@ -4,8 +4,9 @@
 //! `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however narrow the fold.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
-use nalgebra::{DMatrix, DMatrixView};
+use nalgebra::{DMatrix, DMatrixView, DVectorView};
 
 use super::strips::polynomials;
 use super::table::Nodes;
@@ -59,19 +60,14 @@ impl<'a> Rows<'a> {
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2]) -> RowWeights {
         let [order_a, order_b] = self.orders;
         let pieces = self.pieces(a, b).into_iter();
-        let points: Vec<_> = pieces.flat_map(|[low, high]| self.outer.on(low, high)).collect();
+        let (points, of_points): (Vec<_>, Vec<_>) =
+            pieces.flat_map(|[low, high]| self.outer.on(low, high)).unzip();
+        let mut of_a = polynomials(a, &points, order_a);
+        let of_points = DVectorView::from_slice(&of_points, of_points.len());
+        of_a.column_iter_mut().for_each(|mut of_a| of_a.component_mul_assign(&of_points));
         let range = self.nodes.between(self.distances(a, b));
         let (first, count) = (range.start, range.len());
-        // One column per point s: φ_m(s), and the integrals over t, node by n.
-        let mut of_a = DMatrix::zeros(order_a, points.len());
-        let mut inner = DMatrix::zeros(count * order_b, points.len());
-        let columns = of_a.column_iter_mut().zip(inner.column_iter_mut());
-        for ((s, weight), (mut of_a, mut inner)) in points.into_iter().zip(columns) {
-            polynomials(a, s, of_a.as_mut_slice());
-            of_a *= weight;
-            self.integrate(s, b, first, inner.as_mut_slice());
-        }
-        let by_degree = inner * of_a.transpose();
+        let by_degree = self.inner_integrals(&points, b, range) * of_a;
         let mut weights = DMatrix::zeros(count, order_a * order_b);
         for (m, of_m) in by_degree.column_iter().enumerate() {
             let of_m = DMatrixView::from_slice(of_m.as_slice(), count, order_b);
@@ -82,31 +78,52 @@ impl<'a> Rows<'a> {
         RowWeights { first, weights }
     }
 
-    /// Adds to `out` the integral over t for one s: node, from `first` on, by n.
-    fn integrate(&self, s: f64, b: [f64; 2], first: usize, out: &mut [f64]) {
-        let w = |t: f64| (((t - s) + s * self.one_minus_cos) / (s * self.sin)).asinh();
-        let (low, high) = (w(b[0]), w(b[1]));
-        let panels = ((high - low) / INNER_PANEL).ceil().max(1.0);
-        let length = (high - low) / panels;
-        let (mut of_b, mut at_nodes) = (vec![0.0; self.orders[1]], vec![0.0; self.nodes.on_panel()]);
-        let count = out.len() / self.orders[1];
-        for panel in 0..panels as usize {
-            let start = low + panel as f64 * length;
-            for (w, weight) in self.inner.on(start, start + length) {
-                let (grown, shrunk) = (0.5 * w.exp(), 0.5 * (-w).exp());
-                let (sinh, cosh) = (grown - shrunk, grown + shrunk);
-                let t = (s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]);
-                polynomials(b, t, &mut of_b);
-                // What is left of sin²θ·s·t/(π q³) dt, where dt = q dw and q = s·sinθ·cosh w.
-                let factor = weight * t / (PI * s * cosh * cosh);
-                let place = self.nodes.place(s * self.sin * cosh, &mut at_nodes) - first;
-                // Columns are so short that nalgebra's update of rank one would take longer.
-                for (out, p) in out.chunks_exact_mut(count).zip(&of_b) {
-                    let out = &mut out[place..place + at_nodes.len()];
-                    out.iter_mut().zip(&at_nodes).for_each(|(out, at_node)| *out += factor * p * at_node);
+    /// The integrals over t for each of the points s: node of a range by n, by point.
+    fn inner_integrals(&self, points: &[f64], b: [f64; 2], nodes: Range<usize>) -> DMatrix<f64> {
+        let (mut t, mut distances, mut factors, mut ends) = (vec![], vec![], vec![], vec![]);
+        for s in points {
+            let w = |t: f64| (((t - s) + s * self.one_minus_cos) / (s * self.sin)).asinh();
+            let (low, high) = (w(b[0]), w(b[1]));
+            let panels = ((high - low) / INNER_PANEL).ceil().max(1.0);
+            let length = (high - low) / panels;
+            for panel in 0..panels as usize {
+                let start = low + panel as f64 * length;
+                for (w, weight) in self.inner.on(start, start + length) {
+                    let (grown, shrunk) = (0.5 * w.exp(), 0.5 * (-w).exp());
+                    let (sinh, cosh) = (grown - shrunk, grown + shrunk);
+                    t.push((s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]));
+                    distances.push(s * self.sin * cosh);
+                    // What is left of sin²θ·s·t/(π q³) dt but for t, where dt = q dw and q = s·sinθ·cosh w.
+                    factors.push(weight / (PI * s * cosh * cosh));
                 }
             }
+            ends.push(t.len());
         }
+        let mut of_b = polynomials(b, &t, self.orders[1]);
+        factors.iter_mut().zip(&t).for_each(|(factor, t)| *factor *= t);
+        let factors = DVectorView::from_slice(&factors, factors.len());
+        of_b.column_iter_mut().for_each(|mut of_b| of_b.component_mul_assign(&factors));
+        let (firsts, at_nodes) = self.nodes.place(&distances);
+        let mut integrals = DMatrix::zeros(nodes.len() * self.orders[1], points.len());
+        let mut at_node = vec![0.0; self.nodes.on_panel()];
+        let mut start = 0;
+        for (mut of_point, end) in integrals.column_iter_mut().zip(ends) {
+            for p in start..end {
+                at_node
+                    .iter_mut()
+                    .zip(at_nodes[p..].iter().step_by(t.len()))
+                    .for_each(|(to, from)| *to = *from);
+                let place = firsts[p] - nodes.start;
+                // Columns are so short that nalgebra's update of rank one would take longer.
+                let of_degrees = of_point.as_mut_slice().chunks_exact_mut(nodes.len());
+                for (out, of_b) in of_degrees.zip(of_b.row(p).into_iter()) {
+                    let out = &mut out[place..place + at_node.len()];
+                    out.iter_mut().zip(&at_node).for_each(|(out, at_node)| *out += of_b * at_node);
+                }
+            }
+            start = end;
+        }
+        integrals
     }
 
     /// Least and largest distance between points of two strips.

@@ -3,9 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::kernel::quadrature::{Rule, legendre_series};
+use crate::solve::dot;
 
 /// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strips {
     pub(super) ends: Vec<[f64; 2]>,
     pub(super) order: usize,
@@ -17,23 +18,25 @@ impl Strips {
         Self { ends: edges.windows(2).map(|ends| [ends[0], ends[1]]).collect(), order }
     }
 
+    /// Number of functions.
+    pub(super) fn len(&self) -> usize {
+        self.ends.len() * self.order
+    }
+
     /// Means of the functions over intervals: interval by function, in the order of degree and strip, the last being the fastest.
     pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
         let strips = self.ends.len();
         let mut means = DMatrix::zeros(intervals.len(), self.order * strips);
         let rule = Rule::gauss_legendre(self.order.div_ceil(2));
-        let mut values = vec![0.0; self.order];
         for (interval, [low, high]) in intervals.iter().enumerate() {
             for (n, strip) in self.ends.iter().enumerate() {
                 let (from, to) = (strip[0].max(*low), strip[1].min(*high));
                 if from >= to {
                     continue;
                 }
-                for (x, weight) in rule.on(from, to) {
-                    polynomials(*strip, x, &mut values);
-                    for (b, value) in values.iter().enumerate() {
-                        means[(interval, b * strips + n)] += weight * value / (high - low);
-                    }
+                let (points, weights): (Vec<f64>, Vec<f64>) = rule.on(from, to).unzip();
+                for (b, values) in polynomials(*strip, &points, self.order).column_iter().enumerate() {
+                    means[(interval, b * strips + n)] = dot(values.as_slice(), &weights) / (high - low);
                 }
             }
         }
@@ -41,13 +44,16 @@ impl Strips {
     }
 }
 
-/// Normalised Legendre polynomials of a strip at `x`.
-pub(super) fn polynomials(strip: [f64; 2], x: f64, values: &mut [f64]) {
+/// Normalised Legendre polynomials of a strip at some points: point by degree, of which there are `order`.
+pub(super) fn polynomials(strip: [f64; 2], points: &[f64], order: usize) -> DMatrix<f64> {
     let length = strip[1] - strip[0];
-    legendre_series((2.0 * x - strip[0] - strip[1]) / length, values);
-    for (b, value) in values.iter_mut().enumerate() {
-        *value *= ((2 * b + 1) as f64 / length).sqrt();
+    let places: Vec<_> = points.iter().map(|x| (2.0 * x - strip[0] - strip[1]) / length).collect();
+    let mut values = DMatrix::zeros(points.len(), order);
+    legendre_series(&places, values.as_mut_slice());
+    for (b, mut values) in values.column_iter_mut().enumerate() {
+        values *= ((2 * b + 1) as f64 / length).sqrt();
     }
+    values
 }
 
 /// Edges of strips from `low` to `high`, the first and the last at most as wide as asked for, and each at most `growth` times

@@ -63,29 +63,50 @@ impl Nodes {
         panel(nearest * (1.0 - 1e-9)) * on..(panel(furthest * (1.0 + 1e-9)) + 1) * on
     }
 
-    /// The first of the nodes between which the distance `q` lies, and their weights; below the nearest it counts as that.
-    pub(super) fn place(&self, q: f64, weights: &mut [f64]) -> usize {
-        let along = ((q.ln() - self.start) / PANEL).max(0.0);
-        let panel = (along as usize).min(self.panels - 1);
-        self.lagrange.at(2.0 * (along - panel as f64) - 1.0, weights);
-        panel * self.on_panel()
+    /// For each distance the first of the nodes between which it lies, and their weights: those of the first of them for all distances,
+    /// then those of the next. Below the nearest, a distance counts as that.
+    pub(super) fn place(&self, distances: &[f64]) -> (Vec<usize>, Vec<f64>) {
+        let place = |q: &f64| {
+            let along = ((q.ln() - self.start) / PANEL).max(0.0);
+            let panel = (along as usize).min(self.panels - 1);
+            (panel * self.on_panel(), 2.0 * (along - panel as f64) - 1.0)
+        };
+        let (firsts, places): (Vec<_>, Vec<_>) = distances.iter().map(place).unzip();
+        let mut weights = vec![0.0; self.on_panel() * distances.len()];
+        self.lagrange.at_all(&places, &mut weights);
+        (firsts, weights)
     }
 }
 
 /// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included: function of `of` and of
-/// `with` by node, times q³. The functions are in the order of [`super::space::Space`]: strip of `of`, strip of `with`, degree on `of`,
+/// `with` by node, times q³. The functions are in the order of [`super::space::Space`]: strip of `of`, degree on `of`, strip of `with`,
 /// degree on `with`, the first being the fastest.
 pub(super) fn tabulate(of: &Strips, with: &Strips, width: f64, nodes: &Nodes) -> DMatrix<f64> {
     let distances = nodes.distances();
     let correlation = Correlation::new([of.order, with.order], nodes, &distances);
-    let pairs: Vec<_> = with.ends.iter().flat_map(|f| of.ends.iter().map(move |e| (*e, *f))).collect();
-    let tabulate = |(e, [low, high]): ([f64; 2], [f64; 2])| {
+    let integrals = |[e, f]: [usize; 2]| {
+        let (e, [low, high]) = (of.ends[e], with.ends[f]);
         let mirror = [width - high, width - low];
         correlation.integrals(e, [low, high], false) + correlation.integrals(e, mirror, true)
     };
-    let tables: Vec<_> = pairs.into_par_iter().map(tabulate).collect();
-    let strips = tables.len();
-    DMatrix::from_fn(strips * of.order * with.order, nodes.len(), |row, node| {
-        tables[row % strips][(row / strips, node)]
-    })
+    // Of strips that are alike, what one has to do with another is what that has to do with it.
+    let alike = of == with;
+    let pairs: Vec<_> = (0..with.ends.len())
+        .flat_map(|f| (0..if alike { f + 1 } else { of.ends.len() }).map(move |e| [e, f]))
+        .collect();
+    let of_pairs: Vec<_> = pairs.par_iter().map(|pair| integrals(*pair)).collect();
+    let mut table = DMatrix::zeros(of.len() * with.len(), nodes.len());
+    let row = |[e, f]: [usize; 2], [b, d]: [usize; 2]| {
+        ((d * with.ends.len() + f) * of.order + b) * of.ends.len() + e
+    };
+    for (pair, integrals) in pairs.into_iter().zip(of_pairs) {
+        for (bd, integrals) in integrals.column_iter().enumerate() {
+            let (degrees, [e, f]) = ([bd % of.order, bd / of.order], pair);
+            table.row_mut(row(pair, degrees)).tr_copy_from(&integrals);
+            if alike && e < f {
+                table.row_mut(row([f, e], [degrees[1], degrees[0]])).tr_copy_from(&integrals);
+            }
+        }
+    }
+    table
 }
