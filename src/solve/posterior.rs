@@ -11,6 +11,8 @@
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
 
+use std::cmp::Ordering;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
@@ -31,6 +33,10 @@ const DAMPING: f64 = 0.1;
 const DAMPING_UP: f64 = 5.0;
 const DAMPING_DOWN: f64 = 0.1;
 const DAMPING_LEAST: f64 = 1e-3;
+/// Most corrections of a step, and the share of what it promised that is enough. One takes a third more steps; with more than two some
+/// searches end in another maximum.
+const CORRECTIONS: usize = 2;
+const KEPT: f64 = 0.1;
 
 /// A model seen through data of known noise.
 pub trait Model {
@@ -241,7 +247,7 @@ impl<M: Model> Search<'_, M> {
         false
     }
 
-    /// Where the damped step leads, corrected to second order if it does not keep half of its promise; none if the Hessian is
+    /// Where the damped step leads, corrected for what bends if it does not keep half of its promise; none if the Hessian is
     /// not positive, the step too long or the cost higher.
     fn trial(&self, newton: &GaussNewton, curvature: Option<&DMatrix<f64>>) -> Option<DVector<f64>> {
         let direction = if curvature.is_none() && self.damping <= 0.0 {
@@ -257,19 +263,29 @@ impl<M: Model> Search<'_, M> {
         }
         let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
-        let next = &self.w + &direction;
-        let residuals = self.model.residuals(&next);
-        let after = cost(&next, &residuals);
+        let mut next = &self.w + &direction;
+        let mut residuals = self.model.residuals(&next);
+        let mut after = cost(&next, &residuals);
         if after < before - 0.5 * newton.descent.dot(&direction) {
             return Some(next);
         }
-        // The curvature of precise data has thrown the step off their valley: one more solution with the old factor, for what
-        // the linear model did not foresee, leads back to it.
-        let unforeseen = residuals - &self.at.residuals + &self.at.jacobian * direction;
-        let corrected = &next + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
-        let after_correction = cost(&corrected, &self.model.residuals(&corrected));
-        if after_correction < after.min(before) {
-            return Some(corrected);
+        // The curvature of precise data has thrown the step off their valley: solutions with the old factor, for what the linear model
+        // did not foresee, lead back to it.
+        let foreseen = &self.at.residuals - &self.at.jacobian * direction;
+        let enough = before - KEPT * (before - cost(&next, &foreseen));
+        for _ in 0..CORRECTIONS {
+            let unforeseen = residuals - &foreseen;
+            let corrected =
+                &next + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
+            residuals = self.model.residuals(&corrected);
+            let after_correction = cost(&corrected, &residuals);
+            if after_correction.partial_cmp(&after) != Some(Ordering::Less) {
+                break;
+            }
+            (next, after) = (corrected, after_correction);
+            if after < enough {
+                break;
+            }
         }
         (after < before).then_some(next)
     }
