@@ -13,7 +13,9 @@ const PRODUCTS_MAX: f64 = 4e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
 const AIM: f64 = 0.2;
 /// The error that is believed, relative to the one that the solution should have from its forerunner's.
-const SAFETY: f64 = 3.0;
+const SAFETY: f64 = 3.5;
+/// The least error that is believed, relative to what the solution aims at: where a coarser one has as many strips, both lack the same.
+const LEAST: f64 = 2.0;
 /// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 20.0;
 /// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
@@ -86,7 +88,8 @@ fn first_two(fold: &Fold, start: f64) -> Result<Option<(Solution, Solution)>> {
 }
 
 fn believed(coarse: &Solution, fine: &Solution) -> f64 {
-    SAFETY * fine.aim / coarse.aim * difference(&coarse.response, &fine.response)
+    let of_difference = SAFETY * fine.aim / coarse.aim * difference(&coarse.response, &fine.response);
+    of_difference.max(LEAST * fine.aim)
 }
 
 /// The solution that aims at this error; none if it would take too long, `poles` being those of the one before.

@@ -49,7 +49,7 @@ fn patches_converge_to_the_undivided_panels() {
 
 /// Folds from narrow to wide open, long and short, of unequal panels, with facets that narrow towards the crease.
 fn folds() -> Vec<Fold> {
-    let plain = [(12.0, 1.0, 1.0), (30.0, 1.0, 1.0), (45.0, 1.0, 1.0), (90.0, 1.0, 1.0), (150.0, 1.0, 1.0)];
+    let plain = [12.0, 15.0, 30.0, 36.0, 45.0, 90.0, 150.0].map(|angle_deg| (angle_deg, 1.0, 1.0));
     let oblong = [(45.0, 3.0, 1.0), (60.0, 1.0, 4.0)];
     let unequal = fold(50.0, 1.0, 1.0).with_panel1_depth(0.4).unwrap();
     let graded = fold(45.0, 1.0, 1.0).with_spacing(Spacing::Graded);
@@ -61,13 +61,16 @@ fn folds() -> Vec<Fold> {
 #[test]
 fn facet_means_are_within_the_tolerance_of_a_finer_solution() {
     for fold in folds() {
-        let (finest, _) = respond(&fold, Mesh::Auto, 1e-6).unwrap();
+        let (finest, left) = respond(&fold, Mesh::Auto, 1e-6).unwrap();
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
             let (response, accuracy) = respond(&fold, Mesh::Auto, tolerance).unwrap();
-            assert!(accuracy.facet_mean_error.unwrap() <= tolerance, "{fold:?}: {accuracy:?}");
+            let stated = accuracy.facet_mean_error.unwrap();
+            assert!(stated <= tolerance, "{fold:?}: {accuracy:?}");
+            let may_be = 1.1 * stated + left.facet_mean_error.unwrap();
             for r in [0.1, 0.5, 0.9, 1.0] {
                 let error = difference(&irradiance(&response, r), &irradiance(&finest, r));
                 assert!(error <= tolerance, "{fold:?} r {r}: {error:.1e} beyond {tolerance:e}");
+                assert!(error <= may_be, "{fold:?} r {r}: {error:.1e}, {stated:.1e} stated");
             }
         }
     }

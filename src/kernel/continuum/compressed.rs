@@ -35,7 +35,7 @@ struct Pieces<T> {
     first_column: usize,
     /// The end of each column's pieces.
     ends: Vec<usize>,
-    /// The first row of every piece.
+    /// The first row of every piece; no matrix that fits into memory has more than 2³² rows.
     rows: Vec<u32>,
     values: Vec<[T; PIECE]>,
 }
@@ -110,7 +110,7 @@ impl<T: Copy + Into<f64>> Pieces<T> {
     }
 
     fn push(&mut self, row: usize, values: [T; PIECE]) {
-        self.rows.push(u32::try_from(row).expect("no matrix has as many rows"));
+        self.rows.push(row as u32);
         self.values.push(values);
     }
 

@@ -28,16 +28,18 @@ impl Resolution {
     /// The resolution that reaches about `aim`, a relative error of facet means at reflectance 1; found by trying.
     #[must_use]
     pub fn reaching(aim: f64, fold: &Fold) -> Self {
+        // Less averages out on facets that are smaller, at the crease, than those of ten rows.
+        let small = (10.0 * first_row(fold)).min(1.0);
         // What a twentieth of the error takes.
-        let levels = (1e-5 / aim).ln() / 20_f64.ln();
+        let levels = (1e-5 / (small * aim)).ln() / 20_f64.ln();
         // In narrow folds light spreads less between one bounce and the next, and bounces longer.
         let open = fold.angle_rad().min(FRAC_PI_4) / FRAC_PI_4;
         let (narrow, bounces) = (1.0 - open, -open.ln());
         let count = |at_1e5: f64, a_level: f64| (at_1e5 + a_level * levels).ceil().max(2.0) as usize;
         Self {
             crease_strips: count(3.28 + narrow, 0.95),
-            end_strips: count(2.6, 0.67),
-            order: count(6.6 + 1.1 * narrow + 0.35 * bounces, 1.4 + 0.6 * narrow),
+            end_strips: count(2.42, 0.85),
+            order: count(6.7 + 1.1 * narrow + 0.35 * bounces, 1.6 + 0.4 * narrow),
             nodes: count(5.6 + narrow, 1.6).max(4),
             // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
             negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
@@ -56,4 +58,10 @@ impl Resolution {
     pub fn readings(&self, fold: &Fold) -> usize {
         Reading::new(&Layout::new(fold, self), fold).len()
     }
+}
+
+/// Depth of the first row of facets by that of its panel, the smaller of both panels.
+fn first_row(fold: &Fold) -> f64 {
+    let first = |panel: usize| fold.row_edges()[panel][1] / fold.depths()[panel];
+    first(0).min(first(1))
 }

@@ -116,7 +116,7 @@ impl<'a> Rows<'a> {
                 let place = firsts[p] - nodes.start;
                 // Columns are so short that nalgebra's update of rank one would take longer.
                 let of_degrees = of_point.as_mut_slice().chunks_exact_mut(nodes.len());
-                for (out, of_b) in of_degrees.zip(of_b.row(p).into_iter()) {
+                for (out, of_b) in of_degrees.zip(&of_b.row(p)) {
                     let out = &mut out[place..place + at_node.len()];
                     out.iter_mut().zip(&at_node).for_each(|(out, at_node)| *out += of_b * at_node);
                 }
