@@ -144,9 +144,10 @@ mod tests {
         for (angle_deg, depth1) in [(20.0, 1.0), (45.0, 0.6), (120.0, 1.0)] {
             let [few, many] = [1, 16].map(|parts| {
                 let facets = FacetGrid { rows: 5 * parts, cols: 6 * parts };
-                let fold = Fold::new(angle_deg, 1.0, 1.0, facets).unwrap().with_panel1_depth(depth1).unwrap();
-                Continuum::new(&fold, &Resolution::reaching(1e-6, &fold))
+                Fold::new(angle_deg, 1.0, 1.0, facets).unwrap().with_panel1_depth(depth1).unwrap()
             });
+            let resolution = Resolution::reaching(1e-6, &few);
+            let [few, many] = [few, many].map(|fold| Continuum::new(&fold, &resolution));
             let read = many.reading.len();
             assert!(few.reading.len() < read && read < 80 * 48, "{angle_deg}°: {read}");
             for panel in 0..2 {
