@@ -71,8 +71,9 @@ impl Response {
             let facets = set.residues.nrows();
             return Ok((Self { modes: Modes::Shared(set), facets }, residual));
         }
-        let (set0, residual0) = both_panels(operator, 0, tolerance)?;
-        let (set1, residual1) = both_panels(operator, 1, tolerance)?;
+        let of_source = |source: usize| both_panels(operator, source, tolerance);
+        let (of_0, of_1) = rayon::join(|| of_source(0), || of_source(1));
+        let ((set0, residual0), (set1, residual1)) = (of_0?, of_1?);
         let facets = set0.residues.nrows() / 2;
         Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
     }
