@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::DMatrix;
+use smallvec::{SmallVec, smallvec};
 
 use crate::solve::Eigen;
 
@@ -154,7 +155,7 @@ impl Lagrange {
 
     /// As [`Lagrange::at`] for many points: the weights of the first node at all of them, then those of the next.
     pub fn at_all(&self, points: &[f64], weights: &mut [f64]) {
-        let mut sums = vec![0.0; points.len()];
+        let mut sums: SmallVec<[f64; 4]> = smallvec![0.0; points.len()];
         let of_nodes = weights.chunks_exact_mut(points.len()).zip(&self.nodes).zip(&self.scale);
         for ((weights, node), scale) in of_nodes {
             for ((weight, x), sum) in weights.iter_mut().zip(points).zip(&mut sums) {

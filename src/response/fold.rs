@@ -53,8 +53,8 @@ impl Response {
     /// The response and the residual that it reached.
     ///
     /// # Source
-    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with full reorthogonalisation (Golub and Van Loan, *Matrix
-    /// Computations*, section 10.3); the residual of the system at r = 1, the slowest to converge, stops it.
+    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with partial reorthogonalisation (Simon, *Mathematics of
+    /// Computation* 42, 1984, p. 115); the residual of the system at r = 1, the slowest to converge, stops it.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the light does not leave the fold: an operator that hands on all it receives.

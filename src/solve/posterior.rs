@@ -322,6 +322,47 @@ mod tests {
         }
     }
 
+    /// Precise data leave a curved valley, `a·w₀² + w₁ = data`, down which the prior leads.
+    struct Valley;
+
+    const BEND: f64 = 3.0;
+    const PRECISION: f64 = 1e6;
+
+    impl Model for Valley {
+        type Second = ();
+
+        fn unknowns(&self) -> usize {
+            2
+        }
+
+        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+            DVector::from_element(1, -PRECISION * (w[1] - BEND * w[0] * w[0]))
+        }
+
+        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+            let jacobian = PRECISION * DMatrix::from_row_slice(1, 2, &[-2.0 * BEND * w[0], 1.0]);
+            Linearised { residuals: self.residuals(w), jacobian, second: () }
+        }
+
+        fn curvature(&self, (): &(), multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
+            Some(DMatrix::from_diagonal(&DVector::from_vec(vec![
+                -2.0 * BEND * PRECISION * multipliers[0],
+                0.0,
+            ])))
+        }
+    }
+
+    #[test]
+    fn a_curved_valley_is_followed_in_long_steps() {
+        let start = DVector::from_vec(vec![2.0, BEND * 4.0]);
+        let found = maximise(&Valley, start, (1.0, 1.0), 1e-6, 1000);
+        assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
+        assert!(found.w.norm() < 1e-5, "{}", found.w);
+        let steps = found.trace.len();
+        // With one correction a step, more than 1000.
+        assert!(steps < 400, "{steps} steps");
+    }
+
     #[test]
     fn the_gradient_vanishes_where_it_says_so() {
         for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {
