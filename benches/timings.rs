@@ -154,7 +154,7 @@ fn photograph(page: &mut String, work: &Path) {
         on_two / decoding,
         peak / 1000
     );
-    line(page, "vextract, 24 million pixels, 16-bit TIFF, medians of 5", &said, "1.5 x decoding");
+    line(page, "vextract, 24 million pixels, 16-bit TIFF of 144 MB, medians of 5", &said, "1.4, 1.2, 216 MB");
 }
 
 /// A photograph that an ideal fold does not explain, as another camera took it than the one told: everything is fitted.

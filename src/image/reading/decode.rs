@@ -6,13 +6,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::codecs::tiff::TiffDecoder;
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits,
+};
 
 use super::exif::{self, Tags};
 use super::jpeg::Jpeg;
 use super::openexr::{self, Kind};
 use super::stated::Statement;
-use super::{icc, png_chunks};
+use super::{icc, in_place, png_chunks};
 use crate::image::photograph::CameraNotes;
 use crate::room;
 use crate::{Error, Result};
@@ -160,10 +162,7 @@ fn decode_whole(
     format: ImageFormat,
 ) -> Result<PictureAndMore> {
     let mut stated = before_pixels(path, file, format)?;
-    file.rewind().map_err(|source| Error::file(path.display(), source))?;
-    let mut reader = ImageReader::with_format(file, format);
-    reader.limits(limits());
-    let mut decoder = reader.into_decoder().map_err(|error| undecodable(path, error))?;
+    let mut decoder = image_decoder(file, format).map_err(|error| undecodable(path, error))?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 {
         let problem = format!("the picture is {width} x {height} px");
@@ -177,15 +176,32 @@ fn decode_whole(
         let problem = format!("{width} x {height} px cannot be in its {length} bytes");
         return Err(Error::picture(path, problem, DAMAGED));
     }
-    let light = 3 * size_of::<f32>() as u64 * u64::from(width) * u64::from(height);
-    room::ask(decoder.total_bytes() + light, &path.display().to_string(), TOO_LARGE)?;
+    let bytes = decoder.total_bytes();
+    room::ask(bytes, &path.display().to_string(), TOO_LARGE)?;
     if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
         return Err(inks(path));
     }
     stated.extend(decoder.icc_profile().ok().flatten().map(|profile| icc::statement(&profile)));
     let block = decoder.exif_metadata().ok().flatten();
-    let picture = DynamicImage::from_decoder(decoder).map_err(|error| undecodable(path, error))?;
+    let (dimensions, color_type) = (decoder.dimensions(), decoder.color_type());
+    drop(decoder);
+    file.rewind().map_err(|source| Error::file(path.display(), source))?;
+    if let Some(picture) = in_place::decode(&mut *file, format, dimensions, color_type) {
+        return Ok((picture, block, stated));
+    }
+    // once decoded, once copied
+    room::ask(2 * bytes, &path.display().to_string(), TOO_LARGE)?;
+    let picture = image_decoder(file, format).and_then(DynamicImage::from_decoder);
+    let picture = picture.map_err(|error| undecodable(path, error))?;
     Ok((picture, block, stated))
+}
+
+/// The decoder of a file from its beginning.
+fn image_decoder(file: &mut BufReader<File>, format: ImageFormat) -> ImageResult<impl ImageDecoder> {
+    file.rewind()?;
+    let mut reader = ImageReader::with_format(file, format);
+    reader.limits(limits());
+    reader.into_decoder()
 }
 
 /// What the decoders do not tell, or take for something else: what a file says of its numbers.

@@ -4,6 +4,7 @@ mod decode;
 mod exif;
 mod exif_taken;
 mod icc;
+mod in_place;
 mod jpeg;
 mod open;
 mod openexr;

@@ -20,7 +20,7 @@ pub(super) enum Kind {
 /// The kind of a file whose header can be read.
 pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
     let MetaData { headers, .. } = MetaData::read_from_buffered(file, false).ok()?;
-    let Some(header) = headers.iter().find(|header| !header.deep && has(header, ["R", "G", "B"])) else {
+    let Some(header) = headers.iter().find(|header| is_in_colour(header)) else {
         let (is, remedy) = other(&headers);
         return Some(Kind::Other { is, remedy });
     };
@@ -30,6 +30,11 @@ pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
         return Some(Kind::Other { is, remedy });
     }
     Some(Kind::Colours(colours(header).into_iter().collect()))
+}
+
+/// Whether it is a flat picture in red, green and blue.
+pub(super) fn is_in_colour(header: &Header) -> bool {
+    !header.deep && has(header, ["R", "G", "B"])
 }
 
 fn has<const N: usize>(header: &Header, names: [&str; N]) -> bool {
