@@ -129,10 +129,10 @@ impl<T: Copy + Into<f64>> Pieces<T> {
                 let values: [f64; PIECE] = values.map(Into::into);
                 if TRANSPOSED {
                     let x = &x[rows.clone()];
-                    of_column.iter_mut().zip(values).zip(x).for_each(|((sum, value), x)| *sum += value * x);
+                    of_column.iter_mut().zip(&values).zip(x).for_each(|((sum, value), x)| *sum += value * x);
                 }
                 if STRAIGHT {
-                    sums[rows].iter_mut().zip(values).for_each(|(sum, value)| *sum += value * x_n);
+                    sums[rows].iter_mut().zip(&values).for_each(|(sum, value)| *sum += value * x_n);
                 }
             }
             if TRANSPOSED {
