@@ -13,11 +13,13 @@ const PRODUCTS_MAX: f64 = 4e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
 const AIM: f64 = 0.2;
 /// The error that is believed, relative to the one that the solution should have from its forerunner's.
-const SAFETY: f64 = 3.5;
+const SAFETY: f64 = 3.0;
 /// The least error that is believed, relative to what the solution aims at: where a coarser one has as many strips, both lack the same.
 const LEAST: f64 = 2.0;
 /// How much finer a solution is than the coarser one that tells its error.
-const STEP: f64 = 20.0;
+const STEP: f64 = 100.0;
+/// The same where the coarser one is the coarsest.
+const LEAST_STEP: f64 = 20.0;
 /// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
 const COARSEST: f64 = 0.005;
 /// Reflectances at which two solutions are compared; the last is the hardest.
@@ -56,8 +58,7 @@ pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
 }
 
 fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
-    let start = COARSEST.min(AIM * tolerance * STEP);
-    let Some((coarse, mut fine)) = first_two(fold, start)? else {
+    let Some((coarse, mut fine)) = first_two(fold, AIM * tolerance)? else {
         return Err(Error::usage(
             "--tolerance",
             format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
@@ -77,14 +78,19 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     Ok(Refined { response: fine.response, unknowns: fine.unknowns, error, residual: fine.residual })
 }
 
-/// The solution that aims at `start` with a finer one; with a coarser one, the finer of the two being second, if that would
-/// take too long.
-fn first_two(fold: &Fold, start: f64) -> Result<Option<(Solution, Solution)>> {
+/// A coarse solution, and a finer one that aims at this error or, if that would take too long, at one as near as it may be; the coarse one
+/// and a still coarser one if nothing finer can be had.
+fn first_two(fold: &Fold, aim: f64) -> Result<Option<(Solution, Solution)>> {
+    let start = COARSEST.min(STEP * aim);
     let Some(first) = solve(fold, start, 1)? else { return Ok(None) };
-    if let Some(finer) = solve(fold, start / STEP, first.response.poles().len())? {
-        return Ok(Some((first, finer)));
+    let mut finer = aim.min(start / LEAST_STEP);
+    while finer < 0.5 * start {
+        if let Some(second) = solve(fold, finer, first.response.poles().len())? {
+            return Ok(Some((first, second)));
+        }
+        finer *= 2.0;
     }
-    Ok(solve(fold, start * STEP, 1)?.map(|coarser| (coarser, first)))
+    Ok(solve(fold, LEAST_STEP * start, 1)?.map(|coarser| (coarser, first)))
 }
 
 fn believed(coarse: &Solution, fine: &Solution) -> f64 {

@@ -4,11 +4,10 @@ use nalgebra::DMatrix;
 
 use super::strips::polynomials;
 use super::table::Nodes;
-use crate::kernel::quadrature::{Lagrange, Rule};
+use crate::kernel::quadrature::{Lagrange, Rule, bernstein_rho};
 
-/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0, and the ρ that this leaves.
+/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0: it leaves a ρ of 2.09.
 const PEAK_GRADING: f64 = 8.0;
-const PEAK_RHO: f64 = 2.09;
 
 /// Integrals `∫∫ P_b(x) P_d(y) q³/(q² + (x − y)²)² dx dy` over pairs of strips, for all distances q.
 ///
@@ -16,27 +15,27 @@ const PEAK_RHO: f64 = 2.09;
 /// all of it, and the kernel's peak, which takes many more, is integrated against the polynomials through those few.
 pub(super) struct Correlation<'a> {
     orders: [usize; 2],
+    nodes: &'a Nodes,
     distances: &'a [f64],
     /// As many points as determine an overlap.
     overlap: Rule,
     through_overlap: Lagrange,
     /// Integrates the product of two polynomials.
     product: Rule,
-    peak: Rule,
 }
 
 impl<'a> Correlation<'a> {
     /// Of strips with so many polynomials, at these `distances`, the nearest being the first.
-    pub(super) fn new(orders: [usize; 2], nodes: &Nodes, distances: &'a [f64]) -> Self {
+    pub(super) fn new(orders: [usize; 2], nodes: &'a Nodes, distances: &'a [f64]) -> Self {
         let points = orders[0] + orders[1];
         let overlap = Rule::gauss_legendre(points);
         Self {
             orders,
+            nodes,
             distances,
             through_overlap: Lagrange::new(&overlap.nodes),
             overlap,
             product: Rule::gauss_legendre(points.div_ceil(2)),
-            peak: Rule::gauss_legendre(points.div_ceil(4) + nodes.points(PEAK_RHO)),
         }
     }
 
@@ -82,10 +81,17 @@ impl<'a> Correlation<'a> {
 
     /// The kernel integrated against the polynomials through the shifts of a piece: distance by shift.
     fn moments(&self, piece: &[f64]) -> DMatrix<f64> {
+        let nearest = self.distances[0];
+        let (mut shifts, mut weights) = (Vec::new(), Vec::new());
         // Half the least distance is the width of the kernel's peak.
-        let panels = towards_peak(piece[0], piece[1], 0.5 * self.distances[0]);
-        let (shifts, weights): (Vec<_>, Vec<_>) =
-            panels.into_iter().flat_map(|[low, high]| self.peak.on(low, high)).unzip();
+        for panel in towards_peak(piece[0], piece[1], 0.5 * nearest) {
+            let points = self.nodes.points(bernstein_rho(panel, [0.0, nearest]));
+            let rule = Rule::kept_legendre(self.overlap.nodes.len().div_ceil(4) + points);
+            for (shift, weight) in rule.on(panel[0], panel[1]) {
+                shifts.push(shift);
+                weights.push(weight);
+            }
+        }
         let place = |z: &f64| (2.0 * z - piece[0] - piece[1]) / (piece[1] - piece[0]);
         let mut through = DMatrix::zeros(shifts.len(), self.overlap.nodes.len());
         self.through_overlap.at_all(&shifts.iter().map(place).collect::<Vec<_>>(), through.as_mut_slice());

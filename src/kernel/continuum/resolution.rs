@@ -39,8 +39,8 @@ impl Resolution {
         Self {
             crease_strips: count(3.28 + narrow, 0.95),
             end_strips: count(2.42, 0.85),
-            order: count(6.7 + 1.1 * narrow + 0.35 * bounces, 1.6 + 0.4 * narrow),
-            nodes: count(5.6 + narrow, 1.6).max(4),
+            order: count(6.7 + 1.3 * narrow + 0.35 * bounces, 1.6 + 0.45 * narrow),
+            nodes: count(5.6 + narrow + 0.05 * bounces, 1.6).max(4),
             // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
             negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
         }

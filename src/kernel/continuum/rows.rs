@@ -3,7 +3,8 @@
 //! For a point at distance s the other panel's points are `t = s·(cosθ + sinθ·sinh w)`, at the distance
 //! `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however narrow the fold.
 
-use std::f64::consts::PI;
+use std::borrow::Cow;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DMatrixView, DVectorView};
@@ -11,12 +12,12 @@ use nalgebra::{DMatrix, DMatrixView, DVectorView};
 use super::strips::polynomials;
 use super::table::Nodes;
 use crate::geometry::Fold;
-use crate::kernel::quadrature::Rule;
+use crate::kernel::quadrature::{Rule, bernstein_rho};
 
 /// Longest Gauss panel in w, which the singularities leave with ρ = 4.4.
 const INNER_PANEL: f64 = 1.5;
-/// Least sum of distances to a singularity, relative to the length of a Gauss panel in s: ρ = 3.
-const OUTER_AXIS: f64 = 1.7;
+/// Least ρ of a Gauss panel in s.
+const OUTER_RHO: f64 = 3.0;
 /// Halvings of a strip that ends at the crease, where logarithms of s are small.
 const HALVINGS: usize = 4;
 
@@ -29,8 +30,6 @@ pub(super) struct Rows<'a> {
     nodes: &'a Nodes,
     /// Polynomials on the strips of either panel.
     orders: [usize; 2],
-    outer: Rule,
-    inner: Rule,
 }
 
 /// Weights of the values at consecutive nodes.
@@ -44,24 +43,31 @@ pub(super) struct RowWeights {
 impl<'a> Rows<'a> {
     pub(super) fn new(fold: &Fold, orders: [usize; 2], nodes: &'a Nodes) -> Self {
         let theta = fold.angle_rad();
-        let rule = |order: usize, rho: f64| Rule::gauss_legendre(order.div_ceil(2) + nodes.points(rho));
         Self {
             sin: theta.sin(),
             cos: theta.cos(),
             one_minus_cos: 2.0 * (theta / 2.0).sin().powi(2),
             nodes,
             orders,
-            outer: rule(orders[0], 3.0),
-            inner: rule(orders[1], 4.4),
         }
+    }
+
+    /// The rule for polynomials of one panel's strips times a function whose singularities leave this `rho`.
+    fn rule(&self, panel: usize, rho: f64) -> Cow<'static, Rule> {
+        Rule::kept_legendre(self.orders[panel].div_ceil(2) + self.nodes.points(rho))
     }
 
     /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f at the nodes.
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2]) -> RowWeights {
         let [order_a, order_b] = self.orders;
-        let pieces = self.pieces(a, b).into_iter();
-        let (points, of_points): (Vec<_>, Vec<_>) =
-            pieces.flat_map(|[low, high]| self.outer.on(low, high)).unzip();
+        let (mut points, mut of_points) = (Vec::new(), Vec::new());
+        for ([low, high], rho) in self.pieces(a, b) {
+            let rule = self.rule(0, rho);
+            for (point, weight) in rule.on(low, high) {
+                points.push(point);
+                of_points.push(weight);
+            }
+        }
         let mut of_a = polynomials(a, &points, order_a);
         let of_points = DVectorView::from_slice(&of_points, of_points.len());
         of_a.column_iter_mut().for_each(|mut of_a| of_a.component_mul_assign(&of_points));
@@ -86,9 +92,10 @@ impl<'a> Rows<'a> {
             let (low, high) = (w(b[0]), w(b[1]));
             let panels = ((high - low) / INNER_PANEL).ceil().max(1.0);
             let length = (high - low) / panels;
+            let rule = self.rule(1, bernstein_rho([-0.5 * length, 0.5 * length], [0.0, FRAC_PI_2]));
             for panel in 0..panels as usize {
                 let start = low + panel as f64 * length;
-                for (w, weight) in self.inner.on(start, start + length) {
+                for (w, weight) in rule.on(start, start + length) {
                     let (grown, shrunk) = (0.5 * w.exp(), 0.5 * (-w).exp());
                     let (sinh, cosh) = (grown - shrunk, grown + shrunk);
                     t.push((s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]));
@@ -135,8 +142,9 @@ impl<'a> Rows<'a> {
         [near.into_iter().fold(f64::INFINITY, f64::min), far.into_iter().fold(0.0, f64::max)]
     }
 
-    /// Cuts strip `a` where the inner integral over `b` varies: near the ends of `b` and the crease.
-    fn pieces(&self, a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
+    /// Cuts strip `a` where the inner integral over `b` varies, near the ends of `b` and the crease; the ρ that its singularities leave
+    /// each of the pieces.
+    fn pieces(&self, a: [f64; 2], b: [f64; 2]) -> Vec<([f64; 2], f64)> {
         let mut pieces = vec![a];
         // Towards the crease integrals go as s·ln s, which no polynomial follows: halves of halves make the rest harmless.
         for _ in 0..if a[0] > 0.0 { 0 } else { HALVINGS } {
@@ -145,15 +153,13 @@ impl<'a> Rows<'a> {
         }
         let mut done = Vec::new();
         while let Some([low, high]) = pieces.pop() {
-            let singular = |t: f64| {
-                let (re, im) = (t * self.cos, t * self.sin);
-                t > 0.0 && (low - re).hypot(im) + (high - re).hypot(im) < OUTER_AXIS * (high - low)
-            };
-            if b.into_iter().any(singular) {
+            let rho = |t: f64| bernstein_rho([low, high], [t * self.cos, t * self.sin]);
+            let of_ends = b.into_iter().filter(|t| *t > 0.0).map(rho).fold(f64::INFINITY, f64::min);
+            if of_ends < OUTER_RHO {
                 let middle = 0.5 * (low + high);
                 pieces.extend([[low, middle], [middle, high]]);
             } else {
-                done.push([low, high]);
+                done.push(([low, high], of_ends.min(rho(0.0)).max(OUTER_RHO)));
             }
         }
         done
