@@ -33,6 +33,13 @@ const DAMPING: f64 = 0.1;
 const DAMPING_UP: f64 = 5.0;
 const DAMPING_DOWN: f64 = 0.1;
 const DAMPING_LEAST: f64 = 1e-3;
+/// Where curvature is left out, the share of what a step promised from which damping falls after it, and the one below which it rises
+/// (Nocedal and Wright, section 4.1, of the radius of a trust region).
+const KEPT_WELL: f64 = 0.75;
+const KEPT_BADLY: f64 = 0.25;
+/// The least that a damped step must promise, relative to what the last step may: where the model has a kink, or its derivatives are
+/// differences, no step lowers the cost.
+const LEAST_PROMISE: f64 = 0.01;
 /// Most corrections of a step, and the share of what it promised that is enough. One takes a third more steps; with more than two some
 /// searches end in another maximum.
 const CORRECTIONS: usize = 2;
@@ -134,7 +141,14 @@ pub fn maximise<M: Model>(
     limit: usize,
 ) -> Solution<M::Second> {
     let (mut now, last) = inflation;
-    let mut search = Search { model, at: model.linearise(&start), w: start, damping: 0.0, trace: Vec::new() };
+    let mut search = Search {
+        model,
+        at: model.linearise(&start),
+        w: start,
+        damping: 0.0,
+        least_promise: LEAST_PROMISE * tolerance * tolerance,
+        trace: Vec::new(),
+    };
     let mut steps = 0;
     let termination = loop {
         // Noise `now` times its size weighs squared residuals by 1/now².
@@ -191,6 +205,8 @@ struct Search<'a, M: Model> {
     w: DVector<f64>,
     at: Linearised<M::Second>,
     damping: f64,
+    /// A damped step that promises less is not tried.
+    least_promise: f64,
     trace: Vec<Iteration>,
 }
 
@@ -233,23 +249,35 @@ impl<M: Model> Search<'_, M> {
         let curvature =
             self.model.curvature(&self.at.second, &multipliers).map(|of_data| newton.weight * of_data);
         for _ in 0..TRIALS {
-            if let Some(next) = self.trial(newton, curvature.as_ref()) {
+            let direction = self.direction(newton, curvature.as_ref());
+            if direction.as_ref().is_some_and(|step| newton.descent.dot(step) < self.least_promise) {
+                return false;
+            }
+            if let Some((next, kept)) = direction.and_then(|direction| self.trial(newton, direction)) {
                 self.at = self.model.linearise(&next);
                 self.w = next;
-                self.damping *= DAMPING_DOWN;
+                // Damping stands in for a curvature that is left out: it rises where that shows.
+                if curvature.is_some() || kept > KEPT_WELL {
+                    self.damping *= DAMPING_DOWN;
+                } else if kept < KEPT_BADLY {
+                    self.raise_damping();
+                }
                 if self.damping < DAMPING_LEAST {
                     self.damping = 0.0;
                 }
                 return true;
             }
-            self.damping = (DAMPING_UP * self.damping).max(DAMPING);
+            self.raise_damping();
         }
         false
     }
 
-    /// Where the damped step leads, corrected for what bends if it does not keep half of its promise; none if the Hessian is
-    /// not positive, the step too long or the cost higher.
-    fn trial(&self, newton: &GaussNewton, curvature: Option<&DMatrix<f64>>) -> Option<DVector<f64>> {
+    fn raise_damping(&mut self) {
+        self.damping = (DAMPING_UP * self.damping).max(DAMPING);
+    }
+
+    /// The damped step; none if the Hessian is not positive or the step too long.
+    fn direction(&self, newton: &GaussNewton, curvature: Option<&DMatrix<f64>>) -> Option<DVector<f64>> {
         let direction = if curvature.is_none() && self.damping <= 0.0 {
             newton.direction.clone()
         } else {
@@ -258,16 +286,20 @@ impl<M: Model> Search<'_, M> {
             add_to_diagonal(&mut hessian, self.damping);
             Cholesky::new(hessian)?.solve(&newton.descent)
         };
-        if direction.norm() > LONGEST {
-            return None;
-        }
+        (direction.norm() <= LONGEST).then_some(direction)
+    }
+
+    /// Where a step leads, corrected for what bends if it does not keep half of its promise, and the share that it keeps; none if the cost
+    /// is higher.
+    fn trial(&self, newton: &GaussNewton, direction: DVector<f64>) -> Option<(DVector<f64>, f64)> {
         let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
         let mut next = &self.w + &direction;
         let mut residuals = self.model.residuals(&next);
         let mut after = cost(&next, &residuals);
-        if after < before - 0.5 * newton.descent.dot(&direction) {
-            return Some(next);
+        let promise = newton.descent.dot(&direction);
+        if after < before - 0.5 * promise {
+            return Some((next, (before - after) / promise));
         }
         // The curvature of precise data has thrown the step off their valley: solutions with the old factor, for what the linear model
         // did not foresee, lead back to it.
@@ -287,7 +319,7 @@ impl<M: Model> Search<'_, M> {
                 break;
             }
         }
-        (after < before).then_some(next)
+        (after < before).then_some((next, (before - after) / promise))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What no unknown explains: smooth over a panel, alike in the channels.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
 use super::corners::shifts;
 use super::parts::Place;
@@ -91,20 +91,32 @@ impl Whitening {
     /// Errors of all values, channel by channel and in each facet by facet.
     #[must_use]
     pub fn of(&self, errors: &DVector<f64>) -> DVector<f64> {
-        &self.inverse * errors
+        let mut white = DVector::zeros(errors.len());
+        for (rows, end) in self.rows() {
+            let mut white = white.rows_mut(end - rows.nrows(), rows.nrows());
+            white.gemv(1.0, &rows, &errors.rows(0, end), 0.0);
+        }
+        white
     }
 
     /// The same for each column of a matrix.
     #[must_use]
     pub fn of_all(&self, errors: &DMatrix<f64>) -> DMatrix<f64> {
-        let count = errors.nrows();
-        let mut white = DMatrix::zeros(count, errors.ncols());
-        for start in (0..count).step_by(ROWS) {
-            let end = count.min(start + ROWS);
-            let of_rows = self.inverse.view((start, 0), (end - start, end));
-            white.rows_mut(start, end - start).gemm(1.0, &of_rows, &errors.rows(0, end), 0.0);
+        let mut white = DMatrix::zeros(errors.nrows(), errors.ncols());
+        for (rows, end) in self.rows() {
+            let mut white = white.rows_mut(end - rows.nrows(), rows.nrows());
+            white.gemm(1.0, &rows, &errors.rows(0, end), 0.0);
         }
         white
+    }
+
+    /// A few rows after the other, up to the diagonal of the last of them, and where that is.
+    fn rows(&self) -> impl Iterator<Item = (DMatrixView<'_, f64, U1, Dyn>, usize)> {
+        let count = self.inverse.nrows();
+        (0..count).step_by(ROWS).map(move |start| {
+            let end = count.min(start + ROWS);
+            (self.inverse.view((start, 0), (end - start, end)), end)
+        })
     }
 }
 
