@@ -4,7 +4,8 @@
 use std::borrow::Cow;
 use std::slice::ChunksExact;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixViewMut, DVector};
+use pulp::Arch;
 
 use super::chebyshev::{chebyshev, nodes};
 use super::conditions::Conditions;
@@ -63,13 +64,15 @@ fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
     matrix.as_slice().chunks_exact(matrix.nrows())
 }
 
-/// Adds the product of two matrices, the second of few columns, which a general product is slow for.
+/// Adds the product of two matrices, the second of few columns, which a general product is slow for; by the widest vectors there are.
 fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(b.column_iter()) {
-        for (column, share) in columns(a).zip(&shares) {
-            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
+    Arch::new().dispatch(|| {
+        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(columns(b)) {
+            for (column, share) in columns(a).zip(shares) {
+                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
+            }
         }
-    }
+    });
 }
 
 /// The model under one kind of sheet and one Gaussian of albedos.
@@ -264,6 +267,40 @@ impl<'a> PhotographModel<'a> {
         self.predicted(w, &self.terms(&albedo), &self.beyond(w), &self.sensitivities(w))
     }
 
+    /// Sets derivatives of the values by the numbers of the spectrum, `slopes` being those of the terms by albedo: through all lights at once,
+    /// whose terms are far fewer than wavebands.
+    fn by_spectrum(
+        &self,
+        out: &mut DMatrixViewMut<f64>,
+        albedo: &[f64],
+        slopes: &DMatrix<f64>,
+        lights: &[Light],
+        lens: &Lens,
+    ) {
+        let ((terms, bands), facets) = (slopes.shape(), lens.scale.nrows());
+        let of_channel = lights.len() * terms;
+        // Term of a light in a channel by waveband.
+        let mut by_logit = DMatrix::zeros(lens.scale.ncols() * of_channel, bands);
+        for (band, (mut by_logit, slopes)) in by_logit.column_iter_mut().zip(columns(slopes)).enumerate() {
+            let weights = (0..lens.scale.ncols())
+                .flat_map(|channel| lights.iter().map(move |light| light.weights[(band, channel)]));
+            let change = albedo[band] * (1.0 - albedo[band]);
+            for (out, weight) in by_logit.as_mut_slice().chunks_exact_mut(terms).zip(weights) {
+                out.iter_mut().zip(slopes).for_each(|(out, slope)| *out = weight * change * slope);
+            }
+        }
+        let by_number = by_logit * self.gaussian.basis();
+        let mut radiances = DMatrix::zeros(facets, of_channel);
+        for (light, first) in lights.iter().zip((0..).step_by(terms)) {
+            radiances.columns_mut(first, terms).copy_from(light.radiance.as_ref());
+        }
+        for (channel, scale) in lens.scale.column_iter().enumerate() {
+            let mut out = out.rows_mut(channel * facets, facets);
+            out.gemm(1.0, &radiances, &by_number.rows(channel * of_channel, of_channel), 0.0);
+            out.column_iter_mut().for_each(|mut column| column.component_mul_assign(&scale));
+        }
+    }
+
     /// Values in the order of residuals, channel by channel, as they are compared.
     fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
         let most = values.max();
@@ -327,24 +364,8 @@ impl Model for PhotographModel<'_> {
         let Predicted { values, lens, lights } = self.predicted(w, &terms, &beyond, &sensitivities);
         let ordered = Self::in_order(&values);
         let [scene, sheet, camera, end] = self.layout();
-        let (facets, bands) = (values.nrows(), albedo.len());
-        let mut by_logit = DMatrix::<f64>::zeros(values.len(), bands);
-        for Light { radiance, weights } in &lights {
-            let slopes = radiance.as_ref() * &terms.slopes;
-            let by_band = by_logit.as_mut_slice().chunks_exact_mut(values.len());
-            for (band, (column, slopes)) in by_band.zip(columns(&slopes)).enumerate() {
-                let change = albedo[band] * (1.0 - albedo[band]);
-                let of_channels = column.chunks_exact_mut(facets).zip(columns(&lens.scale));
-                for (channel, (entries, scale)) in of_channels.enumerate() {
-                    let weight = weights[(band, channel)] * change;
-                    for ((entry, scale), slope) in entries.iter_mut().zip(scale).zip(slopes) {
-                        *entry += weight * scale * slope;
-                    }
-                }
-            }
-        }
         let mut jacobian = DMatrix::zeros(values.len(), end);
-        jacobian.columns_mut(0, scene).gemm(1.0, &by_logit, self.gaussian.basis(), 0.0);
+        self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &lights, &lens);
         for (n, expected) in (scene..).zip(&self.unknowns) {
             if self.kind.has(expected.unknown) {
                 let mut beside = w.clone();
