@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use super::lanczos::Excited;
+use super::lanczos::{Excited, Lanczos};
 use super::{ModeSet, PanelOperator};
 use crate::error::{Error, Result};
 
@@ -71,9 +71,7 @@ impl Response {
             let facets = set.residues.nrows();
             return Ok((Self { modes: Modes::Shared(set), facets }, residual));
         }
-        let of_source = |source: usize| both_panels(operator, source, tolerance);
-        let (of_0, of_1) = rayon::join(|| of_source(0), || of_source(1));
-        let ((set0, residual0), (set1, residual1)) = (of_0?, of_1?);
+        let [(set0, residual0), (set1, residual1)] = both_panels(operator, tolerance)?;
         let facets = set0.residues.nrows() / 2;
         Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
     }
@@ -212,34 +210,71 @@ impl ModeLight {
     }
 }
 
-/// Modes of even light on panel `source`, seen on both panels.
-fn both_panels<O: PanelOperator>(operator: &O, source: usize, tolerance: f64) -> Result<(ModeSet, f64)> {
+/// Modes of even light on either panel, seen on both, and the residuals.
+///
+/// Light that starts on one panel is on the other after every odd number of bounces. So light of the two sources is always on different
+/// panels, and one product serves both.
+fn both_panels<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<[(ModeSet, f64); 2]> {
     let uniform = [0, 1].map(|panel| operator.uniform(panel));
     let middle = uniform[0].len();
-    let mut start = uniform.concat();
-    if source == 0 { &mut start[middle..] } else { &mut start[..middle] }.fill(0.0);
-    let apply = |x: &[f64], out: &mut [f64]| {
-        let ((x0, x1), (out0, out1)) = (x.split_at(middle), out.split_at_mut(middle));
-        for (panel, x, out) in [(0, x1, out0), (1, x0, out1)] {
-            // Light that starts on one panel is on the other after every odd number of bounces: one of the two is always dark.
-            match x.iter().all(|x| *x == 0.0) {
-                true => out.fill(0.0),
-                false => operator.apply(panel, x, out),
+    let on = |panel: usize, x: &[f64]| {
+        let mut light = vec![0.0; middle + uniform[1].len()];
+        halves(&mut light, middle)[panel].copy_from_slice(x);
+        light
+    };
+    let mut runs = [0, 1].map(|source| Lanczos::new(&on(source, &uniform[source]), tolerance));
+    let mut residuals = [None; 2];
+    for bounce in 0.. {
+        let is_running = residuals.map(|residual: Option<f64>| residual.is_none());
+        // Where light of a source is, and where it goes to.
+        let panels = [0, 1].map(|source| [(source + bounce) % 2, (source + bounce + 1) % 2]);
+        let light = runs.each_ref().map(|run| run.last().split_at(middle)).map(|(on_0, on_1)| [on_0, on_1]);
+        let mut product = uniform.each_ref().map(|of| vec![0.0; of.len()]);
+        let [on_0, on_1] = &mut product;
+        match is_running {
+            [false, false] => break,
+            [true, true] => {
+                let first = panels[0][0];
+                operator.apply_both([light[first][0], light[1 - first][1]], [on_0, on_1]);
+            }
+            [of_0, _] => {
+                let source = usize::from(!of_0);
+                let [from, to] = panels[source];
+                operator.apply(to, light[source][from], &mut product[to]);
             }
         }
-    };
+        let [run_0, run_1] = &mut runs;
+        let take = |source: usize, run: &mut Lanczos| match residuals[source] {
+            None => run.take(on(panels[source][1], &product[panels[source][1]])),
+            done => Ok(done),
+        };
+        let (of_0, of_1) = rayon::join(|| take(0, run_0), || take(1, run_1));
+        residuals = [of_0?, of_1?];
+    }
+    let facets = operator.facet_means(0, &uniform[if O::AFTER_A_BOUNCE { 1 } else { 0 }]).len();
     let means = |x: &[f64]| {
         let (x0, x1) = x.split_at(middle);
-        let [of_0, of_1] = if O::AFTER_A_BOUNCE { [x1, x0] } else { [x0, x1] };
-        [operator.facet_means(0, of_0), operator.facet_means(1, of_1)].concat()
+        let seen = if O::AFTER_A_BOUNCE { [x1, x0] } else { [x0, x1] };
+        let of = |panel: usize| match seen[panel].iter().all(|x| *x == 0.0) {
+            true => vec![0.0; facets],
+            false => operator.facet_means(panel, seen[panel]),
+        };
+        [of(0), of(1)].concat()
     };
-    let direct = || {
-        let facets = means(&start).len() / 2;
-        (0..2 * facets).map(|facet| if facet / facets == source { 1.0 } else { 0.0 }).collect()
+    let modes = |source: usize| {
+        let direct: Vec<f64> =
+            (0..2 * facets).map(|facet| if facet / facets == source { 1.0 } else { 0.0 }).collect();
+        let set = runs[source].modes(means, O::AFTER_A_BOUNCE.then_some(&direct));
+        (fold_pairs(&set), residuals[source].unwrap_or(f64::INFINITY))
     };
-    let direct = O::AFTER_A_BOUNCE.then(direct);
-    let (set, residual) = Excited { start, apply, means, direct }.lanczos(tolerance)?;
-    Ok((fold_pairs(&set), residual))
+    let (of_0, of_1) = rayon::join(|| modes(0), || modes(1));
+    Ok([of_0, of_1])
+}
+
+/// The parts of a vector that are of either panel.
+fn halves(x: &mut [f64], middle: usize) -> [&mut [f64]; 2] {
+    let (on_0, on_1) = x.split_at_mut(middle);
+    [on_0, on_1]
 }
 
 /// Poles of panels that see only each other come in pairs ±g, of which one is enough where they lie apart.

@@ -27,53 +27,93 @@ pub struct Excited<A, M> {
 impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
     /// Steps until the residual at r = 1 is within `tolerance`; the modes and the residual reached.
     pub fn lanczos(&self, tolerance: f64) -> Result<(ModeSet, f64)> {
-        let norm = dot(&self.start, &self.start).sqrt();
-        let mut basis: Vec<Vec<f64>> = vec![self.start.iter().map(|x| x / norm).collect()];
-        let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-        let mut orthogonality = Orthogonality::new();
+        let mut lanczos = Lanczos::new(&self.start, tolerance);
         loop {
-            let mut next = vec![0.0; self.start.len()];
-            let last = &basis[basis.len() - 1];
-            (self.apply)(last, &mut next);
-            let along = dot(last, &next);
-            subtract(&mut next, last, along);
-            diagonal.push(along);
-            if let (Some(length), [.., previous, _]) = (beside.last(), basis.as_slice()) {
-                subtract(&mut next, previous, *length);
+            let mut product = vec![0.0; self.start.len()];
+            (self.apply)(lanczos.last(), &mut product);
+            if let Some(residual) = lanczos.take(product)? {
+                return Ok((lanczos.modes(&self.means, self.direct.as_deref()), residual));
             }
-            if orthogonality.is_lost(&diagonal, &beside, dot(&next, &next).sqrt()) {
-                // What is left along the basis is so little that once leaves nothing behind.
-                project_out(&mut next, &basis);
-            }
-            let length = dot(&next, &next).sqrt();
-            let Some(residual) = residual_at_one(&diagonal, &beside, length) else {
-                return Err(Error::Numeric(
-                    "the surface hands on all light that it receives: open it, or refine the mesh".to_owned(),
-                ));
-            };
-            if residual <= tolerance || basis.len() == self.start.len() || basis.len() == STEPS_MAX {
-                return Ok((self.modes(norm, &basis, &diagonal, &beside), residual));
-            }
-            next.iter_mut().for_each(|x| *x /= length);
-            beside.push(length);
-            basis.push(next);
+        }
+    }
+}
+
+/// The method as far as it has come.
+pub struct Lanczos {
+    tolerance: f64,
+    /// Norm of the light.
+    norm: f64,
+    basis: Vec<Vec<f64>>,
+    /// The tridiagonal matrix.
+    diagonal: Vec<f64>,
+    beside: Vec<f64>,
+    orthogonality: Orthogonality,
+}
+
+impl Lanczos {
+    /// From the light, until the residual at r = 1 is within `tolerance`.
+    pub fn new(start: &[f64], tolerance: f64) -> Self {
+        let norm = dot(start, start).sqrt();
+        Self {
+            tolerance,
+            norm,
+            basis: vec![start.iter().map(|x| x / norm).collect()],
+            diagonal: Vec::new(),
+            beside: Vec::new(),
+            orthogonality: Orthogonality::new(),
         }
     }
 
-    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means.
-    fn modes(&self, norm: f64, basis: &[Vec<f64>], diagonal: &[f64], beside: &[f64]) -> ModeSet {
-        let means: Vec<_> = basis.iter().map(|x| DVector::from_vec((self.means)(x))).collect();
+    /// The vector whose product with the operator comes next.
+    pub fn last(&self) -> &[f64] {
+        &self.basis[self.basis.len() - 1]
+    }
+
+    /// Takes up that product; the residual if that was the last one.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the light does not leave the surface.
+    pub fn take(&mut self, product: Vec<f64>) -> Result<Option<f64>> {
+        let (mut next, last) = (product, self.last());
+        let along = dot(last, &next);
+        subtract(&mut next, last, along);
+        self.diagonal.push(along);
+        if let (Some(length), [.., previous, _]) = (self.beside.last(), self.basis.as_slice()) {
+            subtract(&mut next, previous, *length);
+        }
+        if self.orthogonality.is_lost(&self.diagonal, &self.beside, dot(&next, &next).sqrt()) {
+            // What is left along the basis is so little that once leaves nothing behind.
+            project_out(&mut next, &self.basis);
+        }
+        let length = dot(&next, &next).sqrt();
+        let Some(residual) = residual_at_one(&self.diagonal, &self.beside, length) else {
+            return Err(Error::Numeric(
+                "the surface hands on all light that it receives: open it, or refine the mesh".to_owned(),
+            ));
+        };
+        if residual <= self.tolerance || self.basis.len() == next.len() || self.basis.len() == STEPS_MAX {
+            return Ok(Some(residual));
+        }
+        next.iter_mut().for_each(|x| *x /= length);
+        self.beside.push(length);
+        self.basis.push(next);
+        Ok(None)
+    }
+
+    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means; `direct` as in [`Excited`].
+    pub fn modes(&self, means: impl Fn(&[f64]) -> Vec<f64>, direct: Option<&[f64]>) -> ModeSet {
+        let means: Vec<_> = self.basis.iter().map(|x| DVector::from_vec(means(x))).collect();
         // The light starts along the first vector of the basis.
         let mut rows = DMatrix::from_columns(&means).insert_row(0, 0.0);
-        rows[(0, 0)] = norm;
-        let Eigen { values: poles, vectors } = Eigen::seen(rows, diagonal, beside);
+        rows[(0, 0)] = self.norm;
+        let Eigen { values: poles, vectors } = Eigen::seen(rows, &self.diagonal, &self.beside);
         let in_start = vectors.row(0);
         let mut residues = vectors.rows_range(1..).into_owned();
         residues
             .column_iter_mut()
             .zip(in_start.iter())
             .for_each(|(mut of_mode, in_start)| of_mode *= *in_start);
-        match &self.direct {
+        match direct {
             None => ModeSet { poles, residues },
             Some(direct) => after_a_bounce(direct, poles, residues),
         }

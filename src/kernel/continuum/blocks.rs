@@ -46,6 +46,7 @@ impl<'a> Blocks<'a> {
     /// Those that are not below `negligible`; of panels that are `alike`, the upper triangle with half the diagonal.
     pub(super) fn exchange(&self, alike: bool, negligible: f64) -> Exchange {
         let [of, with] = self.spaces;
+        let first_column = if alike { 0 } else { of.len() };
         let strip = |j: usize| {
             let mut block = DMatrix::zeros(of.of_strip(), with.of_strip());
             let last = if alike { j } else { of.across.ends.len() - 1 };
@@ -55,11 +56,14 @@ impl<'a> Blocks<'a> {
                     block.fill_lower_triangle(0.0, 1);
                     block.set_diagonal(&(0.5 * block.diagonal()));
                 }
-                Compressed::new(&block, [i * of.of_strip(), j * with.of_strip()], negligible)
+                Compressed::new(&block, [i * of.of_strip(), first_column + j * with.of_strip()], negligible)
             };
             (0..=last).map(&mut compressed).collect()
         };
-        Exchange { alike, strips: (0..with.across.ends.len()).into_par_iter().map(strip).collect() }
+        Exchange {
+            unlike: (!alike).then(|| [of.len(), with.len()]),
+            strips: (0..with.across.ends.len()).into_par_iter().map(strip).collect(),
+        }
     }
 
     /// Sets what strip `i` of panel 0 gets from strip `j` of panel 1.

@@ -6,31 +6,57 @@ use super::compressed::{Compressed, PIECE, Product};
 
 /// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1.
 pub(super) struct Exchange {
-    /// Whether the panels are alike: the upper triangle with half the diagonal is then all there is, which with its transpose is the matrix.
-    pub(super) alike: bool,
-    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of threads.
+    /// Numbers of functions of the panels; none where they are alike: the upper triangle with half the diagonal is then all there is, which
+    /// with its transpose is the matrix.
+    pub(super) unlike: Option<[usize; 2]>,
+    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of threads. Where panels are
+    /// unlike, their columns are counted on from the last row.
     pub(super) strips: Vec<Vec<Compressed>>,
 }
 
 impl Exchange {
     /// `out = F·x`: what `panel` gets from function `x` of the other.
     pub(super) fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
-        let product = match (self.alike, panel) {
-            (true, _) => Product::Both,
-            (false, 0) => Product::Straight,
-            (false, _) => Product::Transposed,
-        };
-        let x = [x, &[0.0; PIECE]].concat();
+        match (self.unlike, panel) {
+            (None, _) => out.copy_from_slice(&self.product(Product::Both, &[x])[..out.len()]),
+            (Some([of_0, _]), 0) => {
+                out.copy_from_slice(&self.product(Product::Straight, &[&vec![0.0; of_0], x])[..of_0]);
+            }
+            (Some([of_0, of_1]), _) => {
+                let product = self.product(Product::Transposed, &[x, &vec![0.0; of_1]]);
+                out.copy_from_slice(&product[of_0..of_0 + of_1]);
+            }
+        }
+    }
+
+    /// What both panels get from functions of each other: `[F·x₁, Fᵀ·x₀]`, for which the matrix is read once.
+    pub(super) fn apply_both(&self, x: [&[f64]; 2], out: [&mut [f64]; 2]) {
+        let [out_0, out_1] = out;
+        if self.unlike.is_none() {
+            self.apply(0, x[1], out_0);
+            self.apply(1, x[0], out_1);
+            return;
+        }
+        let product = self.product(Product::Both, &x);
+        let (of_0, rest) = product.split_at(out_0.len());
+        out_0.copy_from_slice(of_0);
+        out_1.copy_from_slice(&rest[..out_1.len()]);
+    }
+
+    /// The product of all blocks with the parts of a vector, and some numbers beyond.
+    fn product(&self, product: Product, x: &[&[f64]]) -> Vec<f64> {
+        let x = [&x.concat()[..], &[0.0; PIECE]].concat();
         let add = |strip: &Vec<Compressed>| {
-            let mut sums = vec![0.0; out.len() + PIECE];
+            let mut sums = vec![0.0; x.len()];
             strip.iter().for_each(|block| block.add_product(product, &x, &mut sums));
             sums
         };
         let all: Vec<_> = self.strips.par_iter().map(add).collect();
-        out.fill(0.0);
+        let mut total = vec![0.0; x.len()];
         for sums in all {
-            out.iter_mut().zip(sums).for_each(|(out, sum)| *out += sum);
+            total.iter_mut().zip(sums).for_each(|(total, sum)| *total += sum);
         }
+        total
     }
 }
 
@@ -40,12 +66,12 @@ mod tests {
 
     use super::*;
 
-    /// Two strips of two blocks each, their entries from 1e-6 on.
-    fn strips(matrix: &DMatrix<f64>) -> Vec<Vec<Compressed>> {
+    /// Two strips of two blocks each, their entries from 1e-6 on; columns are counted on from the `first`.
+    fn strips(matrix: &DMatrix<f64>, first: usize) -> Vec<Vec<Compressed>> {
         let half = matrix.ncols() / 2;
         let block = |i: usize, j: usize| {
-            let place = [i * half, j * half];
-            Compressed::new(&matrix.view(place.into(), (half, half)).into_owned(), place, 1e-6)
+            let view = matrix.view((i * half, j * half), (half, half)).into_owned();
+            Compressed::new(&view, [i * half, first + j * half], 1e-6)
         };
         (0..2).map(|j| (0..2).map(|i| block(i, j)).collect()).collect()
     }
@@ -63,12 +89,18 @@ mod tests {
             exchange.apply(panel, x.as_slice(), out.as_mut_slice());
             out
         };
-        let differing = Exchange { alike: false, strips: strips(&matrix) };
-        assert!((product(&differing, 0) - &matrix * &x).amax() < 1e-5);
-        assert!((product(&differing, 1) - matrix.transpose() * &x).amax() < 1e-5);
+        let differing = Exchange { unlike: Some([size; 2]), strips: strips(&matrix, size) };
+        let (of_0, of_1) = (product(&differing, 0), product(&differing, 1));
+        assert!((&of_0 - &matrix * &x).amax() < 1e-5);
+        assert!((&of_1 - matrix.transpose() * &x).amax() < 1e-5);
+        let mut both = [DVector::zeros(size), DVector::zeros(size)];
+        let [out_0, out_1] = &mut both;
+        differing.apply_both([x.as_slice(); 2], [out_0.as_mut_slice(), out_1.as_mut_slice()]);
+        assert!((&both[0] - of_0).amax() < 1e-12 && (&both[1] - of_1).amax() < 1e-12);
         let mut half = matrix.upper_triangle();
         half.set_diagonal(&(0.5 * half.diagonal()));
         let whole = &half + half.transpose();
-        assert!((product(&Exchange { alike: true, strips: strips(&half) }, 0) - whole * &x).amax() < 1e-5);
+        let alike = Exchange { unlike: None, strips: strips(&half, 0) };
+        assert!((product(&alike, 0) - whole * &x).amax() < 1e-5);
     }
 }

@@ -83,7 +83,7 @@ impl PanelOperator for Continuum {
     const AFTER_A_BOUNCE: bool = true;
 
     fn is_symmetric(&self) -> bool {
-        self.exchange.alike
+        self.exchange.unlike.is_none()
     }
 
     fn uniform(&self, panel: usize) -> Vec<f64> {
@@ -92,6 +92,10 @@ impl PanelOperator for Continuum {
 
     fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
         self.exchange.apply(panel, x, out);
+    }
+
+    fn apply_both(&self, x: [&[f64]; 2], out: [&mut [f64]; 2]) {
+        self.exchange.apply_both(x, out);
     }
 
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
