@@ -49,7 +49,7 @@ fn patches_converge_to_the_undivided_panels() {
 
 /// Folds from narrow to wide open, long and short, of unequal panels, with facets that narrow towards the crease.
 fn folds() -> Vec<Fold> {
-    let plain = [12.0, 15.0, 30.0, 36.0, 45.0, 90.0, 150.0].map(|angle_deg| (angle_deg, 1.0, 1.0));
+    let plain = [5.0, 12.0, 15.0, 30.0, 36.0, 45.0, 90.0, 150.0].map(|angle_deg| (angle_deg, 1.0, 1.0));
     let oblong = [(45.0, 3.0, 1.0), (60.0, 1.0, 4.0)];
     let unequal = fold(50.0, 1.0, 1.0).with_panel1_depth(0.4).unwrap();
     let graded = fold(45.0, 1.0, 1.0).with_spacing(Spacing::Graded);
