@@ -395,6 +395,41 @@ mod tests {
         assert!(steps < 400, "{steps} steps");
     }
 
+    /// A model that is least, and still far from the data, at its kink where the first unknown is 1.
+    struct Kink;
+
+    impl Model for Kink {
+        type Second = ();
+
+        fn unknowns(&self) -> usize {
+            2
+        }
+
+        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+            DVector::from_vec(vec![-5.0 - 10.0 * (w[0] - 1.0).abs(), 3.0 * (w[1] - w[0])])
+        }
+
+        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+            let slope = 10.0 * (w[0] - 1.0).signum();
+            let jacobian = DMatrix::from_row_slice(2, 2, &[slope, 0.0, 3.0, -3.0]);
+            Linearised { residuals: self.residuals(w), jacobian, second: () }
+        }
+
+        fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
+            None
+        }
+    }
+
+    #[test]
+    fn a_search_ends_at_a_kink() {
+        let found = maximise(&Kink, DVector::from_vec(vec![1.3, 0.0]), (1.0, 1.0), 0.03, 1000);
+        assert!(matches!(found.termination, Termination::NoProgress { .. }), "{:?}", found.termination);
+        assert!((found.w[0] - 1.0).abs() < 1e-5, "{}", found.w);
+        let steps = found.trace.len();
+        // If steps that promise nothing were tried, 33.
+        assert!(steps < 20, "{steps} steps");
+    }
+
     #[test]
     fn the_gradient_vanishes_where_it_says_so() {
         for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {

@@ -101,6 +101,8 @@ mod tests {
         half.set_diagonal(&(0.5 * half.diagonal()));
         let whole = &half + half.transpose();
         let alike = Exchange { unlike: None, strips: strips(&half, 0) };
-        assert!((product(&alike, 0) - whole * &x).amax() < 1e-5);
+        let [out_0, out_1] = &mut both;
+        alike.apply_both([x.as_slice(); 2], [out_0.as_mut_slice(), out_1.as_mut_slice()]);
+        assert!((&both[0] - &whole * &x).amax() < 1e-5 && (&both[1] - whole * &x).amax() < 1e-5);
     }
 }
