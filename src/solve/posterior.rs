@@ -44,6 +44,8 @@ const LEAST_PROMISE: f64 = 0.01;
 /// searches end in another maximum.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
+/// Columns of a symmetric product that are computed at once.
+const COLUMNS: usize = 16;
 
 /// A model seen through data of known noise.
 pub trait Model {
@@ -187,10 +189,15 @@ fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
     weight * residuals.norm_squared() + w.norm_squared()
 }
 
-/// `I + weight·JᵀJ`.
+/// The lower triangle of `I + weight·JᵀJ`: no more of it is made use of.
 fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
-    let mut hessian = weight * (jacobian.transpose() * jacobian);
-    add_to_diagonal(&mut hessian, 1.0);
+    let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
+    let mut hessian = DMatrix::identity(count, count);
+    for first in (0..count).step_by(COLUMNS) {
+        let (rows, columns) = (count - first, COLUMNS.min(count - first));
+        let mut below = hessian.view_mut((first, first), (rows, columns));
+        below.gemm(weight, &transposed.rows(first, rows), &jacobian.columns(first, columns), 1.0);
+    }
     hessian
 }
 

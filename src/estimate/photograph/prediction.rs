@@ -1,0 +1,140 @@
+//! Facets as they are predicted from a spectrum and conditions.
+
+use std::borrow::Cow;
+use std::slice::ChunksExact;
+
+use nalgebra::{DMatrix, DVector};
+use pulp::Arch;
+
+use super::conditions::Conditions;
+use super::lens::Lens;
+use super::lighting::Lighting;
+use super::parts::{Ambient, Parts, Radiance};
+use crate::estimate::unknowns::Whose;
+
+/// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    /// Node by waveband.
+    pub values: DMatrix<f64>,
+    /// Their derivatives by albedo, node by waveband.
+    pub slopes: DMatrix<f64>,
+}
+
+/// Light on the facets, and what it counts in the channels.
+pub struct Light<'a> {
+    /// Facet by node.
+    pub radiance: Cow<'a, Radiance>,
+    /// By waveband.
+    pub power: DVector<f64>,
+    /// Waveband by channel.
+    pub weights: DMatrix<f64>,
+    /// What the radiance at the nodes counts in the channels: node by channel.
+    pub to_channels: DMatrix<f64>,
+}
+
+/// Facets as they are predicted, with what they are made of.
+pub struct Predicted<'a> {
+    /// Facet by channel.
+    pub values: DMatrix<f64>,
+    /// What the lens makes them of: facet by channel.
+    radiances: DMatrix<f64>,
+    /// Made of light on the facets what the values are.
+    pub lens: Lens,
+    lighting: Lighting,
+    /// The sun's first.
+    pub lights: Vec<Light<'a>>,
+}
+
+/// Predicts the facets of a photograph, the spectrum of which gives these terms, through curves of these sensitivities: waveband by
+/// channel.
+pub struct Predictor<'a, 'b> {
+    /// What the photograph is made of.
+    pub parts: &'a Parts,
+    /// Of the spectrum.
+    pub terms: &'b Terms,
+    /// Of the camera.
+    pub sensitivities: &'b DMatrix<f64>,
+}
+
+impl<'a> Predictor<'a, '_> {
+    /// The facets of a sheet that sends `beyond` more than a Lambertian one.
+    pub fn facets(&self, conditions: &Conditions, beyond: &Radiance) -> Predicted<'a> {
+        self.in_light(conditions, sunlit(self.parts, conditions, beyond))
+    }
+
+    /// Values of the facets beside those `here`, under other conditions of what `whose` says alone: what depends on others is not computed
+    /// anew.
+    pub fn beside(
+        &self,
+        here: &Predicted<'a>,
+        conditions: &Conditions,
+        beyond: &Radiance,
+        whose: Whose,
+    ) -> DMatrix<f64> {
+        let sun = &here.lights[0];
+        match whose {
+            Whose::Sheet | Whose::Fold => {
+                let mut radiances = here.radiances.clone();
+                let more = sunlit(self.parts, conditions, beyond) - sun.radiance.as_ref();
+                add_product(&mut radiances, &more, &sun.to_channels);
+                here.lens.seen(radiances)
+            }
+            Whose::Light => self.in_light(conditions, sun.radiance.clone().into_owned()).values,
+            Whose::Lens => Lens::new(self.parts, conditions, &here.lighting).seen(here.radiances.clone()),
+        }
+    }
+
+    fn in_light(&self, conditions: &Conditions, sunlit: Radiance) -> Predicted<'a> {
+        let Self { parts, terms, sensitivities } = self;
+        let lighting = Lighting::new(parts, conditions);
+        let light = |radiance, power: DVector<f64>| {
+            let mut weights = (*sensitivities).clone();
+            weights.column_iter_mut().for_each(|mut channel| channel.component_mul_assign(&power));
+            let mut to_channels = DMatrix::zeros(terms.values.nrows(), weights.ncols());
+            add_product(&mut to_channels, &terms.values, &weights);
+            Light { radiance, power, weights, to_channels }
+        };
+        let mut lights = vec![light(Cow::Owned(sunlit), lighting.sun.clone())];
+        if parts.told.daylight.is_some() {
+            let ambient = [&parts.sky, &parts.ground].into_iter().zip(&lighting.ambient);
+            lights.extend(ambient.map(|(Ambient { radiance, .. }, (amount, power))| {
+                light(Cow::Borrowed(radiance), *amount * power)
+            }));
+        }
+        let lens = Lens::new(parts, conditions, &lighting);
+        let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
+        for light in &lights {
+            add_product(&mut radiances, &light.radiance, &light.to_channels);
+        }
+        Predicted { values: lens.seen(radiances.clone()), radiances, lens, lighting, lights }
+    }
+}
+
+/// Sunlight on the facets, of which a sheet that is not Lambertian sends `beyond` more.
+fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance {
+    let (sun, told) = (&parts.sun, &parts.told);
+    let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
+    let mut radiance = cos * &sun.even + sin * &sun.odd;
+    sun.angle_deg.add_to(&mut radiance, conditions.angle_deg - told.angle_deg);
+    sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
+    sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
+    sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
+    radiance + beyond
+}
+
+/// Columns as slices, over which the compiler makes faster loops than over matrices.
+pub fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
+    matrix.as_slice().chunks_exact(matrix.nrows())
+}
+
+/// Adds the product of two matrices, the second of few columns, which a general product is slow for; by the widest vectors there are.
+pub fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
+    Arch::new().dispatch(|| {
+        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(columns(b)) {
+            for (column, share) in columns(a).zip(shares) {
+                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
+            }
+        }
+    });
+}
