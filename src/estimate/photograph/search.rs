@@ -41,6 +41,8 @@ const SHARE_POWER: f64 = 0.25;
 const SUPPORTED: f64 = 0.8;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
 const NEGLIGIBLE: f64 = 1e-3;
+/// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
+const NEARLY: f64 = 0.1;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
 
@@ -108,8 +110,8 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
     let mut maxima = Vec::new();
     for Likely { kind, class, scale, ln_share, about, .. } in likely {
         let gaussian = class.gaussian.scaled(scale);
-        let start = about.maximum(&gaussian).ok_or_else(not_finite)?;
         let model = JointModel::new(&photographs, kind, &gaussian);
+        let start = about.start(&model, &gaussian).ok_or_else(not_finite)?;
         let found = search(&model, start, TOLERANCE, LIMIT);
         maxima.extend(Maximum::of(&model, &found, ln_share));
     }
@@ -251,6 +253,23 @@ impl About {
         let factor = Cholesky::new(covariance)?;
         let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
         Some(-0.5 * (cost + factor.ln_determinant()))
+    }
+
+    /// Where to set out for the maximum under a Gaussian of spectra: where the linear model has it or, if that is further off, here.
+    fn start(&self, model: &JointModel, own: &Gaussian) -> Option<DVector<f64>> {
+        let cost = |w: &DVector<f64>| model.residuals(w).norm_squared() + w.norm_squared();
+        let (maximum, here) = (self.maximum(own)?, self.in_coordinates_of(own)?);
+        Some(if cost(&here) < cost(&maximum) { here } else { maximum })
+    }
+
+    /// The maximum under all spectra in the coordinates of another Gaussian, as nearly as that has it.
+    fn in_coordinates_of(&self, own: &Gaussian) -> Option<DVector<f64>> {
+        let basis = own.basis();
+        let mut information = basis.tr_mul(basis);
+        (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
+        let spectrum = Cholesky::new(information)?.solve(&basis.tr_mul(&(&self.logit - own.mean())));
+        let count = spectrum.len() + self.others.len();
+        Some(DVector::from_iterator(count, spectrum.iter().chain(&self.others).copied()))
     }
 
     /// Where the maximum under a Gaussian of spectra is.
