@@ -19,6 +19,7 @@ mod laws;
 mod least_misfit;
 mod lights;
 mod mesh;
+mod photograph;
 mod published;
 mod reference_form_factors;
 mod sensor;

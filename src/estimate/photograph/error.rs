@@ -3,7 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
 use super::corners::shifts;
-use super::parts::Place;
+use super::parts::{Place, add};
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,9 +92,8 @@ impl Whitening {
     #[must_use]
     pub fn of(&self, errors: &DVector<f64>) -> DVector<f64> {
         let mut white = DVector::zeros(errors.len());
-        for (rows, end) in self.rows() {
-            let mut white = white.rows_mut(end - rows.nrows(), rows.nrows());
-            white.gemv(1.0, &rows, &errors.rows(0, end), 0.0);
+        for (n, (column, error)) in self.inverse.column_iter().zip(errors.as_slice()).enumerate() {
+            add(&mut white.as_mut_slice()[n..], *error, &column.as_slice()[n..]);
         }
         white
     }

@@ -124,6 +124,9 @@ impl Model for JointModel<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        if let [only] = self.members.as_slice() {
+            return only.model.linearise(w);
+        }
         let each: Vec<_> = self.members.iter().map(|member| member.model.linearise(&member.own(w))).collect();
         let values = each.iter().map(|one| one.residuals.len()).sum();
         let residuals = each.iter().flat_map(|one| one.residuals.iter().copied());

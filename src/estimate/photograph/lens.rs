@@ -9,7 +9,7 @@ use super::parts::Parts;
 /// Exposure, gains, vignetting and glare.
 pub struct Lens {
     /// Brightness of each facet and channel for a radiance of 1: facet by channel.
-    pub scale: DMatrix<f64>,
+    scale: DMatrix<f64>,
     /// Share of a channel's mean that is spread over all facets.
     glare: f64,
 }
@@ -33,16 +33,21 @@ impl Lens {
     #[must_use]
     pub fn seen(&self, mut radiances: DMatrix<f64>) -> DMatrix<f64> {
         let facets = radiances.nrows();
-        let columns = radiances.as_mut_slice().chunks_exact_mut(facets);
-        for (values, scale) in columns.zip(self.scale.as_slice().chunks_exact(facets)) {
-            let mut sum = 0.0;
-            for (value, scale) in values.iter_mut().zip(scale) {
-                *value *= scale;
-                sum += *value;
-            }
-            let spread = self.glare * sum / facets as f64;
-            values.iter_mut().for_each(|value| *value += spread);
+        for (channel, radiances) in radiances.as_mut_slice().chunks_exact_mut(facets).enumerate() {
+            self.see(channel, radiances);
         }
         radiances
+    }
+
+    /// Makes values of the radiances of all facets in one channel.
+    pub fn see(&self, channel: usize, radiances: &mut [f64]) {
+        let facets = radiances.len();
+        let mut sum = 0.0;
+        for (value, scale) in radiances.iter_mut().zip(&self.scale.as_slice()[channel * facets..]) {
+            *value *= scale;
+            sum += *value;
+        }
+        let spread = self.glare * sum / facets as f64;
+        radiances.iter_mut().for_each(|value| *value += spread);
     }
 }

@@ -17,6 +17,7 @@ mod lens;
 mod lighting;
 pub mod model;
 pub mod parts;
+mod prediction;
 pub mod search;
 pub mod sheets;
 

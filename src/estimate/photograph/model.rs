@@ -2,18 +2,16 @@
 //! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
 
 use std::borrow::Cow;
-use std::slice::ChunksExact;
 
 use nalgebra::{DMatrix, DMatrixViewMut, DVector};
-use pulp::Arch;
 
 use super::chebyshev::{chebyshev, nodes};
 use super::conditions::Conditions;
 use super::error::Whitening;
 use super::kinds::{Kind, Kinds};
-use super::lens::Lens;
 use super::lighting::Lighting;
-use super::parts::{Ambient, Parts, Radiance};
+use super::parts::{Parts, Radiance, add};
+use super::prediction::{Predicted, Predictor, Terms, add_product, columns};
 use super::sheets::Departure;
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::unknowns::{Expected, TABLE, Unknown};
@@ -26,55 +24,6 @@ const INSTRUMENT_NM: f64 = 60.0;
 /// Of a value that is compared with a measured one, the least share of the brightest.
 const DARKEST: f64 = 1e-6;
 
-/// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
-#[derive(Clone, Debug)]
-struct Terms {
-    /// Node by waveband.
-    values: DMatrix<f64>,
-    /// Their derivatives by albedo, node by waveband.
-    slopes: DMatrix<f64>,
-}
-
-/// Light on the facets, and what it counts in the channels: waveband by channel.
-struct Light<'a> {
-    radiance: Cow<'a, Radiance>,
-    weights: DMatrix<f64>,
-}
-
-/// Facets as they are predicted, with what they are made of.
-struct Predicted<'a> {
-    /// Facet by channel.
-    values: DMatrix<f64>,
-    lens: Lens,
-    /// The sun's first.
-    lights: Vec<Light<'a>>,
-}
-
-impl Light<'_> {
-    /// Radiance of a light of these weights in the channels, from that at the nodes: node by channel.
-    fn to_channels(&self, terms: &Terms) -> DMatrix<f64> {
-        let mut to_channels = DMatrix::zeros(terms.values.nrows(), self.weights.ncols());
-        add_product(&mut to_channels, &terms.values, &self.weights);
-        to_channels
-    }
-}
-
-/// Columns as slices, over which the compiler makes faster loops than over matrices.
-fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
-    matrix.as_slice().chunks_exact(matrix.nrows())
-}
-
-/// Adds the product of two matrices, the second of few columns, which a general product is slow for; by the widest vectors there are.
-fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    Arch::new().dispatch(|| {
-        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(columns(b)) {
-            for (column, share) in columns(a).zip(shares) {
-                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
-            }
-        }
-    });
-}
-
 /// The model under one kind of sheet and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
@@ -82,6 +31,8 @@ pub struct PhotographModel<'a> {
     kind: Kind,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
+    /// The values that were measured, [in order](Self::in_order).
+    measured: DVector<f64>,
     unknowns: Vec<Expected>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
@@ -121,7 +72,16 @@ impl<'a> PhotographModel<'a> {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
         let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
-        Self { parts, kinds, kind, gaussian, whitening, unknowns: unknowns_of(parts), coefficients }
+        Self {
+            parts,
+            kinds,
+            kind,
+            gaussian,
+            whitening,
+            measured: Self::in_order(&parts.values),
+            unknowns: unknowns_of(parts),
+            coefficients,
+        }
     }
 
     /// The unknowns of the scene.
@@ -195,18 +155,6 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Sunlight on the facets, of which a sheet that is not Lambertian sends `beyond` more.
-    fn sunlit(&self, conditions: &Conditions, beyond: &Radiance) -> Radiance {
-        let sun = &self.parts.sun;
-        let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
-        let mut radiance = cos * &sun.even + sin * &sun.odd;
-        sun.angle_deg.add_to(&mut radiance, conditions.angle_deg - self.parts.told.angle_deg);
-        sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
-        sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
-        sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
-        radiance + beyond
-    }
-
     /// What the facets have more than those of a Lambertian sheet.
     fn beyond(&self, w: &DVector<f64>) -> Radiance {
         let [_, sheet, camera, _] = self.layout();
@@ -226,45 +174,12 @@ impl<'a> PhotographModel<'a> {
         sensitivities
     }
 
-    /// The facets of a sheet that sends `beyond` more than a Lambertian one, through curves of these sensitivities.
-    fn predicted(
-        &self,
-        w: &DVector<f64>,
-        terms: &Terms,
-        beyond: &Radiance,
-        sensitivities: &DMatrix<f64>,
-    ) -> Predicted<'a> {
-        let (parts, conditions) = (self.parts, self.conditions(w));
-        let lighting = Lighting::new(parts, &conditions);
-        let light = |radiance, amount: f64, power: &DVector<f64>| {
-            let mut weights = sensitivities.clone();
-            for channel in weights.as_mut_slice().chunks_exact_mut(power.len()) {
-                channel
-                    .iter_mut()
-                    .zip(power.as_slice())
-                    .for_each(|(weight, power)| *weight *= amount * power);
-            }
-            Light { radiance, weights }
-        };
-        let mut lights = vec![light(Cow::Owned(self.sunlit(&conditions, beyond)), 1.0, &lighting.sun)];
-        if parts.told.daylight.is_some() {
-            let ambient = [&parts.sky, &parts.ground].into_iter().zip(&lighting.ambient);
-            lights.extend(ambient.map(|(Ambient { radiance, .. }, (amount, power))| {
-                light(Cow::Borrowed(radiance), *amount, power)
-            }));
-        }
-        let lens = Lens::new(parts, &conditions, &lighting);
-        let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
-        for light in &lights {
-            add_product(&mut radiances, &light.radiance, &light.to_channels(terms));
-        }
-        Predicted { values: lens.seen(radiances), lens, lights }
-    }
-
-    /// [`Self::predicted`] from `w` alone.
-    fn predicted_at(&self, w: &DVector<f64>) -> Predicted<'a> {
+    /// The facets at `w`.
+    fn predicted(&self, w: &DVector<f64>) -> Predicted<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        self.predicted(w, &self.terms(&albedo), &self.beyond(w), &self.sensitivities(w))
+        let (terms, sensitivities) = (self.terms(&albedo), self.sensitivities(w));
+        let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
+        predictor.facets(&self.conditions(w), &self.beyond(w))
     }
 
     /// Sets derivatives of the values by the numbers of the spectrum, `slopes` being those of the terms by albedo: through all lights at once,
@@ -274,15 +189,14 @@ impl<'a> PhotographModel<'a> {
         out: &mut DMatrixViewMut<f64>,
         albedo: &[f64],
         slopes: &DMatrix<f64>,
-        lights: &[Light],
-        lens: &Lens,
+        Predicted { values, lights, lens, .. }: &Predicted,
     ) {
-        let ((terms, bands), facets) = (slopes.shape(), lens.scale.nrows());
+        let ((terms, bands), (facets, channels)) = (slopes.shape(), values.shape());
         let of_channel = lights.len() * terms;
         // Term of a light in a channel by waveband.
-        let mut by_logit = DMatrix::zeros(lens.scale.ncols() * of_channel, bands);
+        let mut by_logit = DMatrix::zeros(channels * of_channel, bands);
         for (band, (mut by_logit, slopes)) in by_logit.column_iter_mut().zip(columns(slopes)).enumerate() {
-            let weights = (0..lens.scale.ncols())
+            let weights = (0..channels)
                 .flat_map(|channel| lights.iter().map(move |light| light.weights[(band, channel)]));
             let change = albedo[band] * (1.0 - albedo[band]);
             for (out, weight) in by_logit.as_mut_slice().chunks_exact_mut(terms).zip(weights) {
@@ -294,17 +208,37 @@ impl<'a> PhotographModel<'a> {
         for (light, first) in lights.iter().zip((0..).step_by(terms)) {
             radiances.columns_mut(first, terms).copy_from(light.radiance.as_ref());
         }
-        for (channel, scale) in lens.scale.column_iter().enumerate() {
+        for channel in 0..channels {
             let mut out = out.rows_mut(channel * facets, facets);
             out.gemm(1.0, &radiances, &by_number.rows(channel * of_channel, of_channel), 0.0);
-            out.column_iter_mut().for_each(|mut column| column.component_mul_assign(&scale));
+            out.column_iter_mut().for_each(|mut column| lens.see(channel, column.as_mut_slice()));
+        }
+    }
+
+    /// Sets derivatives of the values by the errors of the camera's curves, each of which changes one channel.
+    fn by_curves(
+        &self,
+        out: &mut DMatrixViewMut<f64>,
+        terms: &DMatrix<f64>,
+        Predicted { values, lights, lens, .. }: &Predicted,
+    ) {
+        let facets = values.nrows();
+        for (mut out, (channel, error)) in out.column_iter_mut().zip(&self.parts.eye.errors) {
+            let seen = &mut out.as_mut_slice()[channel * facets..][..facets];
+            for light in lights {
+                let of_nodes = terms * error.component_mul(&light.power);
+                for (share, radiance) in of_nodes.iter().zip(columns(&light.radiance)) {
+                    add(seen, *share, radiance);
+                }
+            }
+            lens.see(*channel, seen);
         }
     }
 
     /// Values in the order of residuals, channel by channel, as they are compared.
     fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
-        let most = values.max();
-        DVector::from_iterator(values.len(), values.iter().map(|value| value.max(DARKEST * most)))
+        let least = DARKEST * values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        DVector::from_iterator(values.len(), values.as_slice().iter().map(|value| value.max(least)))
     }
 
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
@@ -340,7 +274,7 @@ impl<'a> PhotographModel<'a> {
     /// Residuals before they are whitened: facet by channel.
     #[must_use]
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
-        &self.parts.values - self.predicted_at(w).values
+        &self.parts.values - self.predicted(w).values
     }
 }
 
@@ -352,8 +286,7 @@ impl Model for PhotographModel<'_> {
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        self.whitening
-            .of(&(Self::in_order(&self.parts.values) - Self::in_order(&self.predicted_at(w).values)))
+        self.whitening.of(&(&self.measured - Self::in_order(&self.predicted(w).values)))
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
@@ -361,44 +294,34 @@ impl Model for PhotographModel<'_> {
         let terms = self.terms(&albedo);
         let beyond = self.beyond(w);
         let sensitivities = self.sensitivities(w);
-        let Predicted { values, lens, lights } = self.predicted(w, &terms, &beyond, &sensitivities);
-        let ordered = Self::in_order(&values);
+        let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
+        let here = predictor.facets(&self.conditions(w), &beyond);
+        let Predicted { values, lens, lights, .. } = &here;
+        let ordered = Self::in_order(values);
         let [scene, sheet, camera, end] = self.layout();
         let mut jacobian = DMatrix::zeros(values.len(), end);
-        self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &lights, &lens);
-        for (n, expected) in (scene..).zip(&self.unknowns) {
-            if self.kind.has(expected.unknown) {
-                let mut beside = w.clone();
-                beside[n] += STEP;
-                let moved = if expected.unknown.is_of_sheet() {
-                    self.predicted(&beside, &terms, &self.beyond(&beside), &sensitivities)
-                } else {
-                    self.predicted(&beside, &terms, &beyond, &sensitivities)
-                };
-                let moved = Self::in_order(&moved.values);
-                jacobian.column_mut(n).copy_from(&((moved - &ordered) / STEP));
-            }
+        self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &here);
+        for (n, Expected { unknown, .. }) in (scene..).zip(&self.unknowns) {
+            let Some(effect) = unknown.photograph.as_ref().filter(|_| self.kind.has(unknown)) else {
+                continue;
+            };
+            let mut beside = w.clone();
+            beside[n] += STEP;
+            let beyond =
+                if unknown.is_of_sheet() { Cow::Owned(self.beyond(&beside)) } else { Cow::Borrowed(&beyond) };
+            let moved = predictor.beside(&here, &self.conditions(&beside), &beyond, effect.whose);
+            jacobian.column_mut(n).copy_from(&((Self::in_order(&moved) - &ordered) / STEP));
         }
         // variations of the sheet and errors of the curves enter in proportion
-        let to_channels = lights[0].to_channels(&terms);
+        let sun = &lights[0];
         for (n, change) in (sheet..).zip(self.kinds.by_variation(self.kind)) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
-            add_product(&mut radiances, &change, &to_channels);
+            add_product(&mut radiances, &change, &sun.to_channels);
             jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
-        let given = lights[0].radiance.as_ref() * terms.values;
-        let power = Lighting::new(self.parts, &self.conditions(w)).sun;
-        let errors: Vec<_> =
-            self.parts.eye.errors.iter().map(|(_, error)| error.component_mul(&power)).collect();
-        if !errors.is_empty() {
-            let seen = given * DMatrix::from_columns(&errors);
-            for (n, (channel, _)) in self.parts.eye.errors.iter().enumerate() {
-                let seen = seen.column(n).component_mul(&lens.scale.column(*channel));
-                jacobian.view_mut((channel * seen.len(), camera + n), (seen.len(), 1)).copy_from(&seen);
-            }
-        }
+        self.by_curves(&mut jacobian.columns_mut(camera, end - camera), &terms.values, &here);
         Linearised {
-            residuals: self.whitening.of(&(Self::in_order(&self.parts.values) - ordered)),
+            residuals: self.whitening.of(&(&self.measured - ordered)),
             jacobian: self.whitening.of_all(&jacobian),
             second: (),
         }

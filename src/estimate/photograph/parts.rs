@@ -1,6 +1,7 @@
 //! What the facets of a photograph are made of: light of each kind, as functions of the sheet's albedo.
 
 use nalgebra::{DMatrix, DVector};
+use pulp::Arch;
 
 use super::conditions::Told;
 use super::sheets::Sheets;
@@ -21,6 +22,11 @@ pub struct Place {
     pub off_centre: f64,
 }
 
+/// Adds a share of other values, by the widest vectors that the processor has.
+pub fn add(sum: &mut [f64], share: f64, values: &[f64]) {
+    Arch::new().dispatch(|| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value));
+}
+
 /// A change of the fold, known at two sizes beside none: between them it is a quadratic polynomial of its size.
 #[derive(Clone, Debug)]
 pub struct Change {
@@ -36,9 +42,7 @@ impl Change {
         let [a, b] = self.sizes;
         let shares = [size * (size - b) / (a * (a - b)), size * (size - a) / (b * (b - a))];
         for (share, radiance) in shares.into_iter().zip(&self.radiance) {
-            for (sum, radiance) in sum.as_mut_slice().iter_mut().zip(radiance.as_slice()) {
-                *sum += share * radiance;
-            }
+            add(sum.as_mut_slice(), share, radiance.as_slice());
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same albedo.
 
-use super::parts::Radiance;
+use super::parts::{Radiance, add};
 
 /// How a sheet departs from a Lambertian one.
 #[derive(Clone, Debug)]
@@ -29,9 +29,7 @@ impl Departure {
     /// Adds a share of another, the reflectance of which counts from `reference`.
     pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
-            for (sum, one) in self.radiance.as_mut_slice().iter_mut().zip(other.radiance.as_slice()) {
-                *sum += share * one;
-            }
+            add(self.radiance.as_mut_slice(), share, other.radiance.as_slice());
             let departed = other.reflectance.iter().zip(&reference);
             for (sum, (other, reference)) in self.reflectance.iter_mut().zip(departed) {
                 *sum += share * (other - reference);

@@ -16,7 +16,7 @@ pub static ANGLE: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Fold,
         prior: of_photograph,
         set: |conditions, value| conditions.angle_deg = value,
         symptom: Some(Symptom {

@@ -13,7 +13,7 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Fold,
         prior,
         set: |conditions, value| conditions.bow_difference_deg = value,
         symptom: Some(BOWED),

@@ -12,7 +12,7 @@ pub static CREASE: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.01 },
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Fold,
         prior,
         set: |conditions, value| conditions.crease_radius = value,
         symptom: Some(Symptom {

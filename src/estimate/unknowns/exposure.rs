@@ -12,7 +12,7 @@ pub static EXPOSURE: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Exposure,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Lens,
         prior: of_photograph,
         set: |conditions, value| conditions.exposure = value,
         symptom: None,

@@ -12,7 +12,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Lens,
         prior,
         set: |conditions, value| conditions.gains[0] = value,
         symptom: Some(UNBALANCED),

@@ -12,7 +12,7 @@ pub static GLARE: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.006 },
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Lens,
         prior,
         set: |conditions, value| conditions.glare = value,
         symptom: Some(Symptom {

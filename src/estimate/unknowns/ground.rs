@@ -12,7 +12,7 @@ pub static GROUND: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.15 },
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Light,
         prior,
         set: |conditions, value| conditions.ground = value,
         symptom: Some(Symptom {

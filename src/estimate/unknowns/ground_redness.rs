@@ -12,7 +12,7 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Light,
         prior,
         set: |conditions, value| conditions.ground_redness = value,
         symptom: None,

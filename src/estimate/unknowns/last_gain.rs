@@ -13,7 +13,7 @@ pub static LAST_GAIN: Unknown = Unknown {
     scale: Scale::Logarithm,
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Lens,
         prior,
         set: |conditions, value| conditions.gains[1] = value,
         symptom: Some(UNBALANCED),

@@ -122,13 +122,17 @@ pub struct Effect {
     pub symptom: Option<Symptom>,
 }
 
-/// What an unknown of a photograph is a number of.
+/// What an unknown of a photograph is a number of, and the only part of it that depends on that number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
     /// The sheet: how its surface and body reflect, the same in every photograph of it.
     Sheet,
-    /// The photograph: fold, light and lens.
-    Photograph,
+    /// The fold, as one photograph shows it: its shape, and where the sun stands before it.
+    Fold,
+    /// The light: colour of the sun, sky and ground.
+    Light,
+    /// The lens, and what becomes of light behind it.
+    Lens,
 }
 
 /// What is not ideal about a photograph, in the words of who took it.

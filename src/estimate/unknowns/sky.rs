@@ -17,7 +17,7 @@ pub static SKY: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Light,
         prior: of_photograph,
         set: |conditions, value| conditions.sky = value,
         symptom: None,

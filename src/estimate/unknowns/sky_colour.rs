@@ -15,7 +15,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Light,
         prior: of_photograph,
         set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
         symptom: None,

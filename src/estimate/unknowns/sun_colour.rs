@@ -17,7 +17,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
     scale: Scale::Reciprocal,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Light,
         prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {

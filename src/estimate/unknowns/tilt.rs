@@ -15,7 +15,7 @@ pub static TILT: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Fold,
         prior: of_photograph,
         set: |conditions, value| conditions.tilt_deg = value,
         symptom: Some(Symptom {

@@ -12,7 +12,7 @@ pub static VIGNETTING: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.1 },
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Photograph,
+        whose: Whose::Lens,
         prior,
         set: |conditions, value| conditions.vignetting = value,
         symptom: Some(Symptom {
