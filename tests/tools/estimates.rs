@@ -1,6 +1,8 @@
 //! Estimates through the tools at the ends of the range of reflectances, and what is said of their errors; published figures are in
 //! `tests/numbers/published`.
 
+use std::fs;
+
 use serde_json::Value;
 use vfold::estimate::classes;
 use vfold::estimate::prior::classes_of;
@@ -26,6 +28,53 @@ fn dark_and_bright_greys_are_recovered() {
     for (name, rmse, _) in scores(&format!("vkernel | vforward --reflectance {greys} | vestimate | vscore")) {
         let tolerance = 0.02 * name.parse::<f64>().unwrap().max(0.05);
         assert!(rmse < tolerance, "{name}: RMSE {rmse}");
+    }
+}
+
+/// 199 greys, whites, dyes and edges, as a table of spectra.
+fn many_spectra() -> String {
+    let share = |n: u32, step: f64| (f64::from(n) * step).fract();
+    let step_at = |nm: f64, middle: f64, width: f64| 1.0 / (1.0 + ((middle - nm) / width).exp());
+    let band = |nm: f64, middle: f64| (-0.5 * ((1e7 / nm - 1e7 / middle) / 1800.0_f64).powi(2)).exp();
+    let grey = |n: u32, _: f64| 0.02 + 0.02 * f64::from(n);
+    let white =
+        |n: u32, nm: f64| 0.8 + 0.17 * share(n, 0.618) - 0.3 * share(n, 0.414) * (-(nm - 400.0) / 40.0).exp();
+    // Kubelka and Munk's
+    let dye = |n: u32, nm: f64| {
+        let absorbed = 10.0_f64.powf(2.5 * share(n, 0.618) - 1.3) * band(nm, 410.0 + 260.0 * share(n, 0.414))
+            + 0.5 * share(n, 0.732) * band(nm, 410.0 + 260.0 * share(n, 0.236))
+            + 0.01;
+        1.0 + absorbed - (absorbed * absorbed + 2.0 * absorbed).sqrt()
+    };
+    let edge = |n: u32, nm: f64| {
+        let step = step_at(nm, 430.0 + 240.0 * share(n, 0.618), 3.0 + 25.0 * share(n, 0.414));
+        0.03 + (0.2 + 0.6 * share(n, 0.732)) * if n % 5 < 3 { step } else { 1.0 - step }
+    };
+    let kinds: [(u32, &dyn Fn(u32, f64) -> f64); 4] = [(49, &grey), (30, &white), (60, &dye), (60, &edge)];
+    let all = || kinds.into_iter().flat_map(|(count, of)| (0..count).map(move |n| (n, of)));
+    let names = (0..all().count()).map(|n| format!(",s{n}")).collect::<String>();
+    let row = |nm: u32| {
+        let values = all().map(|(n, of)| format!(",{:.6}", of(n, f64::from(nm))));
+        format!("{nm}{}\n", values.collect::<String>())
+    };
+    format!("nm{names}\n{}", (400..=700).step_by(5).map(row).collect::<String>())
+}
+
+#[test]
+fn no_spectrum_takes_many_times_the_steps_of_most() {
+    let folder = Workdir::new();
+    fs::write(folder.path().join("spectra.csv"), many_spectra()).unwrap();
+    for noise in ["0", "1e-3"] {
+        let line = format!("vkernel | vforward --reflectance spectra.csv --noise-sd {noise} | vestimate");
+        let run = folder.sh(&line);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{line}");
+        let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let mut steps: Vec<u64> =
+            records.filter_map(|record| record["estimate"]["iterations"].as_u64()).collect();
+        steps.sort_unstable();
+        let [median, most] = [steps[steps.len() / 2], steps[steps.len() - 1]];
+        println!("noise {noise}: {} spectra, median {median} steps, at most {most}", steps.len());
+        assert!(steps.len() == 199 && most <= 10 * median, "{noise}: {median}, {most}");
     }
 }
 
