@@ -36,7 +36,7 @@ fn many_spectra() -> String {
     let share = |n: u32, step: f64| (f64::from(n) * step).fract();
     let step_at = |nm: f64, middle: f64, width: f64| 1.0 / (1.0 + ((middle - nm) / width).exp());
     let band = |nm: f64, middle: f64| (-0.5 * ((1e7 / nm - 1e7 / middle) / 1800.0_f64).powi(2)).exp();
-    let grey = |n: u32, _: f64| 0.02 + 0.02 * f64::from(n);
+    let grey = |n: u32| 0.02 + 0.02 * f64::from(n);
     let white =
         |n: u32, nm: f64| 0.8 + 0.17 * share(n, 0.618) - 0.3 * share(n, 0.414) * (-(nm - 400.0) / 40.0).exp();
     // Kubelka and Munk's
@@ -50,11 +50,14 @@ fn many_spectra() -> String {
         let step = step_at(nm, 430.0 + 240.0 * share(n, 0.618), 3.0 + 25.0 * share(n, 0.414));
         0.03 + (0.2 + 0.6 * share(n, 0.732)) * if n % 5 < 3 { step } else { 1.0 - step }
     };
-    let kinds: [(u32, &dyn Fn(u32, f64) -> f64); 4] = [(49, &grey), (30, &white), (60, &dye), (60, &edge)];
-    let all = || kinds.into_iter().flat_map(|(count, of)| (0..count).map(move |n| (n, of)));
-    let names = (0..all().count()).map(|n| format!(",s{n}")).collect::<String>();
+    let at = |nm: f64| -> Vec<f64> {
+        let (greys, whites) = ((0..49).map(grey), (0..30).map(|n| white(n, nm)));
+        let (dyes, edges) = ((0..60).map(|n| dye(n, nm)), (0..60).map(|n| edge(n, nm)));
+        greys.chain(whites).chain(dyes).chain(edges).collect()
+    };
+    let names = (0..at(400.0).len()).map(|n| format!(",s{n}")).collect::<String>();
     let row = |nm: u32| {
-        let values = all().map(|(n, of)| format!(",{:.6}", of(n, f64::from(nm))));
+        let values = at(f64::from(nm)).into_iter().map(|value| format!(",{value:.6}"));
         format!("{nm}{}\n", values.collect::<String>())
     };
     format!("nm{names}\n{}", (400..=700).step_by(5).map(row).collect::<String>())
