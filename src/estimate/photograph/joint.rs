@@ -124,6 +124,7 @@ impl Model for JointModel<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        // its numbers are all there are
         if let [only] = self.members.as_slice() {
             return only.model.linearise(w);
         }

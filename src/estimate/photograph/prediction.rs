@@ -37,9 +37,9 @@ pub struct Light<'a> {
 pub struct Predicted<'a> {
     /// Facet by channel.
     pub values: DMatrix<f64>,
-    /// What the lens makes them of: facet by channel.
+    /// What the lens makes the values of: facet by channel.
     radiances: DMatrix<f64>,
-    /// Made of light on the facets what the values are.
+    /// The lens.
     pub lens: Lens,
     lighting: Lighting,
     /// The sun's first.
