@@ -25,8 +25,7 @@ const FINE_NOISE: f64 = 1e-5;
 /// Most iterations from the coarse noise to the fine one, and most classes that are tried because of it.
 const FINE_LIMIT: usize = 60;
 const FINE_TRIED: usize = 2;
-/// Most iterations of the searches under all classes that are tried: with all others about ten times what most spectra take. Of 2223 spectra
-/// without noise, twice as many bring one much nearer to the truth, and another one much further off.
+/// Most iterations of the searches under all classes that are tried: with all others about ten times what most spectra take.
 const CLASSES_LIMIT: usize = 300;
 /// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
 /// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.

@@ -3,7 +3,8 @@
 use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
 use super::corners::shifts;
-use super::parts::{Place, add};
+use super::parts::Place;
+use super::sums::add;
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,6 +20,7 @@ pub mod parts;
 mod prediction;
 pub mod search;
 pub mod sheets;
+mod sums;
 
 pub use conditions::{Conditions, Told};
 pub use findings::Finding;

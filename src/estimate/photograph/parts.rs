@@ -1,10 +1,10 @@
 //! What the facets of a photograph are made of: light of each kind, as functions of the sheet's albedo.
 
 use nalgebra::{DMatrix, DVector};
-use pulp::Arch;
 
 use super::conditions::Told;
 use super::sheets::Sheets;
+use super::sums::add;
 
 /// Radiance of all facets at the nodes of albedo: facet by node.
 pub type Radiance = DMatrix<f64>;
@@ -20,11 +20,6 @@ pub struct Place {
     pub along: f64,
     /// Square of the distance from the picture's centre, that of a corner being 1.
     pub off_centre: f64,
-}
-
-/// Adds a share of other values, by the widest vectors that the processor has.
-pub fn add(sum: &mut [f64], share: f64, values: &[f64]) {
-    Arch::new().dispatch(|| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value));
 }
 
 /// A change of the fold, known at two sizes beside none: between them it is a quadratic polynomial of its size.

@@ -1,15 +1,14 @@
 //! Facets as they are predicted from a spectrum and conditions.
 
 use std::borrow::Cow;
-use std::slice::ChunksExact;
 
 use nalgebra::{DMatrix, DVector};
-use pulp::Arch;
 
 use super::conditions::Conditions;
 use super::lens::Lens;
 use super::lighting::Lighting;
 use super::parts::{Ambient, Parts, Radiance};
+use super::sums::add_product;
 use crate::estimate::unknowns::Whose;
 
 /// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
@@ -121,20 +120,4 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
     sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
     sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
     radiance + beyond
-}
-
-/// Columns as slices, over which the compiler makes faster loops than over matrices.
-pub fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
-    matrix.as_slice().chunks_exact(matrix.nrows())
-}
-
-/// Adds the product of two matrices, the second of few columns, which a general product is slow for; by the widest vectors there are.
-pub fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    Arch::new().dispatch(|| {
-        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(columns(b)) {
-            for (column, share) in columns(a).zip(shares) {
-                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
-            }
-        }
-    });
 }

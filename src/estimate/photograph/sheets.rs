@@ -1,6 +1,7 @@
 //! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same albedo.
 
-use super::parts::{Radiance, add};
+use super::parts::Radiance;
+use super::sums::add;
 
 /// How a sheet departs from a Lambertian one.
 #[derive(Clone, Debug)]
