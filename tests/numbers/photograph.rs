@@ -22,6 +22,7 @@ fn derivatives_are_those_of_the_residuals() {
     let [rgb, sd] = [sample.facet_rgb().unwrap(), sample.facet_sd().unwrap().unwrap()];
     let fold = PhotographedFold::of(&setting);
     let parts = fold.parts(sample, &Measured { rgb: &rgb, sd: &sd }, None).unwrap().unwrap();
+    assert!(parts.told.daylight.is_some(), "sky and ground shine, too");
     // what is not known of curves of so few samples
     let curve = |channel: usize| parts.eye.sensitivities.column(channel).into_owned();
     let errors = vec![(0, 0.05 * curve(0)), (2, 0.05 * curve(1))];
