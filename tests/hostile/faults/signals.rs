@@ -3,12 +3,13 @@
 use crate::common::Workdir;
 use crate::ready::{ready, sh};
 
-/// Each tool in the middle of its work, more to come from the pipe `slow` or a computation that takes long, and how many
-/// files are then open.
+/// Each tool in the middle of its work, more to come from the pipe `slow`, its standard input or a photograph, or from a
+/// computation that takes long, and how many files are then open. Photographs on one thread: of several, one that waits for
+/// the rest of a photograph may take up the next, and hold the first back until that has come.
 const HALFWAY: [(&str, &str, usize); 5] = [
     ("vkernel --method monte-carlo --samples 100000000 -o old", "true", 1),
     ("vforward - --reflectance cc24 -o old --save facet_rgb=old.npy", "cat scene.json", 2),
-    ("sh extract $(yes photo.exr | head -n 2000) -o old --save facet_rgb=old.npy", "true", 2),
+    ("sh extract -j 1 photo.exr slow -o old --save facet_rgb=old.npy", "true", 2),
     ("vestimate - -o old --save reflectance=old.npy", "head -n 9 samples.ndjson", 2),
     ("vscore - -o old --save rmse=old.npy", "head -n 9 estimates.ndjson", 2),
 ];
@@ -16,7 +17,7 @@ const HALFWAY: [(&str, &str, usize); 5] = [
 /// Starts a tool and a feeder that never ends, waits for `ready`, sends the signal; prints the tool's status.
 fn interrupt(folder: &Workdir, [tool, feed, ready, signal]: [&str; 4]) -> String {
     let script = format!(
-        "mkfifo slow
+        "rm -f slow; mkfifo slow
         {{ {feed}; exec sleep 60; }} > slow & feeder=$!
         env --default-signal=INT {tool} < slow > /dev/null 2>&1 & tool=$!
         for try in $(seq 300); do
@@ -50,13 +51,13 @@ fn whatever_ends_it_the_old_file_stays_and_nothing_beside_it() {
 fn no_record_that_was_written_is_lost() {
     let folder = ready();
     let runs = [
-        ("vforward - --reflectance cc24", "cat scene.json", 25),
-        ("sh extract $(yes photo.exr | head -n 12)", "true", 3),
-        ("vestimate -", "head -n 9 samples.ndjson", 9),
-        ("vscore -", "head -n 9 estimates.ndjson", 9),
+        ("vforward - --reflectance cc24", "cat scene.json", "cat scene.json |", 25),
+        ("sh extract -j 1 photo.exr photo.exr slow", "true", "cp photo.exr slow;", 3),
+        ("vestimate -", "head -n 9 samples.ndjson", "cat samples.ndjson |", 9),
+        ("vscore -", "head -n 9 estimates.ndjson", "cat estimates.ndjson |", 9),
     ];
-    for (tool, feed, lines) in runs {
-        let whole = format!("{} | {tool} > whole", feed.replace("head -n 9", "cat"));
+    for (tool, feed, all, lines) in runs {
+        let whole = format!("{all} {tool} > whole");
         assert_eq!(sh(&folder, &whole).status, 0, "{tool}");
         for signal in ["INT", "TERM", "KILL"] {
             let ready = format!("[ $(cat out | wc -l) -ge {lines} ]");
