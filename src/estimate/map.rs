@@ -7,10 +7,11 @@
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
-use super::data::FacetData;
+use super::data::{FacetData, Residuals};
 use super::facets::{Facets, Second};
+use super::gaussian::logistic;
 use super::prior::Prior;
-use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, Start, from_means, likely};
+use super::starts::{ITERATION_LIMIT, Likely, Minor, SORTING_TOLERANCE, Start, from_means};
 use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -32,6 +33,8 @@ const CLASSES_LIMIT: usize = 300;
 const SURPRISE: f64 = 3.0;
 const MISFIT_MOST: f64 = 1.1;
 const LN_EVIDENCE_MORE: f64 = 1.0;
+/// So much more evidence than a maximum has is as good as any more.
+const LN_ODDS_MOST: f64 = 100.0;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
@@ -109,14 +112,19 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let [coarse, fine] = [SORTING_NOISE, FINE_NOISE].map(|noise| (noise * data.peak()).max(1.0));
     let first = first_inflation(&all, &start, coarse);
     let mut sorted = maximise(&all, start, (first, coarse), SORTING_TOLERANCE, ITERATION_LIMIT);
-    let mut starts = likely(&all, &sorted.w, prior, coarse);
+    let mut likely = Likely::new(&all, &sorted.w, prior, coarse);
+    let mut starts = likely.as_ref().map_or_else(Vec::new, Likely::starts);
     if fine < coarse && !starts.is_empty() {
         let finer = maximise(&all, sorted.w.clone(), (coarse, fine), SORTING_TOLERANCE, FINE_LIMIT);
         sorted.trace.extend(finer.trace);
-        let more = likely(&all, &finer.w, prior, fine).into_iter().take(FINE_TRIED);
+        likely = Likely::new(&all, &finer.w, prior, fine);
+        let more = likely.iter().flat_map(Likely::starts).take(FINE_TRIED);
         let more: Vec<_> = more.filter(|new| starts.iter().all(|known| known.which != new.which)).collect();
         starts.extend(more);
     }
+    // Evidence at a larger noise than the facets have is not to be weighed with.
+    let likely = likely.filter(|_| coarse.min(fine) <= 1.0);
+    let minor = likely.map_or_else(Vec::new, |likely| likely.minor(&starts));
     let near = maxima(data, starts);
     let far = if near.iter().all(Found::is_surprising) {
         maxima(data, from_means(data, prior, coarse))
@@ -125,8 +133,12 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     };
     let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
     let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
-    let found = if near.is_empty() || is_truer(&far, &near) { far } else { near };
-    let best = mean(found).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
+    let (found, beside) = if near.is_empty() || is_truer(&far, &near) {
+        (far, Vec::new())
+    } else {
+        (near, minor.into_iter().map(|minor| Beside::new(data, minor)).collect())
+    };
+    let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
 }
 
@@ -167,26 +179,60 @@ struct Found {
     termination: Termination,
 }
 
-/// The mean of the maxima by their evidence, its error bars widened by how far they are from it; the rest is that of most evidence.
-fn mean(mut found: Vec<Found>) -> Option<Found> {
+/// A class that was not searched.
+struct Beside {
+    ln_evidence: f64,
+    /// As [`Found::point`].
+    point: Vec<f64>,
+}
+
+impl Beside {
+    /// The evidence is less than at the class's own maximum, by what the linear model is off.
+    fn new(data: &FacetData, minor: Minor) -> Self {
+        let reflectance: Vec<f64> = minor.logit.iter().map(|z| logistic(*z)).collect();
+        let Residuals { residuals, exposure } = data.residuals(&reflectance, minor.unknowns.as_slice());
+        let unknowns = data.scene().unknowns().iter().zip(&minor.unknowns);
+        let values = unknowns.map(|(expected, w)| expected.at(*w).0);
+        Self {
+            ln_evidence: minor.ln_evidence_of_fit - 0.5 * residuals.norm_squared(),
+            point: reflectance.iter().copied().chain(values).chain([exposure]).collect(),
+        }
+    }
+}
+
+/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it; the rest is
+/// that of the maximum of most evidence. Each class beside is taken to be known as the maxima are in the mean.
+fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
-    let odds = |other: &Found| (other.ln_evidence - most.ln_evidence).exp();
-    let total: f64 = found.iter().map(odds).sum();
-    let share =
-        |other: &Found| if total.is_finite() { odds(other) / total } else { 1.0 / found.len() as f64 };
+    let odds = |ln_evidence: f64| (ln_evidence - most.ln_evidence).min(LN_ODDS_MOST).exp();
+    let of_found: f64 = found.iter().map(|other| odds(other.ln_evidence)).sum();
+    // Without evidence all maxima count alike.
+    let (beside, own) = if of_found.is_finite() {
+        (beside, found.iter().map(|other| odds(other.ln_evidence) / of_found).collect())
+    } else {
+        (&[][..], vec![1.0 / found.len() as f64; found.len()])
+    };
+    let of_beside: Vec<f64> = beside.iter().map(|other| odds(other.ln_evidence) / of_found).collect();
+    let total = 1.0 + of_beside.iter().sum::<f64>();
+    let points = || {
+        let points = found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
+        points.zip(own.iter().chain(&of_beside).map(|odds| odds / total))
+    };
     let mut point = vec![0.0; most.point.len()];
-    for other in &found {
-        point.iter_mut().zip(&other.point).for_each(|(mean, value)| *mean += share(other) * value);
+    for (other, share) in points() {
+        point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
-    let rows = found.iter().map(|other| {
-        let share = share(other).sqrt();
-        let apart = other.point.iter().zip(&point).map(|(other, mean)| share * (other - mean));
-        let apart = RowDVector::from_iterator(other.point.len(), apart);
-        let own = share * other.spread.as_ref()?;
-        Some(own.row_iter().map(nalgebra::Matrix::into_owned).chain([apart]).collect::<Vec<_>>())
+    let apart = points().map(|(other, share)| {
+        let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
+        RowDVector::from_iterator(point.len(), apart)
     });
-    let spread = rows.collect::<Option<Vec<_>>>().map(|rows| DMatrix::from_rows(&rows.concat()));
+    let within = found.iter().zip(&own).map(|(other, own)| Some(own.sqrt() * other.spread.as_ref()?));
+    let within = within.collect::<Option<Vec<_>>>();
+    let spread = within.map(|within| {
+        let rows = within.iter().flat_map(DMatrix::row_iter).map(nalgebra::Matrix::into_owned);
+        DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
+    });
     Some(Found { spread, point, ..found.swap_remove(0) })
 }
 

@@ -28,6 +28,8 @@ const LN_EVIDENCE_LEAST: f64 = -2.0;
 const TOLD: usize = 3;
 const UNTOLD_TRIED: usize = 24;
 const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
+/// The least evidence, likewise, for a class and scale that is weighed without a search.
+const MINOR_LN_EVIDENCE_LEAST: f64 = -4.0;
 
 /// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
 /// with a scale for each of them its tails are heavy.
@@ -46,23 +48,58 @@ pub struct Start {
     pub w: DVector<f64>,
 }
 
-/// The classes and scales of most evidence, the model taken to be linear about `sorted`, the maximum under `all` spectra as one Gaussian
-/// with the noise `inflation` times its size; none if so few channels do not tell classes apart.
-pub fn likely(all: &Facets, sorted: &DVector<f64>, prior: &Prior, inflation: f64) -> Vec<Start> {
-    if !tell_classes(all.data) {
-        return Vec::new();
+/// A class and scale of too little evidence for a search, at the maximum that the linear model has under it.
+pub struct Minor {
+    pub logit: DVector<f64>,
+    pub unknowns: DVector<f64>,
+    /// Logarithm of its evidence and share, without the misfit of the facets.
+    pub ln_evidence_of_fit: f64,
+}
+
+/// Classes and scales by their evidence, the model taken to be linear about a point.
+pub struct Likely<'a> {
+    classes: Vec<LinearClass<'a>>,
+    /// Logarithm of evidence, place of class and scale; most first.
+    found: Vec<(f64, (usize, usize))>,
+    inflation: f64,
+    telling: bool,
+}
+
+impl<'a> Likely<'a> {
+    /// `sorted` is the maximum under `all` spectra as one Gaussian with the noise `inflation` times its size. None if so few channels do
+    /// not tell classes apart.
+    pub fn new(all: &Facets, sorted: &DVector<f64>, prior: &'a Prior, inflation: f64) -> Option<Self> {
+        if !tell_classes(all.data) {
+            return None;
+        }
+        let about = all.by_logit(sorted);
+        let classes: Vec<_> =
+            prior.classes().iter().map(|class| LinearClass::new(class, &about, inflation)).collect();
+        let found = classes.iter().enumerate().flat_map(|(class, linear)| {
+            (0..SCALES.len()).filter_map(move |scale| {
+                let ln_evidence = linear.ln_evidence(SCALES[scale])?;
+                ln_evidence.is_finite().then_some((ln_evidence, (class, scale)))
+            })
+        });
+        let found = by_evidence(found);
+        Some(Self { telling: is_telling(all, &about, inflation), found, classes, inflation })
     }
-    let about = all.by_logit(sorted);
-    let classes: Vec<_> =
-        prior.classes().iter().map(|class| LinearClass::new(class, &about, inflation)).collect();
-    let found = classes.iter().enumerate().flat_map(|(class, linear)| {
-        (0..SCALES.len()).filter_map(move |scale| {
-            let ln_evidence = linear.ln_evidence(SCALES[scale])?;
-            ln_evidence.is_finite().then_some((ln_evidence, (class, scale)))
-        })
-    });
-    let found = of_most_evidence(found, is_telling(all, &about, inflation)).into_iter();
-    found.filter_map(|which| classes[which.0].start(which, inflation)).collect()
+
+    /// Where to look under those of most evidence.
+    pub fn starts(&self) -> Vec<Start> {
+        let most = of_most_evidence(&self.found, self.telling);
+        most.iter().filter_map(|(_, which)| self.classes[which.0].start(*which, self.inflation)).collect()
+    }
+
+    /// Those of less evidence than `starts`, unless they do not count beside them.
+    pub fn minor(&self, starts: &[Start]) -> Vec<Minor> {
+        let least = self.found.first().map_or(0.0, |(most, _)| most + MINOR_LN_EVIDENCE_LEAST);
+        let counts = |(ln_evidence, which): &&(f64, (usize, usize))| {
+            *ln_evidence >= least && starts.iter().all(|start| start.which != *which)
+        };
+        let minor = self.found.iter().filter(counts);
+        minor.filter_map(|(_, which)| self.classes[which.0].minor(SCALES[which.1])).collect()
+    }
 }
 
 /// The classes of most evidence at the maximum that each class's mean leads to, the noise `inflation` times its size; all of them if so
@@ -79,7 +116,11 @@ pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start>
         ln_evidence.is_finite().then_some((ln_evidence, start))
     };
     let found = prior.classes().iter().enumerate().filter_map(from_mean);
-    if tell_classes(data) { of_most_evidence(found, true) } else { found.map(|(_, start)| start).collect() }
+    let mut found = by_evidence(found);
+    if tell_classes(data) {
+        found.truncate(of_most_evidence(&found, true).len());
+    }
+    found.into_iter().map(|(_, start)| start).collect()
 }
 
 fn tell_classes(data: &FacetData) -> bool {
@@ -97,16 +138,19 @@ fn is_telling(all: &Facets, about: &ByLogit, inflation: f64) -> bool {
     information.iter().filter(|value| **value > 1.0).count() >= TOLD
 }
 
-/// Those of most evidence, most first; more of them if facets are not `telling`.
-fn of_most_evidence<T>(found: impl Iterator<Item = (f64, T)>, telling: bool) -> Vec<T> {
+fn by_evidence<T>(found: impl Iterator<Item = (f64, T)>) -> Vec<(f64, T)> {
     let mut found: Vec<_> = found.collect();
     found.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let best = found.first().map_or(0.0, |(best, _)| *best);
+    found
+}
+
+/// Those of most evidence, of which the first has most; more of them if facets are not `telling`.
+fn of_most_evidence<T>(found: &[(f64, T)], telling: bool) -> &[(f64, T)] {
     let (most, ln_least) =
         if telling { (TRIED, LN_EVIDENCE_LEAST) } else { (UNTOLD_TRIED, UNTOLD_LN_EVIDENCE_LEAST) };
-    found.truncate(most);
-    let least = best + ln_least;
-    found.into_iter().filter(|(evidence, _)| *evidence >= least).map(|(_, start)| start).collect()
+    let least = found.first().map_or(0.0, |(best, _)| best + ln_least);
+    let enough = found.partition_point(|(ln_evidence, _)| *ln_evidence >= least);
+    &found[..enough.min(most)]
 }
 
 /// A linear model of the facets under a class, in units of the inflated noise.
@@ -154,5 +198,20 @@ impl<'a> LinearClass<'a> {
         let gaussian = self.class.gaussian.scaled(scale);
         w.rows_mut(0, gaussian.basis().ncols()).scale_mut(scale);
         Some(Start { which, inflation, ln_share: self.class.ln_share + share.ln(), gaussian, w })
+    }
+
+    /// The mean of the linear posterior under the class at a scale, as a point.
+    fn minor(&self, (scale, share): (f64, f64)) -> Option<Minor> {
+        let factor = self.covariance(scale)?;
+        let w = self.jacobian.tr_mul(&factor.solve(&self.residuals));
+        let coordinates = self.class.gaussian.basis().ncols();
+        let of_spectrum = scale * w.rows(0, coordinates);
+        let unknowns = w.rows(coordinates, w.len() - coordinates).into_owned();
+        let cost = of_spectrum.norm_squared() + unknowns.norm_squared() + factor.ln_determinant();
+        Some(Minor {
+            logit: self.class.gaussian.logit_at(&(scale * of_spectrum)),
+            unknowns,
+            ln_evidence_of_fit: self.class.ln_share + share.ln() - 0.5 * cost,
+        })
     }
 }
