@@ -33,8 +33,6 @@ const CLASSES_LIMIT: usize = 300;
 const SURPRISE: f64 = 3.0;
 const MISFIT_MOST: f64 = 1.1;
 const LN_EVIDENCE_MORE: f64 = 1.0;
-/// So much more evidence than a maximum has is as good as any more.
-const LN_ODDS_MOST: f64 = 100.0;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
@@ -205,7 +203,8 @@ impl Beside {
 fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
-    let odds = |ln_evidence: f64| (ln_evidence - most.ln_evidence).min(LN_ODDS_MOST).exp();
+    // What was not searched counts for no more than the best that was.
+    let odds = |ln_evidence: f64| (ln_evidence - most.ln_evidence).min(0.0).exp();
     let of_found: f64 = found.iter().map(|other| odds(other.ln_evidence)).sum();
     // Without evidence all maxima count alike.
     let (beside, own) = if of_found.is_finite() {

@@ -15,6 +15,7 @@ mod joint;
 pub mod kinds;
 mod lens;
 mod lighting;
+mod likely;
 pub mod model;
 pub mod parts;
 mod prediction;

@@ -4,26 +4,23 @@
 //! model, linearised there, leaves possible. What is reported is the mean over all of these, weighed by their evidence, and the error
 //! bars hold how far they are apart.
 
-use std::rc::Rc;
-
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::corners;
 use super::error::ModelError;
 use super::findings::findings;
 use super::joint::{JointModel, Member, Photograph};
 use super::kinds::Kind;
+use super::likely::{About, Likely, LinearMaximum, ln_all_shares};
 use super::model::Point;
 use super::parts::Parts;
 use crate::error::{Error, Result};
-use crate::estimate::gaussian::Gaussian;
-use crate::estimate::prior::{Class, Prior};
-use crate::estimate::starts::SCALES;
+use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
+use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
-use crate::solve::{Eigen, Termination};
 
 /// Maxima are told apart this near to them, and counted as found, in standard deviations.
 const SORTING_TOLERANCE: f64 = 0.3;
@@ -35,14 +32,10 @@ const LIMIT: usize = 60;
 /// as the logarithm of its share of the first's.
 const TRIED: usize = 5;
 const LN_EVIDENCE_LEAST: f64 = -5.0;
-/// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
-const SHARE_POWER: f64 = 0.25;
+/// Most pairs that are weighed without a search beside those.
+const BESIDE: usize = 15;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
-/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
-const NEGLIGIBLE: f64 = 1e-3;
-/// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
-const NEARLY: f64 = 0.1;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
 
@@ -57,6 +50,13 @@ struct Maximum {
     seen: Vec<Seen>,
     trace: Vec<Iteration>,
     termination: Termination,
+}
+
+/// A pair of a kind of sheets and a class of spectra that was not searched.
+struct Beside {
+    ln_evidence: f64,
+    albedo: Vec<f64>,
+    reflectance: DVector<f64>,
 }
 
 /// A photograph at a maximum.
@@ -105,7 +105,8 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
         .collect();
     let likely: Vec<Likely> = likely?.into_iter().flatten().collect();
     let searches = likely.len();
-    let likely = most_evident(likely, TRIED, |one| one.ln_evidence);
+    let mut likely = most_evident(likely, TRIED + BESIDE, |one| one.ln_evidence);
+    let minor = likely.split_off(TRIED.min(likely.len()));
     let skipped_searches = searches - likely.len();
     let mut maxima = Vec::new();
     for Likely { kind, class, scale, ln_share, about, .. } in likely {
@@ -115,6 +116,7 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
         let found = search(&model, start, TOLERANCE, LIMIT);
         maxima.extend(Maximum::of(&model, &found, ln_share));
     }
+    let beside: Vec<_> = minor.iter().filter_map(|pair| Beside::of(&photographs, pair)).collect();
     let maxima = most_evident(maxima, TRIED, |one| one.ln_evidence);
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
     let best = maxima.first().ok_or_else(not_finite)?;
@@ -127,22 +129,14 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
         (found, skipped(&seen.fitted, skipped_searches))
     });
     let of_scene: Vec<_> = of_scene.collect();
-    let ln_evidence = best.ln_evidence
-        + maxima.iter().map(|one| (one.ln_evidence - best.ln_evidence).exp()).sum::<f64>().ln()
-        - ln_all_shares(prior);
-    let estimates = mean(maxima, &trace).ok_or_else(not_finite)?;
+    let odds = odds(&maxima, &beside);
+    let ln_evidence = best.ln_evidence + odds.iter().sum::<f64>().ln() - ln_all_shares(prior);
+    let estimates = mean(maxima, &beside, &odds, &trace).ok_or_else(not_finite)?;
     let complete = |(estimate, (findings, skipped))| Estimate { findings, skipped, ..estimate };
     Ok(SheetEstimate {
         photographs: estimates.into_iter().zip(of_scene).map(complete).collect(),
         ln_evidence,
     })
-}
-
-/// Logarithm of the sum of what pairs of a kind and a class are weighed with.
-fn ln_all_shares(prior: &Prior) -> f64 {
-    let classes: f64 = prior.classes().iter().map(|class| (SHARE_POWER * class.ln_share).exp()).sum();
-    let scales: f64 = SCALES.iter().map(|(_, share)| share).sum();
-    (Kind::ALL.len() as f64 * classes * scales).ln()
 }
 
 /// What the facets do not speak of.
@@ -169,121 +163,6 @@ fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f6
     let least = all.first().map_or(0.0, |first| ln_evidence(first) + LN_EVIDENCE_LEAST);
     all.retain(|one| ln_evidence(one) >= least);
     all
-}
-
-/// A kind of sheets and a class of spectra at one of its widths, and where they are judged from.
-struct Likely<'a> {
-    kind: Kind,
-    about: Rc<About>,
-    class: &'a Class,
-    scale: f64,
-    ln_share: f64,
-    ln_evidence: f64,
-}
-
-/// The model, taken to be linear about a maximum under all spectra.
-struct About {
-    /// Logits of the albedo there, and the numbers that are not of the spectrum.
-    logit: DVector<f64>,
-    others: DVector<f64>,
-    /// Derivatives by logit, as far as the coordinates of all spectra tell them, and by the others.
-    by_logit: DMatrix<f64>,
-    by_others: DMatrix<f64>,
-    residuals: DVector<f64>,
-    /// What the facets tell of logits whatever the others are, as few values of standard deviation 1: value by waveband, and how far the
-    /// values are off at the maximum.
-    told: DMatrix<f64>,
-    off: DVector<f64>,
-}
-
-impl About {
-    fn new(broad: &Gaussian, solution: &Solution<()>) -> Option<Self> {
-        let scene = broad.basis().ncols();
-        let count = solution.w.len() - scene;
-        let coordinates_of = broad.basis().clone().pseudo_inverse(1e-9).ok()?;
-        let logit = broad.logit_at(&solution.w.rows(0, scene).into_owned());
-        let others = solution.w.rows(scene, count).into_owned();
-        let by_logit = solution.at.jacobian.columns(0, scene) * coordinates_of;
-        let by_others = solution.at.jacobian.columns(scene, count).into_owned();
-        let residuals = solution.at.residuals.clone();
-        let mut information = by_others.transpose() * &by_others;
-        (0..count).for_each(|n| information[(n, n)] += 1.0);
-        let both = by_others.transpose() * &by_logit;
-        let left = Cholesky::new(information)?.solve(&both);
-        let at_prior = &residuals + &by_others * &others;
-        let told = by_logit.transpose() * &by_logit - both.transpose() * &left;
-        let off = by_logit.tr_mul(&at_prior) - left.tr_mul(&by_others.tr_mul(&at_prior));
-        let Eigen { values, vectors } = Eigen::of_symmetric(told);
-        let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
-        let row = |n: &usize| values[*n].sqrt() * vectors.column(*n).transpose();
-        Some(Self {
-            told: DMatrix::from_rows(&kept.iter().map(row).collect::<Vec<_>>()),
-            off: DVector::from_iterator(
-                kept.len(),
-                kept.iter().map(|n| vectors.column(*n).dot(&off) / values[*n].sqrt()),
-            ),
-            logit,
-            others,
-            by_logit,
-            by_others,
-            residuals,
-        })
-    }
-
-    /// All classes of spectra at all widths, `ln_evidence` being that for all spectra as one Gaussian.
-    fn classes<'a>(self, kind: Kind, prior: &'a Prior, ln_evidence: f64) -> Option<Vec<Likely<'a>>> {
-        let about = Rc::new(self);
-        let of_all = about.ln_evidence(prior.broad(), 1.0)?;
-        let pairs =
-            prior.classes().iter().flat_map(|class| SCALES.map(|(scale, share)| (class, scale, share)));
-        let likely = |(class, scale, share): (&'a Class, f64, f64)| {
-            let ln_share = SHARE_POWER * class.ln_share + share.ln();
-            let ln_evidence = ln_evidence + ln_share + about.ln_evidence(&class.gaussian, scale)? - of_all;
-            Some(Likely { kind, class, scale, ln_share, ln_evidence, about: Rc::clone(&about) })
-        };
-        Some(pairs.filter_map(likely).collect())
-    }
-
-    /// The evidence for spectra that are `scale` times as wide as a Gaussian, but for a term that all spectra share.
-    fn ln_evidence(&self, spectra: &Gaussian, scale: f64) -> Option<f64> {
-        let spread = scale * &self.told * spectra.basis();
-        let mut covariance = &spread * spread.transpose();
-        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
-        let off = &self.off + &self.told * (&self.logit - spectra.mean());
-        let factor = Cholesky::new(covariance)?;
-        let cost = factor.l_dirty().solve_lower_triangular(&off)?.norm_squared();
-        Some(-0.5 * (cost + factor.ln_determinant()))
-    }
-
-    /// Where to set out for the maximum under a Gaussian of spectra: where the linear model has it or, if that is further off, here.
-    fn start(&self, model: &JointModel, own: &Gaussian) -> Option<DVector<f64>> {
-        let cost = |w: &DVector<f64>| model.residuals(w).norm_squared() + w.norm_squared();
-        let (maximum, here) = (self.maximum(own)?, self.in_coordinates_of(own)?);
-        Some(if cost(&here) < cost(&maximum) { here } else { maximum })
-    }
-
-    /// The maximum under all spectra in the coordinates of another Gaussian, as nearly as that has it.
-    fn in_coordinates_of(&self, own: &Gaussian) -> Option<DVector<f64>> {
-        let basis = own.basis();
-        let mut information = basis.tr_mul(basis);
-        (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
-        let spectrum = Cholesky::new(information)?.solve(&basis.tr_mul(&(&self.logit - own.mean())));
-        let count = spectrum.len() + self.others.len();
-        Some(DVector::from_iterator(count, spectrum.iter().chain(&self.others).copied()))
-    }
-
-    /// Where the maximum under a Gaussian of spectra is.
-    fn maximum(&self, own: &Gaussian) -> Option<DVector<f64>> {
-        let coordinates = own.basis().ncols();
-        let mut jacobian = DMatrix::zeros(self.by_logit.nrows(), coordinates + self.others.len());
-        jacobian.columns_mut(0, coordinates).gemm(1.0, &self.by_logit, own.basis(), 0.0);
-        jacobian.columns_mut(coordinates, self.others.len()).copy_from(&self.by_others);
-        let residuals =
-            &self.residuals + &self.by_logit * (&self.logit - own.mean()) + &self.by_others * &self.others;
-        let mut information = jacobian.transpose() * &jacobian;
-        (0..information.nrows()).for_each(|i| information[(i, i)] += 1.0);
-        Some(Cholesky::new(information)?.solve(&jacobian.tr_mul(&residuals)))
-    }
 }
 
 impl Maximum {
@@ -336,6 +215,22 @@ impl Maximum {
     }
 }
 
+impl Beside {
+    /// Where the linear model has the maximum; the evidence is less than at the true one, by what that model is off.
+    fn of(photographs: &[Photograph], pair: &Likely) -> Option<Self> {
+        let gaussian = pair.class.gaussian.scaled(pair.scale);
+        let model = JointModel::new(photographs, pair.kind, &gaussian);
+        let LinearMaximum { w, cost } = pair.about.maximum(&gaussian)?;
+        let off = model.residuals(&w).norm_squared() + w.norm_squared() - cost;
+        let first = model.members().first()?;
+        let point = first.model.point(&first.own(&w));
+        let ln_evidence = pair.ln_evidence - 0.5 * off;
+        let reflectance = reflectance(&point);
+        let albedo = point.albedo;
+        ln_evidence.is_finite().then_some(Self { ln_evidence, albedo, reflectance })
+    }
+}
+
 /// Derivatives of the reflectance in every waveband by all `unknowns` of photographs of a sheet, the numbers of the `first` being `w`.
 fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
     let [scene, sheet, camera, _] = first.model.layout();
@@ -372,21 +267,36 @@ fn reflectance(point: &Point) -> DVector<f64> {
     DVector::from_iterator(point.albedo.len(), point.albedo.iter().map(of))
 }
 
-/// The mean of all maxima by their evidence, what they do not agree on as an error; one estimate for each photograph.
-fn mean(maxima: Vec<Maximum>, trace: &[Vec<Iteration>]) -> Option<Vec<Estimate>> {
-    let most = maxima.first()?.ln_evidence;
-    let odds: Vec<f64> = maxima.iter().map(|one| (one.ln_evidence - most).exp()).collect();
+/// Of all maxima, then of what is beside them, against the first. What was not searched counts for no more than the best that was.
+fn odds(maxima: &[Maximum], beside: &[Beside]) -> Vec<f64> {
+    let most = maxima.first().map_or(0.0, |one| one.ln_evidence);
+    let all = maxima.iter().map(|one| one.ln_evidence).chain(beside.iter().map(|one| one.ln_evidence));
+    all.map(|ln_evidence| (ln_evidence - most).min(0.0).exp()).collect()
+}
+
+/// The mean of all maxima and what is beside them by their `odds`, what they do not agree on as an error; one estimate for each photograph.
+/// What is beside is taken to be known as the maxima are in the mean.
+fn mean(
+    maxima: Vec<Maximum>,
+    beside: &[Beside],
+    odds: &[f64],
+    trace: &[Vec<Iteration>],
+) -> Option<Vec<Estimate>> {
+    let bands = maxima.first()?.reflectance.len();
     let total: f64 = odds.iter().sum();
-    let shares = || odds.iter().map(|odds| odds / total);
-    let reflectance: DVector<f64> =
-        maxima.iter().zip(shares()).map(|(one, share)| share * &one.reflectance).sum();
-    let bands = reflectance.len();
+    let of_maxima: f64 = odds[..maxima.len()].iter().sum();
+    let searched = maxima.iter().map(|one| (&one.albedo, &one.reflectance));
+    let all = searched.chain(beside.iter().map(|one| (&one.albedo, &one.reflectance)));
+    let all = || all.clone().zip(odds.iter().map(|odds| odds / total));
+    let reflectance: DVector<f64> = all().map(|((_, reflectance), share)| share * reflectance).sum();
     let mut albedo = vec![0.0; bands];
     let mut rows = Vec::new();
-    for (one, share) in maxima.iter().zip(shares()) {
-        albedo.iter_mut().zip(&one.albedo).for_each(|(sum, albedo)| *sum += share * albedo);
-        rows.extend(one.spread.row_iter().map(|row| share.sqrt() * row));
-        rows.push(share.sqrt() * (&one.reflectance - &reflectance).transpose());
+    for (one, odds) in maxima.iter().zip(odds) {
+        rows.extend(one.spread.row_iter().map(|row| (odds / of_maxima).sqrt() * row));
+    }
+    for ((its_albedo, its_reflectance), share) in all() {
+        albedo.iter_mut().zip(its_albedo).for_each(|(sum, albedo)| *sum += share * albedo);
+        rows.push(share.sqrt() * (its_reflectance - &reflectance).transpose());
     }
     let best = maxima.into_iter().next()?;
     let spread = DMatrix::from_rows(&rows);
