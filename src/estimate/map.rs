@@ -134,7 +134,8 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let (found, beside) = if near.is_empty() || is_truer(&far, &near) {
         (far, Vec::new())
     } else {
-        (near, minor.into_iter().map(|minor| Beside::new(data, minor)).collect())
+        let counts = near.iter().any(Found::explains);
+        (near, minor.into_iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect())
     };
     let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
@@ -157,7 +158,7 @@ fn is_truer(far: &[Found], near: &[Found]) -> bool {
     let most =
         |found: &[Found]| found.iter().map(|found| found.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let least = most(near) + LN_EVIDENCE_MORE;
-    far.iter().any(|found| found.residual_rms < MISFIT_MOST && found.ln_evidence > least)
+    far.iter().any(|found| found.explains() && found.ln_evidence > least)
 }
 
 /// The maximum under one class.
@@ -264,6 +265,11 @@ impl Found {
             trace: vec![solution.trace.clone()],
             termination: solution.termination,
         }
+    }
+
+    /// Whether the facets are as near to it as their noise lets them be.
+    fn explains(&self) -> bool {
+        self.residual_rms < MISFIT_MOST
     }
 
     /// Whether it is not what chance has.
