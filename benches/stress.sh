@@ -33,7 +33,7 @@ believe() {
 score() {
     # 3: a sheet that no reflectance explains is refused
     { time vestimate -q -j 1 "$@" photograph.ndjson >estimates.ndjson 2>/dev/null || [ $? = 3 ]; } 2>seconds
-    vscore --table estimates.ndjson | awk -v seconds="$(cat seconds)" '
+    { vscore --table estimates.ndjson 2>/dev/null || [ $? = 3 ]; } | awk -v seconds="$(cat seconds)" '
         NR > 1 && !/^(mean|median|worst)/ { samples++ }
         /^mean/ { rmse = $2; delta_e = $3 }
         END { split(seconds, of, " "); printf " %s / %s, %.1f ms |", rmse, delta_e, 1e3 * (of[1] + of[2]) / samples }'

@@ -28,7 +28,7 @@ const LN_EVIDENCE_LEAST: f64 = -2.0;
 const TOLD: usize = 3;
 const UNTOLD_TRIED: usize = 24;
 const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
-/// The least evidence, likewise, for a class and scale that is weighed without a search.
+/// The least evidence, likewise, for a class and scale that counts without a search.
 const MINOR_LN_EVIDENCE_LEAST: f64 = -4.0;
 
 /// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
@@ -191,27 +191,30 @@ impl<'a> LinearClass<'a> {
         Some(self.class.ln_share + share.ln() - 0.5 * (cost + factor.ln_determinant()))
     }
 
-    /// The mean of the linear posterior under the class at its scale.
+    /// Where to look under the class at its scale: at the mean of the linear posterior.
     fn start(&self, which: (usize, usize), inflation: f64) -> Option<Start> {
         let (scale, share) = SCALES[which.1];
-        let mut w = self.jacobian.tr_mul(&self.covariance(scale)?.solve(&self.residuals));
+        let (w, _) = self.posterior(scale)?;
         let gaussian = self.class.gaussian.scaled(scale);
-        w.rows_mut(0, gaussian.basis().ncols()).scale_mut(scale);
         Some(Start { which, inflation, ln_share: self.class.ln_share + share.ln(), gaussian, w })
     }
 
-    /// The mean of the linear posterior under the class at a scale, as a point.
+    /// The mean of the linear posterior, as a point.
     fn minor(&self, (scale, share): (f64, f64)) -> Option<Minor> {
-        let factor = self.covariance(scale)?;
-        let w = self.jacobian.tr_mul(&factor.solve(&self.residuals));
+        let (w, ln_determinant) = self.posterior(scale)?;
         let coordinates = self.class.gaussian.basis().ncols();
-        let of_spectrum = scale * w.rows(0, coordinates);
-        let unknowns = w.rows(coordinates, w.len() - coordinates).into_owned();
-        let cost = of_spectrum.norm_squared() + unknowns.norm_squared() + factor.ln_determinant();
         Some(Minor {
-            logit: self.class.gaussian.logit_at(&(scale * of_spectrum)),
-            unknowns,
-            ln_evidence_of_fit: self.class.ln_share + share.ln() - 0.5 * cost,
+            logit: self.class.gaussian.logit_at(&(scale * w.rows(0, coordinates))),
+            unknowns: w.rows(coordinates, w.len() - coordinates).into_owned(),
+            ln_evidence_of_fit: self.class.ln_share + share.ln() - 0.5 * (w.norm_squared() + ln_determinant),
         })
+    }
+
+    /// The mean of the linear posterior under the class at a scale, and the logarithm of the determinant of the facets' covariance.
+    fn posterior(&self, scale: f64) -> Option<(DVector<f64>, f64)> {
+        let factor = self.covariance(scale)?;
+        let mut w = self.jacobian.tr_mul(&factor.solve(&self.residuals));
+        w.rows_mut(0, self.class.gaussian.basis().ncols()).scale_mut(scale);
+        Some((w, factor.ln_determinant()))
     }
 }
