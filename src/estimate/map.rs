@@ -26,8 +26,10 @@ const FINE_NOISE: f64 = 1e-5;
 /// Most iterations from the coarse noise to the fine one, and most classes that are tried because of it.
 const FINE_LIMIT: usize = 60;
 const FINE_TRIED: usize = 2;
-/// Most iterations of the searches under all classes that are tried: with all others about ten times what most spectra take.
+/// Most iterations of the searches under all classes that are tried: with all others about ten times what most spectra take, and where
+/// facets have noise, which may be of another scene than was told: no search that explains them comes near to that.
 const CLASSES_LIMIT: usize = 300;
+const NOISY_CLASSES_LIMIT: usize = 600;
 /// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
 /// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
 const SURPRISE: f64 = 3.0;
@@ -120,12 +122,14 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         let more: Vec<_> = more.filter(|new| starts.iter().all(|known| known.which != new.which)).collect();
         starts.extend(more);
     }
+    let are_noisy = coarse.min(fine) <= 1.0;
+    let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
     // Evidence at a larger noise than the facets have is not to be weighed with.
-    let likely = likely.filter(|_| coarse.min(fine) <= 1.0);
+    let likely = likely.filter(|_| are_noisy);
     let minor = likely.map_or_else(Vec::new, |likely| likely.minor(&starts));
-    let near = maxima(data, starts);
+    let near = maxima(data, starts, limit);
     let far = if near.iter().all(Found::is_surprising) {
-        maxima(data, from_means(data, prior, coarse))
+        maxima(data, from_means(data, prior, coarse), limit)
     } else {
         Vec::new()
     };
@@ -141,9 +145,9 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     Found { trace, ..best }
 }
 
-/// The maxima under classes.
-fn maxima(data: &FacetData, starts: Vec<Start>) -> Vec<Found> {
-    let limit = CLASSES_LIMIT / starts.len().max(1);
+/// The maxima under classes, all in at most `limit` iterations.
+fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> Vec<Found> {
+    let limit = limit / starts.len().max(1);
     let maximum = |start: Start| {
         let facets = Facets { data, gaussian: &start.gaussian };
         let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, limit);
