@@ -25,7 +25,7 @@ NM = np.arange(380.0, 781.0, 5.0)
 MARGIN = 2e-3
 # Factors of a class; what they leave out is below what src/estimate/prior.rs adds.
 RANK = 16
-MUNSELL_SHARE = 0.88
+MUNSELL_SHARE = 0.79
 # What is of no kind: any smooth spectrum, of that standard deviation in logit, alike within so many nm.
 ANY_SHARE, ANY_SD, ANY_NM = 0.01, 1.2, 40
 
@@ -348,9 +348,9 @@ KINDS = {
     paint: (1200, 6, 0.15),
     leaf: (800, 3, 0.06),
     flower: (600, 2, 0.05),
-    earth: (900, 3, 0.10),
-    skin: (500, 1, 0.03),
-    hair: (300, 1, 0.02),
+    earth: (900, 3, 0.60),
+    skin: (500, 1, 0.18),
+    hair: (300, 1, 0.12),
     paper: (400, 1, 0.05),
     printed: (1000, 4, 0.10),
 }

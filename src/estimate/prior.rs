@@ -15,7 +15,7 @@ const MATERN_SD: f64 = 0.25;
 /// it falls by e within the decay.
 const MIDDLE_SD: f64 = 0.18;
 const VIOLET_SD: f64 = 0.3;
-const RED_SD: f64 = 0.25;
+const RED_SD: f64 = 0.2;
 const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;

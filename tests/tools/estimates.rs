@@ -70,10 +70,14 @@ fn no_spectrum_takes_many_times_the_steps_of_most() {
     for noise in ["0", "1e-3"] {
         let line = format!("vkernel | vforward --reflectance spectra.csv --noise-sd {noise} | vestimate");
         let run = folder.sh(&line);
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{line}");
+        assert_eq!(run.status, 0, "{line}: {}", run.stderr);
         let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let estimates: Vec<Value> = records.map(|record| record["estimate"].clone()).collect();
+        // an edge within 3 nm, which no class has, is not explained to a millionth, and that is said
+        let far = estimates.iter().filter(|estimate| estimate["residual_rms"].as_f64() > Some(5.0)).count();
+        assert!(far <= 1 && run.stderr.lines().count() == far, "{line}: {}", run.stderr);
         let mut steps: Vec<u64> =
-            records.filter_map(|record| record["estimate"]["iterations"].as_u64()).collect();
+            estimates.iter().filter_map(|estimate| estimate["iterations"].as_u64()).collect();
         steps.sort_unstable();
         let [median, most] = [steps[steps.len() / 2], steps[steps.len() - 1]];
         println!("noise {noise}: {} spectra, median {median} steps, at most {most}", steps.len());
