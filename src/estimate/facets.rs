@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
 use super::gaussian::{Gaussian, logistic, mean_slope};
-use crate::solve::posterior::{Linearised, Model, Solution};
+use crate::solve::posterior::{Linearised, Model, information};
 
 /// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
 pub fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
@@ -63,34 +63,39 @@ impl Facets<'_> {
         let second = Second { reflectance, exposure, by_reflectance: second };
         ByLogit { logit, unknowns, residuals, jacobian, second }
     }
+}
 
+/// The most probable point under a Gaussian, and the model about it.
+pub struct AboutMaximum<'a> {
+    pub gaussian: &'a Gaussian,
+    pub logit: &'a DVector<f64>,
+    /// Derivatives of the model by whitened logit, then by unknown of the scene.
+    pub jacobian: &'a DMatrix<f64>,
+    pub exposure: &'a FittedExposure,
+}
+
+impl AboutMaximum<'_> {
     /// Laplace's covariance as a factor, `widened` times as wide, carried from whitened logits to reflectances, unknowns and
-    /// exposure.
-    pub fn spread(
-        &self,
-        by_unknown: &[f64],
-        solution: &Solution<Second>,
-        widened: f64,
-    ) -> Option<DMatrix<f64>> {
-        let exposure = &solution.at.second.exposure;
-        let (logit, _) = self.split(&solution.w);
-        let bands = logit.len();
+    /// exposure. None if the model was not finite.
+    pub fn spread(&self, by_unknown: &[f64], widened: f64) -> Option<DMatrix<f64>> {
+        let (bands, coordinates) = self.gaussian.basis().shape();
         let point = bands + by_unknown.len() + 1;
-        // Derivatives of the point by logits and unknowns: point by both.
-        let mut slopes = DMatrix::zeros(point, point - 1);
-        (0..bands).for_each(|n| slopes[(n, n)] = 1.0);
-        for (n, slope) in (bands..).zip(by_unknown) {
-            slopes[(n, n)] = *slope;
+        // Derivatives of the point by what is whitened: point by both.
+        let mut slopes = DMatrix::zeros(point, self.jacobian.ncols());
+        slopes.view_mut((0, 0), (bands, coordinates)).copy_from(self.gaussian.basis());
+        for (n, slope) in by_unknown.iter().enumerate() {
+            slopes[(bands + n, coordinates + n)] = *slope;
         }
-        slopes.row_mut(point - 1).tr_copy_from(&exposure.slopes);
-        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S the derivatives by what is whitened.
-        let information = solution.information()?;
-        let spread = information.l().solve_lower_triangular(&whitened(&slopes, self.gaussian).transpose())?;
+        let of_exposure =
+            DMatrix::from_row_slice(1, self.exposure.slopes.len(), self.exposure.slopes.as_slice());
+        slopes.row_mut(point - 1).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
+        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S these derivatives.
+        let spread = information(self.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
-        spread[(rows, point - 1)] = exposure.sd;
+        spread[(rows, point - 1)] = self.exposure.sd;
         spread *= widened;
-        for (mut column, z) in spread.column_iter_mut().zip(&logit) {
+        for (mut column, z) in spread.column_iter_mut().zip(self.logit) {
             column *= mean_slope(*z, column.norm());
         }
         Some(spread)

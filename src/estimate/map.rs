@@ -5,10 +5,10 @@
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::data::{FacetData, Residuals};
-use super::facets::{Facets, Second};
+use super::facets::{AboutMaximum, Facets, Second};
 use super::gaussian::logistic;
 use super::prior::Prior;
 use super::starts::{ITERATION_LIMIT, Likely, Minor, SORTING_TOLERANCE, Start, from_means};
@@ -40,6 +40,8 @@ const LN_EVIDENCE_MORE: f64 = 1.0;
 const GLANCE_TOLERANCE: f64 = 0.3;
 const GLANCE_LIMIT: usize = 60;
 const FURTHEST: f64 = 2.0;
+/// The share of the mean from which on the error bars of a class that was not searched are found: that takes as long as a step.
+const LEAST_SHARE: f64 = 0.03;
 /// By how many times [`least_misfit`] may be too much: of computed facets, glossy and not, it is by 1.15 for the ColorChecker at most, and by
 /// 1.21 for Munsell's chips.
 pub const CAUTION: f64 = 1.25;
@@ -125,7 +127,7 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let are_noisy = coarse.min(fine) <= 1.0;
     let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
     // Evidence at a larger noise than the facets have is not to be weighed with.
-    let likely = likely.filter(|_| are_noisy);
+    let likely = likely.as_ref().filter(|_| are_noisy);
     let minor = likely.map_or_else(Vec::new, |likely| likely.minor(&starts));
     let near = maxima(data, starts, limit);
     let far = if near.iter().all(Found::is_surprising) {
@@ -139,7 +141,7 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         (far, Vec::new())
     } else {
         let counts = near.iter().any(Found::explains);
-        (near, minor.into_iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect())
+        (near, minor.iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect())
     };
     let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
@@ -183,28 +185,47 @@ struct Found {
 }
 
 /// A class that was not searched.
-struct Beside {
+struct Beside<'a> {
     ln_evidence: f64,
     /// As [`Found::point`].
     point: Vec<f64>,
+    minor: &'a Minor<'a>,
+    /// As [`Found::prior_sd`].
+    prior_sd: Vec<f64>,
+    residual_rms: f64,
 }
 
-impl Beside {
+impl<'a> Beside<'a> {
     /// The evidence is less than at the class's own maximum, by what the linear model is off.
-    fn new(data: &FacetData, minor: Minor) -> Self {
+    fn new(data: &FacetData, minor: &'a Minor<'a>) -> Self {
         let reflectance: Vec<f64> = minor.logit.iter().map(|z| logistic(*z)).collect();
         let Residuals { residuals, exposure } = data.residuals(&reflectance, minor.unknowns.as_slice());
         let unknowns = data.scene().unknowns().iter().zip(&minor.unknowns);
-        let values = unknowns.map(|(expected, w)| expected.at(*w).0);
+        let (values, prior_sd): (Vec<f64>, Vec<f64>) = unknowns.map(|(expected, w)| expected.at(*w)).unzip();
         Self {
             ln_evidence: minor.ln_evidence_of_fit - 0.5 * residuals.norm_squared(),
             point: reflectance.iter().copied().chain(values).chain([exposure]).collect(),
+            minor,
+            prior_sd,
+            residual_rms: data.rms(&residuals),
         }
+    }
+
+    /// As [`Found::spread`].
+    fn spread(&self) -> Option<DMatrix<f64>> {
+        self.minor.spread(&self.prior_sd, widened(self.residual_rms))
     }
 }
 
+/// By how much error bars are wider than the noise makes them. Facets further from the model than their noise: the noise, or the scene, is
+/// not what it was said to be (R. T. Birge, *Physical Review* 40 (1932), p. 207).
+fn widened(residual_rms: f64) -> f64 {
+    residual_rms.max(1.0)
+}
+
 /// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it; the rest is
-/// that of the maximum of most evidence. Each class beside is taken to be known as the maxima are in the mean.
+/// that of the maximum of most evidence. A class beside of no more than
+/// [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
 fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
@@ -219,25 +240,39 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     };
     let of_beside: Vec<f64> = beside.iter().map(|other| odds(other.ln_evidence) / of_found).collect();
     let total = 1.0 + of_beside.iter().sum::<f64>();
+    let shares = || own.iter().chain(&of_beside).map(|odds| odds / total);
     let points = || {
         let points = found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
-        points.zip(own.iter().chain(&of_beside).map(|odds| odds / total))
+        points.zip(shares())
     };
     let mut point = vec![0.0; most.point.len()];
     for (other, share) in points() {
         point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
+    let searched = found.iter().zip(shares()).map(|(other, share)| (other.spread.clone(), share));
+    let counting = beside.iter().zip(shares().skip(found.len())).filter(|(_, share)| *share > LEAST_SHARE);
+    let within: Vec<_> = searched.chain(counting.map(|(other, share)| (other.spread(), share))).collect();
+    let counted: f64 = within.iter().map(|(_, share)| share).sum();
+    let within = within.into_iter().map(|(spread, share)| Some((share / counted).sqrt() * spread?));
+    let within = within.collect::<Option<Vec<_>>>();
     let apart = points().map(|(other, share)| {
         let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
-        RowDVector::from_iterator(point.len(), apart)
+        DMatrix::from_iterator(1, point.len(), apart)
     });
-    let within = found.iter().zip(&own).map(|(other, own)| Some(own.sqrt() * other.spread.as_ref()?));
-    let within = within.collect::<Option<Vec<_>>>();
-    let spread = within.map(|within| {
-        let rows = within.iter().flat_map(DMatrix::row_iter).map(nalgebra::Matrix::into_owned);
-        DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
-    });
+    let spread = within.map(|within| stacked(&within.into_iter().chain(apart).collect::<Vec<_>>()));
     Some(Found { spread, point, ..found.swap_remove(0) })
+}
+
+/// Matrices of as many columns, one above the other.
+fn stacked(parts: &[DMatrix<f64>]) -> DMatrix<f64> {
+    let rows = parts.iter().map(DMatrix::nrows).sum();
+    let mut all = DMatrix::zeros(rows, parts.first().map_or(0, DMatrix::ncols));
+    let mut first = 0;
+    for part in parts {
+        all.rows_mut(first, part.nrows()).copy_from(part);
+        first += part.nrows();
+    }
+    all
 }
 
 impl Found {
@@ -255,13 +290,12 @@ impl Found {
         let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
         let values = unknowns.iter().map(|(value, _)| *value);
         let residual_rms = facets.data.rms(&solution.at.residuals);
-        // Facets further from the model than their noise: the noise, or the scene, is not what it was said to be (R. T. Birge,
-        // *Physical Review* 40 (1932), p. 207).
-        let widened = residual_rms.max(1.0);
+        let (gaussian, (logit, _)) = (facets.gaussian, facets.split(&solution.w));
+        let about = AboutMaximum { gaussian, logit: &logit, jacobian: &solution.at.jacobian, exposure };
         Self {
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: facets.spread(&prior_sd, solution, widened),
+            spread: about.spread(&prior_sd, widened(residual_rms)),
             prior_sd,
             residual_rms,
             surprise: solution.surprise(),

@@ -6,8 +6,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::data::FacetData;
-use super::facets::{ByLogit, Facets, whitened};
+use super::data::{FacetData, FittedExposure};
+use super::facets::{AboutMaximum, ByLogit, Facets, whitened};
 use super::gaussian::Gaussian;
 use super::prior::{Class, Prior};
 use crate::solve::Eigen;
@@ -49,11 +49,30 @@ pub struct Start {
 }
 
 /// A class and scale of too little evidence for a search, at the maximum that the linear model has under it.
-pub struct Minor {
+pub struct Minor<'a> {
     pub logit: DVector<f64>,
     pub unknowns: DVector<f64>,
+    class: &'a LinearClass<'a>,
+    scale: f64,
+    exposure: &'a FittedExposure,
     /// Logarithm of its evidence and share, without the misfit of the facets.
     pub ln_evidence_of_fit: f64,
+}
+
+impl Minor<'_> {
+    /// As [`AboutMaximum::spread`].
+    pub fn spread(&self, by_unknown: &[f64], widened: f64) -> Option<DMatrix<f64>> {
+        let gaussian = self.class.class.gaussian.scaled(self.scale);
+        let mut jacobian = self.class.jacobian.clone();
+        jacobian.columns_mut(0, gaussian.basis().ncols()).scale_mut(self.scale);
+        let about = AboutMaximum {
+            gaussian: &gaussian,
+            logit: &self.logit,
+            jacobian: &jacobian,
+            exposure: self.exposure,
+        };
+        about.spread(by_unknown, widened)
+    }
 }
 
 /// Classes and scales by their evidence, the model taken to be linear about a point.
@@ -63,6 +82,7 @@ pub struct Likely<'a> {
     found: Vec<(f64, (usize, usize))>,
     inflation: f64,
     telling: bool,
+    exposure: FittedExposure,
 }
 
 impl<'a> Likely<'a> {
@@ -82,7 +102,8 @@ impl<'a> Likely<'a> {
             })
         });
         let found = by_evidence(found);
-        Some(Self { telling: is_telling(all, &about, inflation), found, classes, inflation })
+        let telling = is_telling(all, &about, inflation);
+        Some(Self { telling, found, classes, inflation, exposure: about.second.exposure })
     }
 
     /// Where to look under those of most evidence.
@@ -92,13 +113,13 @@ impl<'a> Likely<'a> {
     }
 
     /// Those of less evidence than `starts`, unless they do not count beside them.
-    pub fn minor(&self, starts: &[Start]) -> Vec<Minor> {
+    pub fn minor(&self, starts: &[Start]) -> Vec<Minor<'_>> {
         let least = self.found.first().map_or(0.0, |(most, _)| most + MINOR_LN_EVIDENCE_LEAST);
         let counts = |(ln_evidence, which): &&(f64, (usize, usize))| {
             *ln_evidence >= least && starts.iter().all(|start| start.which != *which)
         };
         let minor = self.found.iter().filter(counts);
-        minor.filter_map(|(_, which)| self.classes[which.0].minor(SCALES[which.1])).collect()
+        minor.filter_map(|(_, which)| self.classes[which.0].minor(SCALES[which.1], &self.exposure)).collect()
     }
 }
 
@@ -200,10 +221,13 @@ impl<'a> LinearClass<'a> {
     }
 
     /// The mean of the linear posterior, as a point.
-    fn minor(&self, (scale, share): (f64, f64)) -> Option<Minor> {
+    fn minor<'b>(&'b self, (scale, share): (f64, f64), exposure: &'b FittedExposure) -> Option<Minor<'b>> {
         let (w, ln_determinant) = self.posterior(scale)?;
         let coordinates = self.class.gaussian.basis().ncols();
         Some(Minor {
+            class: self,
+            scale,
+            exposure,
             logit: self.class.gaussian.logit_at(&(scale * w.rows(0, coordinates))),
             unknowns: w.rows(coordinates, w.len() - coordinates).into_owned(),
             ln_evidence_of_fit: self.class.ln_share + share.ln() - 0.5 * (w.norm_squared() + ln_determinant),

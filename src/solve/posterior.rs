@@ -97,12 +97,6 @@ pub struct Iteration {
 }
 
 impl<S> Solution<S> {
-    /// Factor of `I + JᵀJ`: the inverse of Laplace's covariance. None if the model was not finite.
-    #[must_use]
-    pub fn information(&self) -> Option<Cholesky<f64, Dyn>> {
-        Cholesky::new(gauss_newton(&self.at.jacobian, 1.0))
-    }
-
     /// Logarithm of the probability of the data under prior and model, the noise `inflation` times its size, but for a term that
     /// depends on the data alone.
     ///
@@ -122,6 +116,12 @@ impl<S> Solution<S> {
         let data = self.at.residuals.len() as f64;
         (cost(1.0, &self.w, &self.at.residuals) - data) / (2.0 * data).sqrt()
     }
+}
+
+/// Factor of `I + JᵀJ`, J being the derivatives of the model: the inverse of Laplace's covariance. None if the model was not finite.
+#[must_use]
+pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
+    Cholesky::new(gauss_newton(jacobian, 1.0))
 }
 
 /// The noise at the start: a third of the misfit there, but no less than `least`, all in units of the true noise.
@@ -446,11 +446,11 @@ mod tests {
             let found = maximise(&model, start, (first, 1.0), 1e-6, 100);
             let w = found.w[0];
             let slope = w - (data - scale * w.exp()) * scale * w.exp();
-            let information = 1.0 + (scale * w.exp()).powi(2);
+            let expected = 1.0 + (scale * w.exp()).powi(2);
             assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
-            assert!(slope.abs() < 2e-6 * information.sqrt(), "{data} {scale}: {slope}");
-            let factor = found.information().unwrap().l()[(0, 0)];
-            assert!((factor * factor / information - 1.0).abs() < 1e-12);
+            assert!(slope.abs() < 2e-6 * expected.sqrt(), "{data} {scale}: {slope}");
+            let factor = information(&found.at.jacobian).unwrap().l()[(0, 0)];
+            assert!((factor * factor / expected - 1.0).abs() < 1e-12);
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::estimate::unknowns::EXPOSURE;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, information, maximise};
 
 /// Maxima are told apart this near to them, and counted as found, in standard deviations.
 const SORTING_TOLERANCE: f64 = 0.3;
@@ -173,7 +173,7 @@ impl Maximum {
         let w = first.own(&found.w);
         let point = first.model.point(&w);
         let reflectance = reflectance(&point);
-        let lower = found.information()?.l();
+        let lower = information(&found.at.jacobian)?.l();
         let widened = rms(&found.at.residuals).max(1.0);
         let slopes = slopes(first, model.unknowns(), &w, &point);
         let of_facets = widened * lower.solve_lower_triangular(&slopes.transpose())?;
