@@ -5,7 +5,7 @@
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::data::{FacetData, Residuals};
 use super::facets::{AboutMaximum, Facets, Second};
@@ -224,8 +224,7 @@ fn widened(residual_rms: f64) -> f64 {
 }
 
 /// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it; the rest is
-/// that of the maximum of most evidence. A class beside of no more than
-/// [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
+/// that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
 fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
@@ -249,30 +248,22 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     for (other, share) in points() {
         point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
-    let searched = found.iter().zip(shares()).map(|(other, share)| (other.spread.clone(), share));
-    let counting = beside.iter().zip(shares().skip(found.len())).filter(|(_, share)| *share > LEAST_SHARE);
-    let within: Vec<_> = searched.chain(counting.map(|(other, share)| (other.spread(), share))).collect();
-    let counted: f64 = within.iter().map(|(_, share)| share).sum();
-    let within = within.into_iter().map(|(spread, share)| Some((share / counted).sqrt() * spread?));
-    let within = within.collect::<Option<Vec<_>>>();
     let apart = points().map(|(other, share)| {
         let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
-        DMatrix::from_iterator(1, point.len(), apart)
+        RowDVector::from_iterator(point.len(), apart)
     });
-    let spread = within.map(|within| stacked(&within.into_iter().chain(apart).collect::<Vec<_>>()));
+    let counting = beside.iter().zip(shares().skip(found.len())).filter(|(_, share)| *share > LEAST_SHARE);
+    let counting: Vec<_> = counting.map(|(other, share)| (other.spread(), share)).collect();
+    let spreads = found.iter().map(|other| &other.spread).zip(shares());
+    let spreads = spreads.chain(counting.iter().map(|(spread, share)| (spread, *share)));
+    let counted: f64 = spreads.clone().map(|(_, share)| share).sum();
+    let within = spreads.map(|(spread, share)| Some((share / counted).sqrt() * spread.as_ref()?));
+    let within = within.collect::<Option<Vec<_>>>();
+    let spread = within.map(|within| {
+        let rows = within.iter().flat_map(DMatrix::row_iter).map(nalgebra::Matrix::into_owned);
+        DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
+    });
     Some(Found { spread, point, ..found.swap_remove(0) })
-}
-
-/// Matrices of as many columns, one above the other.
-fn stacked(parts: &[DMatrix<f64>]) -> DMatrix<f64> {
-    let rows = parts.iter().map(DMatrix::nrows).sum();
-    let mut all = DMatrix::zeros(rows, parts.first().map_or(0, DMatrix::ncols));
-    let mut first = 0;
-    for part in parts {
-        all.rows_mut(first, part.nrows()).copy_from(part);
-        first += part.nrows();
-    }
-    all
 }
 
 impl Found {
