@@ -26,6 +26,8 @@ MARGIN = 2e-3
 # Factors of a class; what they leave out is below what src/estimate/prior.rs adds.
 RANK = 16
 MUNSELL_SHARE = 0.79
+# Shares of classes are raised to that power: how often spectra are met is a guess, and nobody folds paint charts alone.
+SHARE_POWER = 0.7
 # What is of no kind: any smooth spectrum, of that standard deviation in logit, alike within so many nm.
 ANY_SHARE, ANY_SD, ANY_NM = 0.01, 1.2, 40
 
@@ -427,13 +429,14 @@ def main():
         of_kind = np.cov(logits.T, bias=True)
         for k in np.unique(label):
             rows.append(gaussian(logits[label == k], of_kind))
-            names.append(f"{name} {share * np.mean(label == k):.6f}\n")
+            names.append((name, share * np.mean(label == k)))
     together = np.vstack([logits for _, logits, *_ in kinds])
     mean = together.mean(0)
     rows.append(factored(mean, 1 + ANY_SD**2 * np.exp(-(((NM[:, None] - NM) / ANY_NM) ** 2))))
-    names.append(f"any {ANY_SHARE:.6f}\n")
+    names.append(("any", ANY_SHARE))
     rows.append(factored(mean, np.cov(together.T, bias=True)))
-    names.append("all 1\n")
+    total = sum(share**SHARE_POWER for _, share in names)
+    names = [f"{name} {share**SHARE_POWER / total:.6f}\n" for name, share in names] + ["all 1\n"]
     np.save(SHARE / "prior.npy", np.array(rows, dtype="<f2"))
     (SHARE / "prior.txt").write_text("".join(names))
 

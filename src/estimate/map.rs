@@ -10,8 +10,9 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use super::data::{FacetData, Residuals};
 use super::facets::{AboutMaximum, Facets, Second};
 use super::gaussian::logistic;
+use super::likely::{Likely, Minor, Start};
 use super::prior::Prior;
-use super::starts::{ITERATION_LIMIT, Likely, Minor, SORTING_TOLERANCE, Start, from_means};
+use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, from_means, quickly_from_means};
 use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -19,22 +20,26 @@ use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maxim
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
-/// Classes are told apart at these noises, relative to the brightest facet, or at the true one if that is larger. Far off the spectrum the
-/// coarse one leads to where the model is nearly linear; near it the fine one knows the class.
+/// Classes are told apart at these noises, relative to the brightest facet, or at the true one if that is larger: at the coarse one all spectra
+/// lead to where the model is nearly linear, at the fine one the likeliest class of these does.
 const SORTING_NOISE: f64 = 1e-3;
 const FINE_NOISE: f64 = 1e-5;
-/// Most iterations from the coarse noise to the fine one, and most classes that are tried because of it.
-const FINE_LIMIT: usize = 60;
-const FINE_TRIED: usize = 2;
-/// Most iterations of the searches under all classes that are tried: with all others about ten times what most spectra take, and where
-/// facets have noise, which may be of another scene than was told: no search that explains them comes near to that.
-const CLASSES_LIMIT: usize = 300;
+/// The search that leads there ends so near to its maximum, in standard deviations, or after so many iterations.
+const FINE_TOLERANCE: f64 = 0.01;
+const FINE_LIMIT: usize = 30;
+/// Most iterations of the searches under all classes that are tried: more than all but a few spectra take and, where facets have noise, which
+/// may be of another scene than was told, so many that no search that explains them comes near to that.
+const CLASSES_LIMIT: usize = 150;
 const NOISY_CLASSES_LIMIT: usize = 600;
-/// Maxima so many standard deviations from what chance has may be false. A true one leaves facets within so many times their noise
-/// (further off the scene is not the one that was photographed, and evidence says nothing), and has so much more evidence.
+/// Maxima so many standard deviations from what chance has may be false, of precise facets those beyond [`PRECISE_SURPRISE`] and those that a
+/// search took more than `LONG` iterations to: one from another start counts by its evidence if it leaves facets within so many times their
+/// noise (further off the scene is not the one that was photographed, and evidence says nothing).
 const SURPRISE: f64 = 3.0;
+const PRECISE_SURPRISE: f64 = 0.0;
+const LONG: usize = 12;
 const MISFIT_MOST: f64 = 1.1;
-const LN_EVIDENCE_MORE: f64 = 1.0;
+/// Most iterations of each of these searches, where facets are precise.
+const ANOTHER_LIMIT: usize = 20;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
@@ -102,7 +107,7 @@ pub fn glance(data: &FacetData, prior: &Prior) -> Option<Estimate> {
     let first = first_inflation(&all, &mean, 1.0);
     let found = maximise(&all, mean, (first, 1.0), GLANCE_TOLERANCE, GLANCE_LIMIT);
     match found.termination {
-        Termination::Converged { .. } => Some(Found::new(&all, &found, 0.0).into_estimate(data)),
+        Termination::Converged { .. } => Some(Found::new(&all, &found, 0.0, 1.0).into_estimate(data)),
         Termination::NoProgress { .. } | Termination::IterationLimit => None,
     }
 }
@@ -113,38 +118,68 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let start = start.map_or_else(|| DVector::zeros(all.unknowns()), |start| all.set_out_from(start));
     let [coarse, fine] = [SORTING_NOISE, FINE_NOISE].map(|noise| (noise * data.peak()).max(1.0));
     let first = first_inflation(&all, &start, coarse);
-    let mut sorted = maximise(&all, start, (first, coarse), SORTING_TOLERANCE, ITERATION_LIMIT);
+    let sorted = maximise(&all, start, (first, coarse), SORTING_TOLERANCE, ITERATION_LIMIT);
+    let mut trace = vec![sorted.trace.clone()];
+    let is_precise = fine < coarse;
     let mut likely = Likely::new(&all, &sorted.w, prior, coarse);
-    let mut starts = likely.as_ref().map_or_else(Vec::new, Likely::starts);
-    if fine < coarse && !starts.is_empty() {
-        let finer = maximise(&all, sorted.w.clone(), (coarse, fine), SORTING_TOLERANCE, FINE_LIMIT);
-        sorted.trace.extend(finer.trace);
-        likely = Likely::new(&all, &finer.w, prior, fine);
-        let more = likely.iter().flat_map(Likely::starts).take(FINE_TRIED);
-        let more: Vec<_> = more.filter(|new| starts.iter().all(|known| known.which != new.which)).collect();
-        starts.extend(more);
+    if is_precise && let Some(first) = likely.as_ref().and_then(Likely::first_start) {
+        likely = nearer(data, prior, first, fine, &mut trace).or(likely);
     }
-    let are_noisy = coarse.min(fine) <= 1.0;
-    let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
+    let starts = likely.as_ref().map_or_else(Vec::new, Likely::starts);
     // Evidence at a larger noise than the facets have is not to be weighed with.
-    let likely = likely.as_ref().filter(|_| are_noisy);
-    let minor = likely.map_or_else(Vec::new, |likely| likely.minor(&starts));
-    let near = maxima(data, starts, limit);
-    let far = if near.iter().all(Found::is_surprising) {
-        maxima(data, from_means(data, prior, coarse), limit)
-    } else {
-        Vec::new()
-    };
-    let runs = near.iter().chain(&far).flat_map(|found| found.trace.clone());
-    let trace = std::iter::once(sorted.trace.clone()).chain(runs).collect();
-    let (found, beside) = if near.is_empty() || is_truer(&far, &near) {
-        (far, Vec::new())
-    } else {
-        let counts = near.iter().any(Found::explains);
-        (near, minor.iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect())
-    };
-    let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
+    let are_noisy = coarse.min(fine) <= 1.0;
+    let minor = likely.iter().filter(|_| are_noisy).flat_map(|likely| likely.minor(&starts));
+    let minor: Vec<_> = minor.collect();
+    let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
+    let mut found = maxima(data, starts, limit);
+    if found.is_empty() || is_doubtful(&found, !are_noisy) {
+        let (starts, limit) = if are_noisy || likely.is_none() {
+            (from_means(data, prior, coarse), limit)
+        } else {
+            let nearer = |start| nearer(data, prior, start, fine, &mut trace)?.first_start();
+            let starts: Vec<_> =
+                quickly_from_means(data, prior, coarse).into_iter().filter_map(nearer).collect();
+            let limit = ANOTHER_LIMIT * starts.len();
+            (starts, limit)
+        };
+        let mut more = maxima(data, starts, limit);
+        if !found.is_empty() {
+            more.retain(Found::explains);
+        }
+        found.extend(more);
+    }
+    trace.extend(found.iter().flat_map(|found| found.trace.clone()));
+    let counts = found.iter().any(Found::explains);
+    let beside: Vec<_> = minor.iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect();
+    let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0, 1.0));
     Found { trace, ..best }
+}
+
+/// Classes about the maximum under one of them at a finer noise; none if the search does not come to its end.
+fn nearer<'a>(
+    data: &FacetData,
+    prior: &'a Prior,
+    start: Start,
+    fine: f64,
+    trace: &mut Vec<Vec<Iteration>>,
+) -> Option<Likely<'a>> {
+    let facets = Facets { data, gaussian: &start.gaussian };
+    let found = maximise(&facets, start.w, (start.inflation, fine), FINE_TOLERANCE, FINE_LIMIT);
+    trace.push(found.trace);
+    match found.termination {
+        Termination::Converged { .. } => Likely::new(&facets, &found.w, prior, fine),
+        Termination::NoProgress { .. } | Termination::IterationLimit => None,
+    }
+}
+
+/// Whether another maximum may have more evidence than those that were found: facets that are precise show it already where the search was
+/// long.
+fn is_doubtful(found: &[Found], is_precise: bool) -> bool {
+    if !is_precise {
+        return found.iter().all(|found| found.surprise > SURPRISE);
+    }
+    let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
+    most.is_none_or(|most| most.surprise > PRECISE_SURPRISE || most.iterations() > LONG)
 }
 
 /// The maxima under classes, all in at most `limit` iterations.
@@ -154,17 +189,9 @@ fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> Vec<Found> {
         let facets = Facets { data, gaussian: &start.gaussian };
         let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, limit);
         let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
-        Found::new(&facets, &solution, evidence)
+        Found::new(&facets, &solution, evidence, start.wider)
     };
     starts.into_iter().map(maximum).collect()
-}
-
-/// Whether the maxima `near` were false: `far` there is one that explains the facets, and has more evidence than any of them.
-fn is_truer(far: &[Found], near: &[Found]) -> bool {
-    let most =
-        |found: &[Found]| found.iter().map(|found| found.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
-    let least = most(near) + LN_EVIDENCE_MORE;
-    far.iter().any(|found| found.explains() && found.ln_evidence > least)
 }
 
 /// The maximum under one class.
@@ -267,7 +294,7 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
 }
 
 impl Found {
-    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
+    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64, wider: f64) -> Self {
         let (_, unknowns) = facets.split(&solution.w);
         let Second { reflectance, exposure, .. } = &solution.at.second;
         let unknowns: Vec<(f64, f64)> = facets
@@ -286,7 +313,7 @@ impl Found {
         Self {
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: about.spread(&prior_sd, widened(residual_rms)),
+            spread: about.spread(&prior_sd, widened(residual_rms), wider),
             prior_sd,
             residual_rms,
             surprise: solution.surprise(),
@@ -301,9 +328,8 @@ impl Found {
         self.residual_rms < MISFIT_MOST
     }
 
-    /// Whether it is not what chance has.
-    fn is_surprising(&self) -> bool {
-        self.surprise > SURPRISE
+    fn iterations(&self) -> usize {
+        self.trace.iter().map(Vec::len).sum()
     }
 
     /// An unknown of the scene beyond its range, and the end of that.
@@ -341,7 +367,7 @@ impl Found {
             exposure,
             residual_rms: self.residual_rms,
             unexplained: self.unexplained,
-            iterations: self.trace.iter().map(|run| run.len() as u32).sum(),
+            iterations: self.iterations() as u32,
             trace: self.trace,
             termination: self.termination,
         }

@@ -10,6 +10,7 @@ pub mod data;
 mod facets;
 pub mod gaussian;
 pub mod khan;
+mod likely;
 pub mod map;
 pub mod measured;
 pub mod noise;
@@ -77,7 +78,8 @@ pub struct Estimate {
     pub unexplained: f64,
     /// Iterations.
     pub iterations: u32,
-    /// What happened in them, by runs: under all spectra, then under each class that was tried. Empty from a method that keeps no trace.
+    /// What happened in them, by runs: under all spectra, under the likeliest class to where classes are told apart, then under each class that
+    /// was tried. Empty from a method that keeps no trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,

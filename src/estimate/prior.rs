@@ -1,6 +1,8 @@
 //! What is known of reflectances before a picture is taken.
 
-use nalgebra::{DMatrix, RowDVector};
+use std::sync::{Arc, OnceLock};
+
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::built_in::{TabledClass, classes_on};
 use super::classes::{divide, moments, shrunk};
@@ -15,16 +17,20 @@ const MATERN_SD: f64 = 0.25;
 /// it falls by e within the decay.
 const MIDDLE_SD: f64 = 0.18;
 const VIOLET_SD: f64 = 0.3;
-const RED_SD: f64 = 0.2;
+const RED_SD: f64 = 0.1;
 const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;
+
+/// How many times what is usual a spectrum may do beyond its class, and how often: some are smoother than others, whatever their class.
+pub const ROUGHNESSES: [(f64, f64); 2] = [(0.75, 0.65), (1.7, 0.35)];
 
 /// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all classes together.
 #[derive(Clone, Debug)]
 pub struct Prior {
     broad: Gaussian,
     classes: Vec<Class>,
+    beyond: Arc<DMatrix<f64>>,
 }
 
 /// One class of spectra.
@@ -32,8 +38,48 @@ pub struct Prior {
 pub struct Class {
     /// Logarithm of its share of all spectra.
     pub ln_share: f64,
-    /// Its spectra.
-    pub gaussian: Gaussian,
+    mean: DVector<f64>,
+    own: DMatrix<f64>,
+    beyond: Arc<DMatrix<f64>>,
+    /// Made where they are asked for first: most classes never are.
+    usual: OnceLock<Gaussian>,
+    rough: [OnceLock<Gaussian>; ROUGHNESSES.len()],
+}
+
+impl Class {
+    fn new(ln_share: f64, mean: DVector<f64>, own: DMatrix<f64>, beyond: &Arc<DMatrix<f64>>) -> Self {
+        let (beyond, usual, rough) = (Arc::clone(beyond), OnceLock::new(), Default::default());
+        Self { ln_share, mean, own, beyond, usual, rough }
+    }
+
+    /// Mean logit in every waveband.
+    #[must_use]
+    pub fn mean(&self) -> &DVector<f64> {
+        &self.mean
+    }
+
+    /// Waveband by factor; its product with its transpose is the covariance of the class, without what its spectra do beyond it.
+    #[must_use]
+    pub fn own(&self) -> &DMatrix<f64> {
+        &self.own
+    }
+
+    /// Its spectra, if they do as much beyond the class as is usual.
+    #[must_use]
+    pub fn gaussian(&self) -> &Gaussian {
+        self.usual.get_or_init(|| self.as_rough_as(1.0))
+    }
+
+    /// Its spectra at one of the [`ROUGHNESSES`].
+    #[must_use]
+    pub fn rough(&self, roughness: usize) -> &Gaussian {
+        self.rough[roughness].get_or_init(|| self.as_rough_as(ROUGHNESSES[roughness].0))
+    }
+
+    fn as_rough_as(&self, roughness: f64) -> Gaussian {
+        let beyond = roughness.powi(2) * &*self.beyond;
+        Gaussian::new(self.mean.clone(), &(&self.own * self.own.transpose() + beyond))
+    }
 }
 
 impl Prior {
@@ -54,17 +100,13 @@ impl Prior {
         let Some(all) = table.pop() else {
             return Err(Error::Numeric("the table of the built-in prior is empty".to_owned()));
         };
-        let gaussian = |mean, factors: &DMatrix<f64>, beyond: &DMatrix<f64>| {
-            Gaussian::new(mean, &(factors * factors.transpose() + beyond))
-        };
-        let beyond = beyond_class(wavelengths_nm);
-        let class = |TabledClass { ln_share, mean, factors }| Class {
-            ln_share,
-            gaussian: gaussian(mean, &factors, &beyond),
-        };
+        let beyond = Arc::new(beyond_class(wavelengths_nm));
+        let class = |TabledClass { ln_share, mean, factors }| Class::new(ln_share, mean, factors, &beyond);
+        let of_all = &all.factors * all.factors.transpose() + matern(wavelengths_nm);
         Ok(Self {
-            broad: gaussian(all.mean, &all.factors, &matern(wavelengths_nm)),
+            broad: Gaussian::new(all.mean, &of_all),
             classes: table.into_iter().map(class).collect(),
+            beyond,
         })
     }
 
@@ -89,7 +131,7 @@ impl Prior {
             )));
         }
         let (logits, matern) = (logits_of(spectra), matern(wavelengths_nm));
-        let beyond = beyond_class(wavelengths_nm);
+        let beyond = Arc::new(beyond_class(wavelengths_nm));
         let classes = classes.map_or_else(|| divide(&logits, &matern), <[usize]>::to_vec);
         if classes.len() != spectra.len() {
             return Err(Error::Numeric(format!("{} classes for {} spectra", classes.len(), spectra.len())));
@@ -99,14 +141,15 @@ impl Prior {
             let count = members.len() as f64;
             let (mean, own) =
                 moments(&logits.select_columns(&members), &RowDVector::from_element(members.len(), 1.0));
-            let gaussian = Gaussian::new(mean, &(shrunk(&own, count, &covariance) + &beyond));
-            Class { ln_share: (count / spectra.len() as f64).ln(), gaussian }
+            let own = factor(&shrunk(&own, count, &covariance));
+            Class::new((count / spectra.len() as f64).ln(), mean, own, &beyond)
         };
         let last = classes.iter().copied().max().unwrap_or(0);
         let members = |k| (0..classes.len()).filter(|n| classes[*n] == k).collect::<Vec<_>>();
         Ok(Self {
             broad: Gaussian::new(mean, &(&covariance + &matern)),
             classes: (0..=last).map(members).filter(|members| !members.is_empty()).map(class).collect(),
+            beyond,
         })
     }
 
@@ -120,6 +163,12 @@ impl Prior {
     #[must_use]
     pub fn classes(&self) -> &[Class] {
         &self.classes
+    }
+
+    /// Covariance of what spectra usually do beyond their class, waveband by waveband.
+    #[must_use]
+    pub fn beyond(&self) -> &DMatrix<f64> {
+        &self.beyond
     }
 }
 
@@ -138,6 +187,11 @@ fn logits_of(spectra: &[Vec<f64>]) -> DMatrix<f64> {
 fn matern(wavelengths_nm: &[f64]) -> DMatrix<f64> {
     let bands = wavelengths_nm.len();
     DMatrix::from_fn(bands, bands, |i, j| matern_5_2(wavelengths_nm[i] - wavelengths_nm[j]))
+}
+
+/// A factor of a covariance, as few columns as matter.
+fn factor(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    Gaussian::new(DVector::zeros(covariance.nrows()), covariance).basis().clone()
 }
 
 /// Covariance of what spectra do beyond their class.
@@ -162,8 +216,6 @@ fn matern_5_2(distance_nm: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DVector;
-
     use super::*;
 
     #[test]

@@ -25,13 +25,13 @@ struct Bounds {
 
 #[rustfmt::skip]
 const BOUNDS: [Bounds; 8] = [
-    Bounds { picture: "a", facets_percent: 0.2, known: [0.0114, 0.046], free: [0.0119, 0.106], fitted: [0.0063, 0.051] },
+    Bounds { picture: "a", facets_percent: 0.2, known: [0.0114, 0.046], free: [0.0119, 0.106], fitted: [0.0138, 0.302] },
     Bounds { picture: "b", facets_percent: 0.5, known: [0.0315, 0.407], free: [0.0181, 0.678], fitted: [0.0086, 0.428] },
     Bounds { picture: "c", facets_percent: 0.5, known: [0.0373, 0.372], free: [0.0366, 0.584], fitted: [0.0396, 0.740] },
     Bounds { picture: "d", facets_percent: 0.5, known: [0.0181, 0.778], free: [0.0188, 0.728], fitted: [0.0279, 0.834] },
     Bounds { picture: "e", facets_percent: 0.5, known: [0.0253, 0.261], free: [0.0324, 0.584], fitted: [0.0144, 1.52] },
     Bounds { picture: "f", facets_percent: 0.6, known: [0.099, 1.23], free: [0.051, 0.624], fitted: [0.051, 0.626] },
-    Bounds { picture: "h", facets_percent: 0.2, known: [0.0075, 0.038], free: [0.0077, 0.051], fitted: [0.0081, 0.084] },
+    Bounds { picture: "h", facets_percent: 0.2, known: [0.0124, 0.038], free: [0.0124, 0.090], fitted: [0.0124, 0.176] },
     Bounds { picture: "g", facets_percent: 0.5, known: [0.0092, 0.078], free: [0.0092, 0.083], fitted: [0.0077, 0.095] },
 ];
 

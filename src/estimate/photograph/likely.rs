@@ -7,13 +7,13 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::joint::JointModel;
 use super::kinds::Kind;
 use crate::estimate::gaussian::Gaussian;
+use crate::estimate::likely::SCALES;
 use crate::estimate::prior::{Class, Prior};
-use crate::estimate::starts::SCALES;
 use crate::solve::Eigen;
 use crate::solve::posterior::{Model, Solution};
 
 /// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
-const SHARE_POWER: f64 = 0.25;
+const SHARE_POWER: f64 = 0.36;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
@@ -100,7 +100,7 @@ impl About {
             prior.classes().iter().flat_map(|class| SCALES.map(|(scale, share)| (class, scale, share)));
         let likely = |(class, scale, share): (&'a Class, f64, f64)| {
             let ln_share = SHARE_POWER * class.ln_share + share.ln();
-            let ln_evidence = ln_evidence + ln_share + about.ln_evidence(&class.gaussian, scale)? - of_all;
+            let ln_evidence = ln_evidence + ln_share + about.ln_evidence(class.gaussian(), scale)? - of_all;
             Some(Likely { kind, class, scale, ln_share, ln_evidence, about: Rc::clone(&about) })
         };
         Some(pairs.filter_map(likely).collect())

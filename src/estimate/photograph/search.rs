@@ -110,7 +110,7 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
     let skipped_searches = searches - likely.len();
     let mut maxima = Vec::new();
     for Likely { kind, class, scale, ln_share, about, .. } in likely {
-        let gaussian = class.gaussian.scaled(scale);
+        let gaussian = class.gaussian().scaled(scale);
         let model = JointModel::new(&photographs, kind, &gaussian);
         let start = about.start(&model, &gaussian).ok_or_else(not_finite)?;
         let found = search(&model, start, TOLERANCE, LIMIT);
@@ -218,7 +218,7 @@ impl Maximum {
 impl Beside {
     /// Where the linear model has the maximum; the evidence is less than at the true one, by what that model is off.
     fn of(photographs: &[Photograph], pair: &Likely) -> Option<Self> {
-        let gaussian = pair.class.gaussian.scaled(pair.scale);
+        let gaussian = pair.class.gaussian().scaled(pair.scale);
         let model = JointModel::new(photographs, pair.kind, &gaussian);
         let LinearMaximum { w, cost } = pair.about.maximum(&gaussian)?;
         let off = model.residuals(&w).norm_squared() + w.norm_squared() - cost;
