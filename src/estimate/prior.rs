@@ -249,6 +249,19 @@ mod tests {
     }
 
     #[test]
+    fn a_rough_class_has_more_beyond_it() {
+        let prior = Prior::built_in(&[400.0, 450.0, 550.0, 650.0, 700.0]).unwrap();
+        let class = &prior.classes()[3];
+        let own = class.own() * class.own().transpose();
+        let gaussians = ROUGHNESSES.iter().enumerate().map(|(n, (times, _))| (*times, class.rough(n)));
+        for (times, gaussian) in gaussians.chain([(1.0, class.gaussian())]) {
+            let covariance = gaussian.basis() * gaussian.basis().transpose();
+            let want = &own + times.powi(2) * prior.beyond();
+            assert!((covariance - want).amax() < 1e-3 && gaussian.mean() == class.mean(), "{times}");
+        }
+    }
+
+    #[test]
     fn one_spectrum_is_no_prior() {
         assert!(Prior::from_spectra(&[400.0, 500.0], &[vec![0.1, 0.2]], None).is_err());
     }

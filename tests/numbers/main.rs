@@ -10,6 +10,7 @@ mod clear_sky;
 mod colorimetry;
 #[path = "../common/mod.rs"]
 mod common;
+mod false_maxima;
 mod image_facets;
 mod image_files;
 mod image_refine;
