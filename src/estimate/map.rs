@@ -1,7 +1,7 @@
 //! The default: the expected spectrum, given the facets and what is known of reflectances.
 //!
 //! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Newton's method finds the maximum in whitened z under each class and width that the facets may belong to (`starts`). The estimate is
+//! Newton's method finds the maximum in whitened z under each class that the facets may belong to (`likely`, `starts`). The estimate is
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
