@@ -30,16 +30,17 @@ impl Channels {
         let mut parts = DMatrix::zeros(self.len(), self.sources());
         self.each_part(|rows, source, compressed, weights| {
             let mut part = parts.view_mut((rows.start, source), (rows.len(), 1));
-            part.gemm(1.0, compressed, &(terms * weights), 0.0);
+            part.gemm(1.0, compressed, &terms.tr_mul(weights), 0.0);
         });
         parts
     }
 
     /// Sum of the sources in these amounts, per waveband, and `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
-        let mut columns = DMatrix::zeros(self.len(), terms.ncols() + more);
+        let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
+        let terms = terms.transpose();
         self.each_part(|rows, source, compressed, weights| {
-            let mut part = compressed * terms;
+            let mut part = compressed * &terms;
             part.column_iter_mut()
                 .zip(weights.iter())
                 .for_each(|(mut column, weight)| column *= amounts[source] * weight);
@@ -56,10 +57,10 @@ impl Channels {
         of_terms: &DMatrix<f64>,
         amounts: &DVector<f64>,
     ) -> DVector<f64> {
-        let mut along = DVector::zeros(of_terms.ncols());
+        let mut along = DVector::zeros(of_terms.nrows());
         self.each_part(|rows, source, compressed, weights| {
             let by_term = amounts[source] * compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
-            along += of_terms.tr_mul(&by_term).component_mul(weights);
+            along += (of_terms * by_term).component_mul(weights);
         });
         along
     }

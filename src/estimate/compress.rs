@@ -34,7 +34,7 @@ pub fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
     // 37 shares no factor with the usual numbers of wavebands.
     let place = |band: usize| (37 * band % bands) as f64 + 0.5;
     let chebyshev = |band: usize| (std::f64::consts::FRAC_PI_2 * place(band) / bands as f64).sin().powi(2);
-    model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>())
+    model.terms_of(&(0..bands).map(chebyshev).collect::<Vec<_>>()).transpose()
 }
 
 /// Rotates data and models to the directions that reflectance can move by more than the noise.

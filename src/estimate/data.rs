@@ -208,7 +208,7 @@ impl<'a> FacetData<'a> {
         let values = &parts * &now;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
         let mut jacobian = self.channels.columns_of(&slopes, &now, by_unknown.ncols());
-        jacobian.columns_mut(slopes.ncols(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
+        jacobian.columns_mut(slopes.nrows(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
         jacobian *= exposure;
         let square = values.norm_squared().max(f64::MIN_POSITIVE);
         let (relative, sd) = match self.exposure {
@@ -238,7 +238,7 @@ impl<'a> FacetData<'a> {
             slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
             reflectance: at.exposure * self.channels.along(multipliers, &at.curvatures, &now),
             mixed: if mixed.is_empty() {
-                DMatrix::zeros(at.slopes.ncols(), 0)
+                DMatrix::zeros(at.slopes.nrows(), 0)
             } else {
                 DMatrix::from_columns(&mixed)
             },
@@ -262,10 +262,10 @@ impl<'a> FacetData<'a> {
 
     /// Sum over all facets and channels, per waveband.
     fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
-        let mut sum = DVector::zeros(terms.ncols());
+        let mut sum = DVector::zeros(terms.nrows());
         for channel in &self.channels.0 {
             for (source, weights) in channel.weights.iter().enumerate() {
-                sum += terms.tr_mul(&(amounts[source] * &self.sums.sources[source])).component_mul(weights);
+                sum += (terms * (amounts[source] * &self.sums.sources[source])).component_mul(weights);
             }
         }
         sum

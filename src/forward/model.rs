@@ -65,16 +65,17 @@ impl FacetModel {
         scaled
     }
 
-    /// The terms for a spectrum: term by waveband. Never `1/r`: black is a legal reflectance.
+    /// The terms for a spectrum: waveband by term. Never `1/r`: black is a legal reflectance.
     #[must_use]
     pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        self.terms.in_bands(0..reflectance.len(), reflectance, Family::value)
+        let [terms] = self.in_all_bands(reflectance, |family, r, g| [family.value(r, g)]);
+        terms
     }
 
     /// The terms with their first and second derivatives by reflectance.
     #[must_use]
     pub fn derivatives_of(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
-        self.terms.derivatives(reflectance)
+        self.in_all_bands(reflectance, Family::at)
     }
 
     /// RGB of every facet at exposure 1: facet by channel; of a fold in the order panel, row, column.
@@ -113,15 +114,24 @@ impl FacetModel {
         Some(self.sources.iter().map(of_source).sum())
     }
 
+    fn in_all_bands<const N: usize>(
+        &self,
+        reflectance: &[f64],
+        of: impl Fn(&Family, f64, f64) -> [f64; N],
+    ) -> [DMatrix<f64>; N] {
+        self.terms.in_bands(&(0..reflectance.len()).collect::<Vec<_>>(), reflectance, of)
+    }
+
     /// RGB of every facet, `of` being what a family makes of reflectance and pole.
     fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
         let bands = &self.seen_bands;
-        let terms = self.terms.in_bands(bands.iter().copied(), reflectance, of);
+        let reflectance: Vec<f64> = bands.iter().map(|band| reflectance[*band]).collect();
+        let [terms] = self.terms.in_bands(bands, &reflectance, |family, r, g| [of(family, r, g)]);
         let of_source = |source: &Source| {
             let camera = &source.camera;
             let weights =
                 DMatrix::from_fn(bands.len(), camera.channels(), |n, c| camera.channel(c)[bands[n]]);
-            &source.facets * (&terms * weights)
+            &source.facets * terms.tr_mul(&weights)
         };
         self.sources.iter().map(of_source).sum()
     }

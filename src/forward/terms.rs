@@ -73,34 +73,26 @@ impl Terms {
         blocks.into_iter().flatten()
     }
 
-    /// What `of` makes of every family, pole and waveband of `bands`: term by waveband.
-    pub fn in_bands(
+    /// What `of` makes of every family, pole and waveband of `bands`, `reflectance` being those of these: waveband by term.
+    pub fn in_bands<const N: usize>(
         &self,
-        bands: impl ExactSizeIterator<Item = usize>,
+        bands: &[usize],
         reflectance: &[f64],
-        of: impl Fn(&Family, f64, f64) -> f64,
-    ) -> DMatrix<f64> {
-        let mut all = DMatrix::zeros(self.count(), bands.len());
-        for (mut column, band) in all.column_iter_mut().zip(bands) {
-            for Block { first, family, poles } in self.blocks(band) {
-                for (value, g) in column.as_mut_slice()[first..].iter_mut().zip(poles) {
-                    *value = of(&family, reflectance[band], *g);
-                }
-            }
-        }
-        all
-    }
-
-    /// The terms with their first and second derivatives by reflectance.
-    pub fn derivatives(&self, reflectance: &[f64]) -> [DMatrix<f64>; 3] {
-        let mut all = [(); 3].map(|()| DMatrix::zeros(self.count(), reflectance.len()));
-        for (band, r) in reflectance.iter().enumerate() {
-            for Block { first, family, poles } in self.blocks(band) {
-                let [values, slopes, curvatures] =
-                    all.each_mut().map(|matrix| &mut matrix.column_mut(band).data.into_slice_mut()[first..]);
-                let targets = values.iter_mut().zip(slopes).zip(curvatures);
-                for (((value, slope), curvature), g) in targets.zip(poles) {
-                    [*value, *slope, *curvature] = family.at(*r, *g);
+        of: impl Fn(&Family, f64, f64) -> [f64; N],
+    ) -> [DMatrix<f64>; N] {
+        let mut all = [(); N].map(|()| DMatrix::zeros(bands.len(), self.count()));
+        // Wavebands of the same families and poles are one run, which the processor takes several of at once.
+        let run = if matches!(self, Self::One { .. }) { bands.len().max(1) } else { 1 };
+        for (n, (bands, reflectance)) in bands.chunks(run).zip(reflectance.chunks(run)).enumerate() {
+            for Block { first, family, poles } in self.blocks(bands[0]) {
+                for (term, g) in poles.iter().enumerate() {
+                    let mut columns = all.each_mut().map(|matrix| {
+                        &mut matrix.column_mut(first + term).data.into_slice_mut()[n * run..][..bands.len()]
+                    });
+                    for (row, r) in reflectance.iter().enumerate() {
+                        let values = of(&family, *r, *g);
+                        columns.iter_mut().zip(values).for_each(|(column, value)| column[row] = value);
+                    }
                 }
             }
         }
