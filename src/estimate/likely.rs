@@ -40,6 +40,8 @@ pub struct Start {
     pub class: usize,
     /// Factor by which the noise was inflated where it was found.
     pub inflation: f64,
+    /// Logarithm of the evidence for the class and of its share, where it was found.
+    pub ln_evidence: f64,
     /// Logarithm of its share of all spectra, as if all of them were as wide as `gaussian`.
     pub ln_share: f64,
     /// Its spectra, at the width of most evidence.
@@ -163,8 +165,8 @@ impl<'a> Likely<'a> {
     fn start(&self, one: &Weighed) -> Option<Start> {
         let gaussian = self.gaussian(one);
         let (w, _) = self.posterior(one, &gaussian)?;
-        let Weighed { class, wider, ln_share, .. } = *one;
-        Some(Start { class, inflation: self.inflation, ln_share, gaussian, wider, w })
+        let Weighed { class, wider, ln_evidence, ln_share, .. } = *one;
+        Some(Start { class, inflation: self.inflation, ln_evidence, ln_share, gaussian, wider, w })
     }
 
     /// The mean of the linear posterior, as a point.

@@ -12,7 +12,7 @@ use super::facets::{AboutMaximum, Facets, Second};
 use super::gaussian::logistic;
 use super::likely::{Likely, Minor, Start};
 use super::prior::Prior;
-use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, from_means, quickly_from_means};
+use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, between_means, from_means};
 use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -29,7 +29,7 @@ const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
 /// Most iterations of the searches under all classes that are tried: more than all but a few spectra take and, where facets have noise, which
 /// may be of another scene than was told, so many that no search that explains them comes near to that.
-const CLASSES_LIMIT: usize = 150;
+const CLASSES_LIMIT: usize = 60;
 const NOISY_CLASSES_LIMIT: usize = 600;
 /// Maxima so many standard deviations from what chance has may be false, of precise facets those beyond [`PRECISE_SURPRISE`] and those that a
 /// search took more than `LONG` iterations to: one from another start counts by its evidence if it leaves facets within so many times their
@@ -39,7 +39,7 @@ const PRECISE_SURPRISE: f64 = 0.0;
 const LONG: usize = 12;
 const MISFIT_MOST: f64 = 1.1;
 /// Most iterations of each of these searches, where facets are precise.
-const ANOTHER_LIMIT: usize = 20;
+const ANOTHER_LIMIT: usize = 15;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
@@ -134,11 +134,9 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let mut found = maxima(data, starts, limit);
     if found.is_empty() || is_doubtful(&found, !are_noisy) {
         let (starts, limit) = if are_noisy || likely.is_none() {
-            (from_means(data, prior, coarse), limit)
+            (from_means(data, prior, coarse), NOISY_CLASSES_LIMIT)
         } else {
-            let nearer = |start| nearer(data, prior, start, fine, &mut trace)?.first_start();
-            let starts: Vec<_> =
-                quickly_from_means(data, prior, coarse).into_iter().filter_map(nearer).collect();
+            let starts = between_means(data, prior, [coarse, fine], &mut trace);
             let limit = ANOTHER_LIMIT * starts.len();
             (starts, limit)
         };
