@@ -75,9 +75,9 @@ pub struct AboutMaximum<'a> {
 }
 
 impl AboutMaximum<'_> {
-    /// Laplace's covariance as a factor, `widened` times as wide and that of the spectrum `wider` than that, carried from whitened logits to
-    /// reflectances, unknowns and exposure. None if the model was not finite.
-    pub fn spread(&self, by_unknown: &[f64], widened: f64, wider: f64) -> Option<DMatrix<f64>> {
+    /// Laplace's covariance as a factor, `widened` times as wide, carried from whitened logits to reflectances, unknowns and exposure. None
+    /// if the model was not finite.
+    pub fn spread(&self, by_unknown: &[f64], widened: f64) -> Option<DMatrix<f64>> {
         let (bands, coordinates) = self.gaussian.basis().shape();
         let point = bands + by_unknown.len() + 1;
         // Derivatives of the point by what is whitened: point by both.
@@ -96,7 +96,6 @@ impl AboutMaximum<'_> {
         spread[(rows, point - 1)] = self.exposure.sd;
         spread *= widened;
         for (mut column, z) in spread.column_iter_mut().zip(self.logit) {
-            column *= wider;
             column *= mean_slope(*z, column.norm());
         }
         Some(spread)

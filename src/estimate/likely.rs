@@ -30,9 +30,6 @@ pub const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 
 /// the logarithm of a share of its evidence.
 const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
 const LN_EVIDENCE_NEAR: f64 = -6.0;
-/// Error bars are wider by that power of how many times the width of most evidence the geometric mean of all widths is. With all of it bars are
-/// too wide for spectra like the chips, with none too narrow for sets that no class was made for.
-const WIDER: f64 = 0.25;
 
 /// A class that the facets may belong to, and where to set out under it.
 pub struct Start {
@@ -46,8 +43,6 @@ pub struct Start {
     pub ln_share: f64,
     /// Its spectra, at the width of most evidence.
     pub gaussian: Gaussian,
-    /// How many times as wide its error bars are, as the facets leave other widths possible.
-    pub wider: f64,
     pub w: DVector<f64>,
 }
 
@@ -56,8 +51,6 @@ pub struct Minor<'a> {
     pub logit: DVector<f64>,
     pub unknowns: DVector<f64>,
     gaussian: Gaussian,
-    /// As [`Start::wider`].
-    wider: f64,
     linear: &'a LinearModel,
     /// Logarithm of its evidence and share, without the misfit of the facets.
     pub ln_evidence_of_fit: f64,
@@ -72,7 +65,7 @@ impl Minor<'_> {
             jacobian: &whitened(&self.linear.jacobian, &self.gaussian),
             exposure: &self.linear.exposure,
         };
-        about.spread(by_unknown, widened, self.wider)
+        about.spread(by_unknown, widened)
     }
 }
 
@@ -93,8 +86,6 @@ struct Weighed {
     width: Width,
     /// Logarithm of the evidence for the class and of its share, at all widths.
     ln_evidence: f64,
-    /// As [`Start::wider`].
-    wider: f64,
     /// Logarithm of the share that the class would have if all its spectra were of that width.
     ln_share: f64,
     facets: LinearClass,
@@ -111,11 +102,6 @@ impl Width {
     fn all() -> impl Iterator<Item = Self> {
         let of_scale = |scale| (0..ROUGHNESSES.len()).map(move |roughness| Self { scale, roughness });
         (0..SCALES.len()).flat_map(of_scale)
-    }
-
-    /// Standard deviation of what spectra do beyond the class, in units of what is usual.
-    fn beyond(self) -> f64 {
-        SCALES[self.scale].0 * ROUGHNESSES[self.roughness].0
     }
 
     fn ln_share(self) -> f64 {
@@ -165,8 +151,8 @@ impl<'a> Likely<'a> {
     fn start(&self, one: &Weighed) -> Option<Start> {
         let gaussian = self.gaussian(one);
         let (w, _) = self.posterior(one, &gaussian)?;
-        let Weighed { class, wider, ln_evidence, ln_share, .. } = *one;
-        Some(Start { class, inflation: self.inflation, ln_evidence, ln_share, gaussian, wider, w })
+        let Weighed { class, ln_evidence, ln_share, .. } = *one;
+        Some(Start { class, inflation: self.inflation, ln_evidence, ln_share, gaussian, w })
     }
 
     /// The mean of the linear posterior, as a point.
@@ -178,7 +164,6 @@ impl<'a> Likely<'a> {
             logit: gaussian.logit_at(&w.rows(0, coordinates).into_owned()),
             unknowns: w.rows(coordinates, w.len() - coordinates).into_owned(),
             gaussian,
-            wider: one.wider,
             linear: &self.linear,
             ln_evidence_of_fit: one.ln_share - 0.5 * (w.norm_squared() + ln_determinant),
         })
@@ -207,10 +192,9 @@ fn weighed(linear: &LinearModel, prior: &Prior) -> Vec<Weighed> {
     let most = first.iter().map(|(ln_evidence, ..)| *ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let near = first.into_iter().filter(|(ln_evidence, ..)| *ln_evidence >= most + LN_EVIDENCE_NEAR);
     let weighed = near.filter_map(|(_, class, facets)| {
-        let OfWidths { ln_evidence, width, wider, ln_of_width } =
-            facets.of_most_evidence(linear, Width::all())?;
+        let OfWidths { ln_evidence, width, ln_of_width } = facets.of_most_evidence(linear, Width::all())?;
         let ln_evidence = prior.classes()[class].ln_share + ln_evidence;
-        Some(Weighed { class, width, wider, ln_evidence, ln_share: ln_evidence - ln_of_width, facets })
+        Some(Weighed { class, width, ln_evidence, ln_share: ln_evidence - ln_of_width, facets })
     });
     let mut weighed: Vec<_> = weighed.collect();
     weighed.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
@@ -285,8 +269,6 @@ struct OfWidths {
     /// The width of most evidence, and the logarithm of its evidence alone.
     width: Width,
     ln_of_width: f64,
-    /// As [`Start::wider`].
-    wider: f64,
 }
 
 impl LinearClass {
@@ -329,14 +311,7 @@ impl LinearClass {
         };
         let all: Vec<_> = widths.filter_map(weighed).collect();
         let &(most, ln_of_width, width) = all.iter().max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
-        let odds = || all.iter().map(|(ln_evidence, _, width)| ((ln_evidence - most).exp(), width));
-        let sum: f64 = odds().map(|(odds, _)| odds).sum();
-        let ln_widths: f64 = odds().map(|(odds, other)| odds * (other.beyond() / width.beyond()).ln()).sum();
-        Some(OfWidths {
-            ln_evidence: most + sum.ln(),
-            width,
-            ln_of_width,
-            wider: (WIDER * ln_widths / sum).exp().max(1.0),
-        })
+        let sum: f64 = all.iter().map(|(ln_evidence, ..)| (ln_evidence - most).exp()).sum();
+        Some(OfWidths { ln_evidence: most + sum.ln(), width, ln_of_width })
     }
 }

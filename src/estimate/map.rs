@@ -12,7 +12,7 @@ use super::facets::{AboutMaximum, Facets, Second};
 use super::gaussian::logistic;
 use super::likely::{Likely, Minor, Start};
 use super::prior::Prior;
-use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, between_means, from_means};
+use super::starts::{APART, ITERATION_LIMIT, SORTING_TOLERANCE, between_means, from_means};
 use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::solve::Termination;
@@ -45,6 +45,8 @@ const ANOTHER_LIMIT: usize = 15;
 const GLANCE_TOLERANCE: f64 = 0.3;
 const GLANCE_LIMIT: usize = 60;
 const FURTHEST: f64 = 2.0;
+/// Error bars believe the evidence for a class to that power: it is of Gaussians, and the sheets that a class was made of are not all there are.
+const BELIEF: f64 = 0.75;
 /// The share of the mean from which on the error bars of a class that was not searched are found: that takes as long as a step.
 const LEAST_SHARE: f64 = 0.03;
 /// By how many times [`least_misfit`] may be too much: of computed facets, glossy and not, it is by 1.15 for the ColorChecker at most, and by
@@ -107,7 +109,7 @@ pub fn glance(data: &FacetData, prior: &Prior) -> Option<Estimate> {
     let first = first_inflation(&all, &mean, 1.0);
     let found = maximise(&all, mean, (first, 1.0), GLANCE_TOLERANCE, GLANCE_LIMIT);
     match found.termination {
-        Termination::Converged { .. } => Some(Found::new(&all, &found, 0.0, 1.0).into_estimate(data)),
+        Termination::Converged { .. } => Some(Found::new(&all, &found, 0.0).into_estimate(data)),
         Termination::NoProgress { .. } | Termination::IterationLimit => None,
     }
 }
@@ -140,16 +142,17 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
             let limit = ANOTHER_LIMIT * starts.len();
             (starts, limit)
         };
-        let mut more = maxima(data, starts, limit);
-        if !found.is_empty() {
-            more.retain(Found::explains);
+        let all_count = found.is_empty();
+        for one in maxima(data, starts, limit) {
+            if (all_count || one.explains()) && !found.iter().any(|other| one.is_again(other, data)) {
+                found.push(one);
+            }
         }
-        found.extend(more);
     }
     trace.extend(found.iter().flat_map(|found| found.trace.clone()));
     let counts = found.iter().any(Found::explains);
     let beside: Vec<_> = minor.iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect();
-    let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0, 1.0));
+    let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
 }
 
@@ -187,13 +190,15 @@ fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> Vec<Found> {
         let facets = Facets { data, gaussian: &start.gaussian };
         let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, limit);
         let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
-        Found::new(&facets, &solution, evidence, start.wider)
+        Found { class: Some(start.class), ..Found::new(&facets, &solution, evidence) }
     };
     starts.into_iter().map(maximum).collect()
 }
 
 /// The maximum under one class.
 struct Found {
+    /// The place of the class in the prior; none if that is of all spectra.
+    class: Option<usize>,
     ln_evidence: f64,
     /// Reflectances, unknowns in their own units, exposure.
     point: Vec<f64>,
@@ -254,32 +259,23 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
     // What was not searched counts for no more than the best that was.
-    let odds = |ln_evidence: f64| (ln_evidence - most.ln_evidence).min(0.0).exp();
-    let of_found: f64 = found.iter().map(|other| odds(other.ln_evidence)).sum();
-    // Without evidence all maxima count alike.
-    let (beside, own) = if of_found.is_finite() {
-        (beside, found.iter().map(|other| odds(other.ln_evidence) / of_found).collect())
-    } else {
-        (&[][..], vec![1.0 / found.len() as f64; found.len()])
-    };
-    let of_beside: Vec<f64> = beside.iter().map(|other| odds(other.ln_evidence) / of_found).collect();
-    let total = 1.0 + of_beside.iter().sum::<f64>();
-    let shares = || own.iter().chain(&of_beside).map(|odds| odds / total);
-    let points = || {
-        let points = found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
-        points.zip(shares())
-    };
+    let of_found = found.iter().map(|other| other.ln_evidence);
+    let of_all = of_found.chain(beside.iter().map(|other| other.ln_evidence));
+    let ln_odds: Vec<f64> = of_all.map(|ln_evidence| (ln_evidence - most.ln_evidence).min(0.0)).collect();
+    let points = || found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
     let mut point = vec![0.0; most.point.len()];
-    for (other, share) in points() {
+    for (other, share) in points().zip(shares(&ln_odds, 1.0)) {
         point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
-    let apart = points().map(|(other, share)| {
+    let doubtful = shares(&ln_odds, BELIEF);
+    let apart = points().zip(&doubtful).map(|(other, share)| {
         let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
         RowDVector::from_iterator(point.len(), apart)
     });
-    let counting = beside.iter().zip(shares().skip(found.len())).filter(|(_, share)| *share > LEAST_SHARE);
+    let of_beside = &doubtful[found.len()..];
+    let counting = beside.iter().zip(of_beside).filter(|(_, share)| **share > LEAST_SHARE);
     let counting: Vec<_> = counting.map(|(other, share)| (other.spread(), share)).collect();
-    let spreads = found.iter().map(|other| &other.spread).zip(shares());
+    let spreads = found.iter().map(|other| &other.spread).zip(&doubtful);
     let spreads = spreads.chain(counting.iter().map(|(spread, share)| (spread, *share)));
     let counted: f64 = spreads.clone().map(|(_, share)| share).sum();
     let within = spreads.map(|(spread, share)| Some((share / counted).sqrt() * spread.as_ref()?));
@@ -291,8 +287,15 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     Some(Found { spread, point, ..found.swap_remove(0) })
 }
 
+/// Shares by a power of the odds.
+fn shares(ln_odds: &[f64], power: f64) -> Vec<f64> {
+    let odds = || ln_odds.iter().map(|ln| (power * ln).exp());
+    let sum: f64 = odds().sum();
+    odds().map(|odds| odds / sum).collect()
+}
+
 impl Found {
-    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64, wider: f64) -> Self {
+    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
         let (_, unknowns) = facets.split(&solution.w);
         let Second { reflectance, exposure, .. } = &solution.at.second;
         let unknowns: Vec<(f64, f64)> = facets
@@ -309,9 +312,10 @@ impl Found {
         let (gaussian, (logit, _)) = (facets.gaussian, facets.split(&solution.w));
         let about = AboutMaximum { gaussian, logit: &logit, jacobian: &solution.at.jacobian, exposure };
         Self {
+            class: None,
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: about.spread(&prior_sd, widened(residual_rms), wider),
+            spread: about.spread(&prior_sd, widened(residual_rms)),
             prior_sd,
             residual_rms,
             surprise: solution.surprise(),
@@ -324,6 +328,13 @@ impl Found {
     /// Whether the facets are as near to it as their noise lets them be.
     fn explains(&self) -> bool {
         self.residual_rms < MISFIT_MOST
+    }
+
+    /// Whether it is the same maximum.
+    fn is_again(&self, other: &Self, data: &FacetData) -> bool {
+        let bands = data.scene().facets().bands();
+        let apart = self.point.iter().zip(&other.point).take(bands).map(|(a, b)| (a - b).powi(2));
+        self.class == other.class && apart.sum::<f64>() < APART * APART * bands as f64
     }
 
     fn iterations(&self) -> usize {

@@ -36,7 +36,7 @@ const PLACES: usize = 6;
 const SEARCHED: usize = 6;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 /// Spectra of a class are one if their root mean square difference is less.
-const APART: f64 = 0.005;
+pub const APART: f64 = 0.005;
 
 /// The classes of most evidence at the maximum that each class's mean leads to, the noise `inflation` times its size; all of them if so
 /// few channels do not tell classes apart.
@@ -106,7 +106,7 @@ fn at_maxima(
         let ln_share = of_prior.ln_share;
         let ln_evidence = ln_share + found.ln_evidence(last)?;
         let gaussian = of_prior.gaussian().clone();
-        let start = Start { class, inflation: last, ln_evidence, ln_share, gaussian, wider: 1.0, w: found.w };
+        let start = Start { class, inflation: last, ln_evidence, ln_share, gaussian, w: found.w };
         ln_evidence.is_finite().then_some(start)
     };
     let mut found: Vec<_> = nearest.into_iter().take(means).filter_map(of_class).collect();
