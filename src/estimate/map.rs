@@ -29,7 +29,7 @@ const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
 /// Most iterations of the searches under all classes that are tried: more than all but a few spectra take and, where facets have noise, which
 /// may be of another scene than was told, so many that no search that explains them comes near to that.
-const CLASSES_LIMIT: usize = 60;
+const CLASSES_LIMIT: usize = 90;
 const NOISY_CLASSES_LIMIT: usize = 600;
 /// Maxima so many standard deviations from what chance has may be false, of precise facets those beyond [`PRECISE_SURPRISE`] and those that a
 /// search took more than `LONG` iterations to: one from another start counts by its evidence if it leaves facets within so many times their
@@ -39,7 +39,9 @@ const PRECISE_SURPRISE: f64 = 0.0;
 const LONG: usize = 12;
 const MISFIT_MOST: f64 = 1.1;
 /// Most iterations of each of these searches, where facets are precise.
-const ANOTHER_LIMIT: usize = 15;
+const ANOTHER_LIMIT: usize = 20;
+/// The best search is carried on for so many iterations where none has come to the facets.
+const CARRIED_ON: usize = 80;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
@@ -142,18 +144,37 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
             let limit = ANOTHER_LIMIT * starts.len();
             (starts, limit)
         };
-        let all_count = found.is_empty();
-        for one in maxima(data, starts, limit) {
-            if (all_count || one.explains()) && !found.iter().any(|other| one.is_again(other, data)) {
-                found.push(one);
-            }
-        }
+        add(&mut found, data, maxima(data, starts, limit));
+    }
+    if !are_noisy && !found.iter().any(Found::explains) {
+        carry_on(&mut found, data);
     }
     trace.extend(found.iter().flat_map(|found| found.trace.clone()));
     let counts = found.iter().any(Found::explains);
     let beside: Vec<_> = minor.iter().filter(|_| counts).map(|minor| Beside::new(data, minor)).collect();
     let best = mean(found, &beside).unwrap_or_else(|| Found::new(&all, &sorted, 0.0));
     Found { trace, ..best }
+}
+
+/// Adds maxima that the facets allow, each once; all of them if there are no others.
+fn add(found: &mut Vec<Found>, data: &FacetData, more: Vec<Found>) {
+    let all_count = found.is_empty();
+    for one in more {
+        if (all_count || one.explains()) && !found.iter().any(|other| one.is_again(other, data)) {
+            found.push(one);
+        }
+    }
+}
+
+/// Carries on the search of most evidence.
+fn carry_on(found: &mut Vec<Found>, data: &FacetData) {
+    let most = (0..found.len()).max_by(|a, b| found[*a].ln_evidence.total_cmp(&found[*b].ln_evidence));
+    if let Some(Found { end: Some(end), trace, .. }) = most.map(|most| found.swap_remove(most)) {
+        let further = maxima(data, vec![end], CARRIED_ON).into_iter();
+        found.extend(
+            further.map(|further| Found { trace: [trace.clone(), further.trace].concat(), ..further }),
+        );
+    }
 }
 
 /// Classes about the maximum under one of them at a finer noise; none if the search does not come to its end.
@@ -188,17 +209,18 @@ fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> Vec<Found> {
     let limit = limit / starts.len().max(1);
     let maximum = |start: Start| {
         let facets = Facets { data, gaussian: &start.gaussian };
-        let solution = maximise(&facets, start.w, (start.inflation, 1.0), TOLERANCE, limit);
+        let solution = maximise(&facets, start.w.clone(), (start.inflation, 1.0), TOLERANCE, limit);
         let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
-        Found { class: Some(start.class), ..Found::new(&facets, &solution, evidence) }
+        let found = Found::new(&facets, &solution, evidence);
+        Found { end: Some(Start { w: solution.w, inflation: 1.0, ..start }), ..found }
     };
     starts.into_iter().map(maximum).collect()
 }
 
 /// The maximum under one class.
 struct Found {
-    /// The place of the class in the prior; none if that is of all spectra.
-    class: Option<usize>,
+    /// Where the search ended, under its class; none if that is of all spectra.
+    end: Option<Start>,
     ln_evidence: f64,
     /// Reflectances, unknowns in their own units, exposure.
     point: Vec<f64>,
@@ -312,7 +334,7 @@ impl Found {
         let (gaussian, (logit, _)) = (facets.gaussian, facets.split(&solution.w));
         let about = AboutMaximum { gaussian, logit: &logit, jacobian: &solution.at.jacobian, exposure };
         Self {
-            class: None,
+            end: None,
             ln_evidence,
             point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
             spread: about.spread(&prior_sd, widened(residual_rms)),
@@ -334,7 +356,8 @@ impl Found {
     fn is_again(&self, other: &Self, data: &FacetData) -> bool {
         let bands = data.scene().facets().bands();
         let apart = self.point.iter().zip(&other.point).take(bands).map(|(a, b)| (a - b).powi(2));
-        self.class == other.class && apart.sum::<f64>() < APART * APART * bands as f64
+        let class = |found: &Self| found.end.as_ref().map(|end| end.class);
+        class(self) == class(other) && apart.sum::<f64>() < APART * APART * bands as f64
     }
 
     fn iterations(&self) -> usize {

@@ -26,14 +26,16 @@ const NEAREST_INFLATION: f64 = 10.0;
 /// A quick search sets out from noise so many times that at which it ends, and ends after so many iterations.
 const QUICK_INFLATION: f64 = 10.0;
 const QUICK_LIMIT: usize = 6;
-/// So many quick searches are followed to a finer noise, as near to the maximum there as that, in most so many iterations.
+/// So many quick searches are followed to a finer noise, as near to the maximum there as that, in most so many iterations each and all
+/// together: where nothing comes to an end, no class is like the spectrum.
 const FOLLOWED: usize = 12;
 const FOLLOWED_TOLERANCE: f64 = 0.1;
 const FOLLOWED_LIMIT: usize = 30;
+const ALL_FOLLOWED_LIMIT: usize = 180;
 /// Classes are told apart at so many maxima, and so many are searched of those that come near to the best, as the logarithm of a share of its
 /// evidence.
-const PLACES: usize = 6;
-const SEARCHED: usize = 6;
+const PLACES: usize = 4;
+const SEARCHED: usize = 5;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 /// Spectra of a class are one if their root mean square difference is less.
 pub const APART: f64 = 0.005;
@@ -59,10 +61,12 @@ pub fn between_means(
     trace: &mut Vec<Vec<Iteration>>,
 ) -> Vec<Start> {
     let quick = at_maxima(data, prior, MEANS, (QUICK_INFLATION * coarse, coarse), QUICK_LIMIT);
+    let mut left = ALL_FOLLOWED_LIMIT;
     let follow = |start: Start| {
         let facets = Facets { data, gaussian: &start.gaussian };
         let noise = (start.inflation, fine);
-        let found = maximise(&facets, start.w, noise, FOLLOWED_TOLERANCE, FOLLOWED_LIMIT);
+        let found = maximise(&facets, start.w, noise, FOLLOWED_TOLERANCE, FOLLOWED_LIMIT.min(left));
+        left -= found.trace.len();
         let ln_evidence = start.ln_share + found.ln_evidence(fine)?;
         let is_found = matches!(found.termination, Termination::Converged { .. });
         trace.push(found.trace);
