@@ -275,8 +275,8 @@ fn widened(residual_rms: f64) -> f64 {
     residual_rms.max(1.0)
 }
 
-/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it; the rest is
-/// that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
+/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it, as far as
+/// evidence is believed; the rest is that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
 fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
@@ -289,15 +289,15 @@ fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     for (other, share) in points().zip(shares(&ln_odds, 1.0)) {
         point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
-    let doubtful = shares(&ln_odds, BELIEF);
-    let apart = points().zip(&doubtful).map(|(other, share)| {
+    let believed = shares(&ln_odds, BELIEF);
+    let apart = points().zip(&believed).map(|(other, share)| {
         let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
         RowDVector::from_iterator(point.len(), apart)
     });
-    let of_beside = &doubtful[found.len()..];
+    let of_beside = &believed[found.len()..];
     let counting = beside.iter().zip(of_beside).filter(|(_, share)| **share > LEAST_SHARE);
     let counting: Vec<_> = counting.map(|(other, share)| (other.spread(), share)).collect();
-    let spreads = found.iter().map(|other| &other.spread).zip(&doubtful);
+    let spreads = found.iter().map(|other| &other.spread).zip(&believed);
     let spreads = spreads.chain(counting.iter().map(|(spread, share)| (spread, *share)));
     let counted: f64 = spreads.clone().map(|(_, share)| share).sum();
     let within = spreads.map(|(spread, share)| Some((share / counted).sqrt() * spread.as_ref()?));

@@ -19,8 +19,8 @@ pub const SORTING_TOLERANCE: f64 = 0.01;
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
 /// Most iterations of a search that sorts.
 pub const ITERATION_LIMIT: usize = 500;
-/// Searches are from the means that come nearest to the facets, the noise being so many times that at which the searches end; from others,
-/// which take as long, none leads to more.
+/// Searches are from so many means that come nearest to the facets, the noise being so many times that at which the searches end: from all
+/// of them no fewer maxima are false.
 const MEANS: usize = 24;
 const NEAREST_INFLATION: f64 = 10.0;
 /// A quick search sets out from noise so many times that at which it ends, and ends after so many iterations.
@@ -40,8 +40,8 @@ const LN_EVIDENCE_NEAR: f64 = -10.0;
 /// Spectra of a class are one if their root mean square difference is less.
 pub const APART: f64 = 0.005;
 
-/// The classes of most evidence at the maximum that each class's mean leads to, the noise `inflation` times its size; all of them if so
-/// few channels do not tell classes apart.
+/// The classes of most evidence at the maxima that the means nearest to the facets lead to, the noise `inflation` times its size; all of them
+/// if so few channels do not tell classes apart.
 pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start> {
     let tell_apart = tell_classes(data);
     let means = if tell_apart { MEANS } else { usize::MAX };
@@ -52,8 +52,8 @@ pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start>
     found
 }
 
-/// The classes of most evidence at the maxima for the noise `fine` times its size that searches from the means lead to, which for the noise
-/// `coarse` times its size are not followed to their end.
+/// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse` times its size, then to the end
+/// where it is `fine` times.
 pub fn between_means(
     data: &FacetData,
     prior: &Prior,
