@@ -7,7 +7,7 @@ use super::gaussian::{Gaussian, logistic, mean_slope};
 use crate::solve::posterior::{Linearised, Model, information};
 
 /// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark sheet sends back some light of all
-/// wavelengths, whatever is beneath. From 0.003 to 0.01 error bars hold the more of what they say, set by set.
+/// wavelengths, whatever is beneath. With any value from 0.003 to 0.01 the shares that error bars hold differ less from set to set.
 const SURFACE: f64 = 0.006;
 
 /// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
