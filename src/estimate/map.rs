@@ -124,9 +124,10 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let first = first_inflation(&all, &start, coarse);
     let sorted = maximise(&all, start, (first, coarse), SORTING_TOLERANCE, ITERATION_LIMIT);
     let mut trace = vec![sorted.trace.clone()];
-    let is_precise = fine < coarse;
     let mut likely = Likely::new(&all, &sorted.w, prior, coarse);
-    if is_precise && let Some(first) = likely.as_ref().and_then(Likely::first_start) {
+    if fine < coarse
+        && let Some(first) = likely.as_ref().and_then(Likely::first_start)
+    {
         likely = nearer(data, prior, first, fine, &mut trace).or(likely);
     }
     let starts = likely.as_ref().map_or_else(Vec::new, Likely::starts);
@@ -276,7 +277,8 @@ fn widened(residual_rms: f64) -> f64 {
 }
 
 /// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it, as far as
-/// evidence is believed; the rest is that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
+/// evidence is believed; the rest is that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known
+/// as the rest is in the mean.
 fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
