@@ -46,6 +46,13 @@ impl Gaussian {
         Self { mean: self.mean.clone(), basis: scale * &self.basis }
     }
 
+    /// The same Gaussian without the coordinates after the first `count`, which move spectra least.
+    #[must_use]
+    pub fn leading(&self, count: usize) -> Self {
+        let count = count.min(self.basis.ncols());
+        Self { mean: self.mean.clone(), basis: self.basis.columns(0, count).into_owned() }
+    }
+
     /// Mean logit in every waveband.
     #[must_use]
     pub fn mean(&self) -> &DVector<f64> {

@@ -141,7 +141,8 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         let (starts, limit) = if are_noisy || likely.is_none() {
             (from_means(data, prior, coarse), NOISY_CLASSES_LIMIT)
         } else {
-            let starts = between_means(data, prior, [coarse, fine], &mut trace);
+            let taken = trace.iter().map(Vec::len).chain(found.iter().map(Found::iterations)).sum();
+            let starts = between_means(data, prior, [coarse, fine], taken, &mut trace);
             let limit = ANOTHER_LIMIT * starts.len();
             (starts, limit)
         };

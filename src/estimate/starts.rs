@@ -23,18 +23,23 @@ pub const ITERATION_LIMIT: usize = 500;
 /// of them no fewer maxima are false.
 const MEANS: usize = 24;
 const NEAREST_INFLATION: f64 = 10.0;
-/// A quick search sets out from noise so many times that at which it ends, and ends after so many iterations.
+/// A quick search sets out from noise so many times that at which it ends, ends after so many iterations, and moves so many coordinates of a
+/// class.
 const QUICK_INFLATION: f64 = 10.0;
 const QUICK_LIMIT: usize = 6;
-/// So many quick searches are followed to a finer noise, as near to the maximum there as that, in most so many iterations each and all
-/// together: where nothing comes to an end, no class is like the spectrum.
-const FOLLOWED: usize = 12;
+const QUICK_COORDINATES: usize = 10;
+/// So many quick searches are followed to noise so many times the fine one, as near to the maximum there as that, in so many iterations at
+/// most.
+const FOLLOWED: usize = 14;
+const FOLLOWED_INFLATION: f64 = 2.0;
 const FOLLOWED_TOLERANCE: f64 = 0.1;
 const FOLLOWED_LIMIT: usize = 30;
-const ALL_FOLLOWED_LIMIT: usize = 180;
+/// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing comes to an end, no class is like the
+/// spectrum.
+const ESTIMATE_LIMIT: usize = 220;
 /// Classes are told apart at so many maxima, and so many are searched of those that come near to the best, as the logarithm of a share of its
 /// evidence.
-const PLACES: usize = 4;
+const PLACES: usize = 5;
 const SEARCHED: usize = 5;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 /// Spectra of a class are one if their root mean square difference is less.
@@ -45,7 +50,9 @@ pub const APART: f64 = 0.005;
 pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start> {
     let tell_apart = tell_classes(data);
     let means = if tell_apart { MEANS } else { usize::MAX };
-    let mut found = at_maxima(data, prior, means, (f64::INFINITY, inflation), ITERATION_LIMIT);
+    let noise = (f64::INFINITY, inflation);
+    let search = FromMeans { means, noise, limit: ITERATION_LIMIT, coordinates: usize::MAX };
+    let mut found = search.starts(data, prior);
     if tell_apart {
         found.truncate(of_most_evidence(&found, |start| start.ln_evidence, true).len());
     }
@@ -53,15 +60,18 @@ pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start>
 }
 
 /// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse` times its size, then to the end
-/// where it is `fine` times.
+/// near `fine` times, after an estimate has taken so many iterations.
 pub fn between_means(
     data: &FacetData,
     prior: &Prior,
     [coarse, fine]: [f64; 2],
+    iterations: usize,
     trace: &mut Vec<Vec<Iteration>>,
 ) -> Vec<Start> {
-    let quick = at_maxima(data, prior, MEANS, (QUICK_INFLATION * coarse, coarse), QUICK_LIMIT);
-    let mut left = ALL_FOLLOWED_LIMIT;
+    let noise = (QUICK_INFLATION * coarse, coarse);
+    let quick = FromMeans { means: MEANS, noise, limit: QUICK_LIMIT, coordinates: QUICK_COORDINATES };
+    let fine = FOLLOWED_INFLATION * fine;
+    let mut left = ESTIMATE_LIMIT.saturating_sub(iterations).max(FOLLOWED_LIMIT);
     let follow = |start: Start| {
         let facets = Facets { data, gaussian: &start.gaussian };
         let noise = (start.inflation, fine);
@@ -72,7 +82,8 @@ pub fn between_means(
         trace.push(found.trace);
         is_found.then_some(Start { ln_evidence, inflation: fine, w: found.w, ..start })
     };
-    let places = distinct(quick.into_iter().take(FOLLOWED).filter_map(follow).collect());
+    let quick = quick.starts(data, prior).into_iter();
+    let places = distinct(quick.take(FOLLOWED).filter_map(follow).collect());
     let classes = |start: Start| {
         let facets = Facets { data, gaussian: &start.gaussian };
         Likely::new(&facets, &start.w, prior, fine).map_or_else(Vec::new, |likely| likely.starts())
@@ -84,38 +95,57 @@ pub fn between_means(
     found
 }
 
-/// Classes by their evidence where searches from the `means` nearest to the facets end, the noise `inflation.0` times its size at first, if not
-/// less, and `inflation.1` times at last.
-fn at_maxima(
-    data: &FacetData,
-    prior: &Prior,
+/// Searches from the means of classes.
+struct FromMeans {
+    /// From so many that are nearest to the facets.
     means: usize,
-    inflation: (f64, f64),
+    /// How many times its size the noise is at first, if not less, and at last.
+    noise: (f64, f64),
+    /// Most iterations of each.
     limit: usize,
-) -> Vec<Start> {
-    let (most, last) = inflation;
-    let off = |(class, of_prior): (usize, &Class)| {
+    /// Coordinates of a class that are moved.
+    coordinates: usize,
+}
+
+impl FromMeans {
+    /// Classes by their evidence where the searches end.
+    fn starts(&self, data: &FacetData, prior: &Prior) -> Vec<Start> {
+        let &Self { means, noise: (most, last), limit, coordinates } = self;
+        let of_class = |class: &Class| {
+            let gaussian = class.gaussian();
+            let moved = gaussian.leading(coordinates);
+            let facets = Facets { data, gaussian: &moved };
+            let w = DVector::zeros(facets.unknowns());
+            let first = first_inflation(&facets, &w, last).min(most);
+            let found = maximise(&facets, w, (first, last), TOLERANCE_FROM_MEANS, limit);
+            let ln_evidence = class.ln_share + found.ln_evidence(last)?;
+            let moved = moved.basis().ncols();
+            let w = found.w.insert_rows(moved, gaussian.basis().ncols() - moved, 0.0);
+            ln_evidence.is_finite().then_some((ln_evidence, w))
+        };
+        let nearest = nearest_means(data, prior, NEAREST_INFLATION * last).into_iter().take(means);
+        let found = nearest.filter_map(|class| {
+            let of_prior = &prior.classes()[class];
+            let (ln_evidence, w) = of_class(of_prior)?;
+            let (ln_share, gaussian) = (of_prior.ln_share, of_prior.gaussian().clone());
+            Some(Start { class, inflation: last, ln_evidence, ln_share, gaussian, w })
+        });
+        let mut found: Vec<_> = found.collect();
+        found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+        found
+    }
+}
+
+/// Classes by how near their means come to the facets, the noise `inflation` times its size, and by their shares.
+fn nearest_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<usize> {
+    let near = |(class, of_prior): (usize, &Class)| {
         let facets = Facets { data, gaussian: of_prior.gaussian() };
-        let misfit = facets.residuals(&DVector::zeros(facets.unknowns())) / (NEAREST_INFLATION * last);
+        let misfit = facets.residuals(&DVector::zeros(facets.unknowns())) / inflation;
         (of_prior.ln_share - 0.5 * misfit.norm_squared(), class)
     };
-    let mut nearest: Vec<_> = prior.classes().iter().enumerate().map(off).collect();
+    let mut nearest: Vec<_> = prior.classes().iter().enumerate().map(near).collect();
     nearest.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let of_class = |(_, class): (f64, usize)| {
-        let of_prior = &prior.classes()[class];
-        let facets = Facets { data, gaussian: of_prior.gaussian() };
-        let w = DVector::zeros(facets.unknowns());
-        let first = first_inflation(&facets, &w, last).min(most);
-        let found = maximise(&facets, w, (first, last), TOLERANCE_FROM_MEANS, limit);
-        let ln_share = of_prior.ln_share;
-        let ln_evidence = ln_share + found.ln_evidence(last)?;
-        let gaussian = of_prior.gaussian().clone();
-        let start = Start { class, inflation: last, ln_evidence, ln_share, gaussian, w: found.w };
-        ln_evidence.is_finite().then_some(start)
-    };
-    let mut found: Vec<_> = nearest.into_iter().take(means).filter_map(of_class).collect();
-    found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
-    found
+    nearest.into_iter().map(|(_, class)| class).collect()
 }
 
 /// By their evidence, most first, and none that is another one again.
