@@ -63,6 +63,41 @@ def thin(ks, scattering):
     return np.sinh(depth) / (a * np.sinh(depth) + b * np.cosh(depth))
 
 
+# PROSPECT's leaf: refractive index, and the angle to the normal, degrees, within which light meets the uppermost surface.
+LEAF_INDEX, LEAF_CONE_DEG = 1.45, 40
+
+
+def transmitted(index, cone_deg):
+    """Fresnel: share of the light from within a cone, diffuse there, that a surface lets in."""
+    sines, weights = np.polynomial.legendre.leggauss(64)
+    # uniform in the square of the sine, as diffuse light is
+    squared = (1 + sines) / 2 * np.sin(np.radians(cone_deg)) ** 2
+    cosine, inside = np.sqrt(1 - squared), np.sqrt(1 - squared / index**2)
+    across = (cosine - index * inside) / (cosine + index * inside)
+    along = (index * cosine - inside) / (index * cosine + inside)
+    return weights @ (1 - (across**2 + along**2) / 2) / 2
+
+
+def plates(absorption, layers):
+    """PROSPECT (S. Jacquemoud, F. Baret, 1990): reflectance of a leaf of so many plates, `absorption` of all of them together."""
+    nodes, weights = np.polynomial.legendre.leggauss(48)
+    cosine = (1 + nodes[:, None]) / 2
+    through = weights @ (cosine * np.exp(-absorption / layers / cosine))
+    first, diffuse = transmitted(LEAF_INDEX, LEAF_CONE_DEG), transmitted(LEAF_INDEX, 90)
+    out = diffuse / LEAF_INDEX**2
+    kept = (1 - out) * through
+    top_down = first * through * out / (1 - kept**2)
+    top = 1 - first + kept * top_down
+    down = diffuse * through * out / (1 - kept**2)
+    back = 1 - diffuse + kept * down
+    # those beneath the first, after G. G. Stokes (1862)
+    root = np.sqrt((1 + back + down) * (1 + back - down) * (1 - back + down) * (1 - back - down))
+    a = (1 + back**2 - down**2 + root) / (2 * back)
+    b = ((1 - back**2 + down**2 + root) / (2 * down)) ** (layers - 1)
+    beneath = a * (b**2 - 1) / (a**2 * b**2 - 1)
+    return top + top_down * beneath * down / (1 - beneath * back)
+
+
 def coated(reflectance, inside, gloss):
     """Saunderson: under a surface of refractive index 1.5, which keeps `inside` of the light in; `gloss` of its reflection is seen."""
     return gloss * 0.04 + 0.96 * (1 - inside) * reflectance / (1 - inside * reflectance)
@@ -213,11 +248,36 @@ def paint(draw):
 # ---- plants
 
 
+# Chlorophyll a and b in leaves, cm2/ug: height, centre in nm and width in 1/cm of bands, fitted to the spectra of two models of leaves, to
+# 0.0025 from 400 to 780 nm and 0.001 in the red: PROSPECT-5 (J.-B. Feret and others, 2008) and PROSPECT-D (the same, 2017).
+CHLOROPHYLL = (
+    (
+        (0.0239, 681, 400),
+        (0.0079, 668, 280),
+        (0.029, 667, 1000),
+        (0.0212, 630, 2010),
+        (0.0137, 569, 2630),
+        (0.0366, 482, 1770),
+        (0.0702, 437, 2300),
+        (0.0346, 409, 1390),
+    ),
+    (
+        (0.0093, 681, 250),
+        (0.0473, 675, 580),
+        (0.0227, 652, 1600),
+        (0.0061, 651, 330),
+        (0.0177, 593, 2530),
+        (0.0358, 478, 1850),
+        (0.0503, 441, 1590),
+        (0.0708, 407, 2730),
+    ),
+)
+
+
 def chlorophyll(draw):
-    """Chlorophyll a and b in leaves, cm2/ug: bands fitted by eye to PROSPECT-5 (J.-B. Feret and others, 2008)."""
-    red = (0.055, 677, 900), (0.030, 668, 2000), (0.022, 645, 1500), (0.016, 615, 2200), (0.008, 580, 2500), (0.004, 545, 3500)
-    blue = (0.062, 437, 2600), (0.038, 415, 3200), (0.12 * draw.uniform(0.2, 0.3), 472, 1800), (0.02, 390, 5000)
-    return sum(height * band(*where) for height, *where in red + blue)
+    """Between the two models."""
+    first, second = (sum(height * band(*where) for height, *where in bands) for bands in CHLOROPHYLL)
+    return second + draw.random() * (first - second)
 
 
 def carotenoids(draw):
@@ -232,7 +292,7 @@ def anthocyanins(draw):
 
 
 def leaf(draw):
-    """Green, yellow, red and dry: pigments in ug/cm2 in a thin layer whose near infrared reflectance is 0.4 to 0.55, or thick parts."""
+    """Green, yellow, red and dry: pigments in ug/cm2 in a leaf of one to three plates, or in thick parts of a plant."""
     kind = draw.choice(["green", "yellow", "red", "dry"], p=[0.6, 0.15, 0.1, 0.15])
     amounts = {"green": (8, 90), "red": (1, 40)}
     green = log_uniform(draw, *amounts.get(kind, (0.2, 8)))
@@ -242,10 +302,9 @@ def leaf(draw):
         absorption = absorption + log_uniform(draw, 0.3, 6) * anthocyanins(draw)
     brown = log_uniform(draw, 0.5, 4) if kind == "dry" else log_uniform(draw, 0.02, 0.4)
     absorption = absorption + brown * np.exp(-(NM - 450) / draw.uniform(55, 110))
-    scattering = draw.uniform(1.0, 2.2)
     if draw.random() < 0.3:
-        return veiled(thick(absorption / scattering * draw.uniform(0.2, 1.2)), 0.05, draw)
-    return veiled(thin(absorption * draw.uniform(1.5, 3) / scattering, scattering), 0.05, draw)
+        return veiled(thick(absorption * draw.uniform(0.1, 1)), 0.05, draw)
+    return veiled(plates(absorption, draw.uniform(1, 3)), 0.05, draw)
 
 
 def flower(draw):
