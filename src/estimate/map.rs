@@ -5,18 +5,17 @@
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::DVector;
 
-use super::data::{FacetData, Residuals};
-use super::facets::{AboutMaximum, Facets, Second};
-use super::gaussian::logistic;
-use super::likely::{Likely, Minor, Start};
+use super::Estimate;
+use super::data::FacetData;
+use super::facets::Facets;
+use super::found::{Beside, Found, mean};
+use super::likely::{Likely, Start};
 use super::prior::Prior;
-use super::starts::{APART, ITERATION_LIMIT, SORTING_TOLERANCE, between_means, from_means};
-use super::unknowns::{EXPOSURE, Expected};
-use super::{Estimate, Fitted};
+use super::starts::{ITERATION_LIMIT, SORTING_TOLERANCE, between_means, from_means};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Model, first_inflation, maximise};
 
 /// The maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 1e-3;
@@ -32,32 +31,22 @@ const FINE_LIMIT: usize = 30;
 const CLASSES_LIMIT: usize = 90;
 const NOISY_CLASSES_LIMIT: usize = 600;
 /// Maxima so many standard deviations from what chance has may be false, of precise facets those beyond [`PRECISE_SURPRISE`] and those that a
-/// search took more than `LONG` iterations to: one from another start counts by its evidence if it leaves facets within so many times their
-/// noise (further off the scene is not the one that was photographed, and evidence says nothing).
+/// search took more than `LONG` iterations to: one from another start counts by its evidence if it explains the facets.
 const SURPRISE: f64 = 3.0;
 const PRECISE_SURPRISE: f64 = 0.0;
-const LONG: usize = 12;
-const MISFIT_MOST: f64 = 1.1;
+const LONG: usize = 10;
 /// Most iterations of each of these searches, where facets are precise.
 const ANOTHER_LIMIT: usize = 20;
 /// The best search is carried on for so many iterations where none has come to the facets.
-const CARRIED_ON: usize = 80;
+const CARRIED_ON: usize = 40;
 /// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
 /// at most, in the mean over all coordinates.
 const GLANCE_TOLERANCE: f64 = 0.3;
 const GLANCE_LIMIT: usize = 60;
 const FURTHEST: f64 = 2.0;
-/// Error bars believe the evidence for a class to that power: it is of Gaussians, and the sheets that a class was made of are not all there are.
-const BELIEF: f64 = 0.75;
-/// The share of the mean from which on the error bars of a class that was not searched are found: that takes as long as a step.
-const LEAST_SHARE: f64 = 0.03;
 /// By how many times [`least_misfit`] may be too much: of computed facets, glossy and not, it is by 1.15 for the ColorChecker at most, and by
 /// 1.21 for Munsell's chips.
 pub const CAUTION: f64 = 1.25;
-/// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
-/// nothing is known before, if it is below that share of the exposure.
-const SUPPORTED: f64 = 0.8;
-const EXPOSURE_SUPPORTED: f64 = 0.5;
 
 /// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from instead of the
 /// prior's mean; at a maximum of more evidence than all others it makes no difference.
@@ -136,7 +125,15 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let minor = likely.iter().filter(|_| are_noisy).flat_map(|likely| likely.minor(&starts));
     let minor: Vec<_> = minor.collect();
     let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
-    let mut found = maxima(data, starts, limit);
+    let mut found = Vec::new();
+    for one in maxima(data, starts, limit) {
+        let explains = one.explains();
+        found.push(one);
+        // the others would set out from the same place
+        if !are_noisy && !explains {
+            break;
+        }
+    }
     if found.is_empty() || is_doubtful(&found, !are_noisy) {
         let (starts, limit) = if are_noisy || likely.is_none() {
             (from_means(data, prior, coarse), NOISY_CLASSES_LIMIT)
@@ -159,7 +156,7 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
 }
 
 /// Adds maxima that the facets allow, each once; all of them if there are no others.
-fn add(found: &mut Vec<Found>, data: &FacetData, more: Vec<Found>) {
+fn add(found: &mut Vec<Found>, data: &FacetData, more: impl Iterator<Item = Found>) {
     let all_count = found.is_empty();
     for one in more {
         if (all_count || one.explains()) && !found.iter().any(|other| one.is_again(other, data)) {
@@ -172,7 +169,7 @@ fn add(found: &mut Vec<Found>, data: &FacetData, more: Vec<Found>) {
 fn carry_on(found: &mut Vec<Found>, data: &FacetData) {
     let most = (0..found.len()).max_by(|a, b| found[*a].ln_evidence.total_cmp(&found[*b].ln_evidence));
     if let Some(Found { end: Some(end), trace, .. }) = most.map(|most| found.swap_remove(most)) {
-        let further = maxima(data, vec![end], CARRIED_ON).into_iter();
+        let further = maxima(data, vec![end], CARRIED_ON);
         found.extend(
             further.map(|further| Found { trace: [trace.clone(), further.trace].concat(), ..further }),
         );
@@ -206,205 +203,14 @@ fn is_doubtful(found: &[Found], is_precise: bool) -> bool {
     most.is_none_or(|most| most.surprise > PRECISE_SURPRISE || most.iterations() > LONG)
 }
 
-/// The maxima under classes, all in at most `limit` iterations.
-fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> Vec<Found> {
+/// The maxima under classes, all in at most `limit` iterations, each as it is asked for.
+fn maxima(data: &FacetData, starts: Vec<Start>, limit: usize) -> impl Iterator<Item = Found> {
     let limit = limit / starts.len().max(1);
-    let maximum = |start: Start| {
+    starts.into_iter().map(move |start| {
         let facets = Facets { data, gaussian: &start.gaussian };
         let solution = maximise(&facets, start.w.clone(), (start.inflation, 1.0), TOLERANCE, limit);
         let evidence = solution.ln_evidence(1.0).map_or(f64::NEG_INFINITY, |ln| ln + start.ln_share);
         let found = Found::new(&facets, &solution, evidence);
         Found { end: Some(Start { w: solution.w, inflation: 1.0, ..start }), ..found }
-    };
-    starts.into_iter().map(maximum).collect()
-}
-
-/// The maximum under one class.
-struct Found {
-    /// Where the search ended, under its class; none if that is of all spectra.
-    end: Option<Start>,
-    ln_evidence: f64,
-    /// Reflectances, unknowns in their own units, exposure.
-    point: Vec<f64>,
-    /// The product of its transpose with it is the covariance of the point.
-    spread: Option<DMatrix<f64>>,
-    /// Derivative of each unknown by its standard normal number: how far it was unknown.
-    prior_sd: Vec<f64>,
-    residual_rms: f64,
-    /// As [`Solution::surprise`].
-    surprise: f64,
-    unexplained: f64,
-    trace: Vec<Vec<Iteration>>,
-    termination: Termination,
-}
-
-/// A class that was not searched.
-struct Beside<'a> {
-    ln_evidence: f64,
-    /// As [`Found::point`].
-    point: Vec<f64>,
-    minor: &'a Minor<'a>,
-    /// As [`Found::prior_sd`].
-    prior_sd: Vec<f64>,
-    residual_rms: f64,
-}
-
-impl<'a> Beside<'a> {
-    /// The evidence is less than at the class's own maximum, by what the linear model is off.
-    fn new(data: &FacetData, minor: &'a Minor<'a>) -> Self {
-        let reflectance: Vec<f64> = minor.logit.iter().map(|z| logistic(*z)).collect();
-        let Residuals { residuals, exposure } = data.residuals(&reflectance, minor.unknowns.as_slice());
-        let unknowns = data.scene().unknowns().iter().zip(&minor.unknowns);
-        let (values, prior_sd): (Vec<f64>, Vec<f64>) = unknowns.map(|(expected, w)| expected.at(*w)).unzip();
-        Self {
-            ln_evidence: minor.ln_evidence_of_fit - 0.5 * residuals.norm_squared(),
-            point: reflectance.iter().copied().chain(values).chain([exposure]).collect(),
-            minor,
-            prior_sd,
-            residual_rms: data.rms(&residuals),
-        }
-    }
-
-    /// As [`Found::spread`].
-    fn spread(&self) -> Option<DMatrix<f64>> {
-        self.minor.spread(&self.prior_sd, widened(self.residual_rms))
-    }
-}
-
-/// By how much error bars are wider than the noise makes them. Facets further from the model than their noise: the noise, or the scene, is
-/// not what it was said to be (R. T. Birge, *Physical Review* 40 (1932), p. 207).
-fn widened(residual_rms: f64) -> f64 {
-    residual_rms.max(1.0)
-}
-
-/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it, as far as
-/// evidence is believed; the rest is that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known
-/// as the rest is in the mean.
-fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
-    found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
-    let most = found.first()?;
-    // What was not searched counts for no more than the best that was.
-    let of_found = found.iter().map(|other| other.ln_evidence);
-    let of_all = of_found.chain(beside.iter().map(|other| other.ln_evidence));
-    let ln_odds: Vec<f64> = of_all.map(|ln_evidence| (ln_evidence - most.ln_evidence).min(0.0)).collect();
-    let points = || found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
-    let mut point = vec![0.0; most.point.len()];
-    for (other, share) in points().zip(shares(&ln_odds, 1.0)) {
-        point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
-    }
-    let believed = shares(&ln_odds, BELIEF);
-    let apart = points().zip(&believed).map(|(other, share)| {
-        let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
-        RowDVector::from_iterator(point.len(), apart)
-    });
-    let of_beside = &believed[found.len()..];
-    let counting = beside.iter().zip(of_beside).filter(|(_, share)| **share > LEAST_SHARE);
-    let counting: Vec<_> = counting.map(|(other, share)| (other.spread(), share)).collect();
-    let spreads = found.iter().map(|other| &other.spread).zip(&believed);
-    let spreads = spreads.chain(counting.iter().map(|(spread, share)| (spread, *share)));
-    let counted: f64 = spreads.clone().map(|(_, share)| share).sum();
-    let within = spreads.map(|(spread, share)| Some((share / counted).sqrt() * spread.as_ref()?));
-    let within = within.collect::<Option<Vec<_>>>();
-    let spread = within.map(|within| {
-        let rows = within.iter().flat_map(DMatrix::row_iter).map(nalgebra::Matrix::into_owned);
-        DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
-    });
-    Some(Found { spread, point, ..found.swap_remove(0) })
-}
-
-/// Shares by a power of the odds.
-fn shares(ln_odds: &[f64], power: f64) -> Vec<f64> {
-    let odds = || ln_odds.iter().map(|ln| (power * ln).exp());
-    let sum: f64 = odds().sum();
-    odds().map(|odds| odds / sum).collect()
-}
-
-impl Found {
-    fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
-        let (_, unknowns) = facets.split(&solution.w);
-        let Second { reflectance, exposure, .. } = &solution.at.second;
-        let unknowns: Vec<(f64, f64)> = facets
-            .data
-            .scene()
-            .unknowns()
-            .iter()
-            .zip(&unknowns)
-            .map(|(expected, w)| expected.at(*w))
-            .collect();
-        let prior_sd: Vec<f64> = unknowns.iter().map(|(_, slope)| *slope).collect();
-        let values = unknowns.iter().map(|(value, _)| *value);
-        let residual_rms = facets.data.rms(&solution.at.residuals);
-        let (gaussian, (logit, _)) = (facets.gaussian, facets.split(&solution.w));
-        let about = AboutMaximum { gaussian, logit: &logit, jacobian: &solution.at.jacobian, exposure };
-        Self {
-            end: None,
-            ln_evidence,
-            point: reflectance.iter().copied().chain(values).chain([exposure.value]).collect(),
-            spread: about.spread(&prior_sd, widened(residual_rms)),
-            prior_sd,
-            residual_rms,
-            surprise: solution.surprise(),
-            unexplained: facets.data.unexplained(&solution.at.residuals),
-            trace: vec![solution.trace.clone()],
-            termination: solution.termination,
-        }
-    }
-
-    /// Whether the facets are as near to it as their noise lets them be.
-    fn explains(&self) -> bool {
-        self.residual_rms < MISFIT_MOST
-    }
-
-    /// Whether it is the same maximum.
-    fn is_again(&self, other: &Self, data: &FacetData) -> bool {
-        let bands = data.scene().facets().bands();
-        let apart = self.point.iter().zip(&other.point).take(bands).map(|(a, b)| (a - b).powi(2));
-        let class = |found: &Self| found.end.as_ref().map(|end| end.class);
-        class(self) == class(other) && apart.sum::<f64>() < APART * APART * bands as f64
-    }
-
-    fn iterations(&self) -> usize {
-        self.trace.iter().map(Vec::len).sum()
-    }
-
-    /// An unknown of the scene beyond its range, and the end of that.
-    fn impossible(&self, data: &FacetData) -> Option<(usize, f64)> {
-        let values = &self.point[data.scene().facets().bands()..];
-        let beyond = |(n, expected): (usize, &Expected)| Some((n, expected.bound_of(values[n])?));
-        data.scene().unknowns().iter().enumerate().find_map(beyond)
-    }
-
-    fn into_estimate(self, data: &FacetData) -> Estimate {
-        let bands = data.scene().facets().bands();
-        let sd = |column: usize| self.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
-        let unknowns = data.scene().unknowns().iter().zip(&self.prior_sd).zip(bands..);
-        let unknowns = unknowns.map(|((expected, prior_sd), column)| Fitted {
-            unknown: expected.unknown,
-            value: self.point[column],
-            sd: sd(column),
-            supported: sd(column) < SUPPORTED * prior_sd.abs(),
-        });
-        let (last, exposure) = (self.point.len() - 1, self.point[self.point.len() - 1]);
-        let of_exposure = data.fits_exposure().then(|| Fitted {
-            unknown: &EXPOSURE,
-            value: exposure,
-            sd: sd(last),
-            supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
-        });
-        Estimate {
-            total: None,
-            // shares of a mean may add up to a rounding more than 1
-            reflectance: self.point[..bands].iter().map(|r| r.min(1.0)).collect(),
-            fitted: of_exposure.into_iter().chain(unknowns).collect(),
-            findings: Vec::new(),
-            skipped: Vec::new(),
-            spread: self.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
-            exposure,
-            residual_rms: self.residual_rms,
-            unexplained: self.unexplained,
-            iterations: self.iterations() as u32,
-            trace: self.trace,
-            termination: self.termination,
-        }
-    }
+    })
 }

@@ -8,6 +8,7 @@ pub mod components;
 mod compress;
 pub mod data;
 mod facets;
+mod found;
 pub mod gaussian;
 pub mod khan;
 mod likely;
