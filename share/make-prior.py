@@ -249,7 +249,8 @@ def paint(draw):
 
 
 # Chlorophyll a and b in leaves, cm2/ug: height, centre in nm and width in 1/cm of bands, fitted to the spectra of two models of leaves, to
-# 0.0025 from 400 to 780 nm and 0.001 in the red: PROSPECT-5 (J.-B. Feret and others, 2008) and PROSPECT-D (the same, 2017).
+# 0.0025 from 400 to 780 nm and 0.001 in the red: PROSPECT-5 (J.-B. Feret and others, 2008) and PROSPECT-D (the same, 2017), as they are in
+# the Python package prosail 2.0.5.
 CHLOROPHYLL = (
     (
         (0.0239, 681, 400),
