@@ -125,11 +125,12 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
     let minor = likely.iter().filter(|_| are_noisy).flat_map(|likely| likely.minor(&starts));
     let minor: Vec<_> = minor.collect();
     let limit = if are_noisy { NOISY_CLASSES_LIMIT } else { CLASSES_LIMIT };
+    let mut likeliest = maxima(data, starts, limit);
     let mut found = Vec::new();
-    for one in maxima(data, starts, limit) {
+    for one in likeliest.by_ref() {
         let explains = one.explains();
         found.push(one);
-        // the others would set out from the same place
+        // the others set out beside it: more is likely to be found from elsewhere
         if !are_noisy && !explains {
             break;
         }
@@ -145,7 +146,11 @@ fn most_probable(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Foun
         };
         add(&mut found, data, maxima(data, starts, limit));
     }
-    if !are_noisy && !found.iter().any(Found::explains) {
+    let is_explained = |found: &[Found]| are_noisy || found.iter().any(Found::explains);
+    if !is_explained(&found) {
+        found.extend(likeliest);
+    }
+    if !is_explained(&found) {
         carry_on(&mut found, data);
     }
     trace.extend(found.iter().flat_map(|found| found.trace.clone()));
