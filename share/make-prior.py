@@ -69,9 +69,9 @@ LEAF_INDEX, LEAF_CONE_DEG = 1.45, 40
 
 def transmitted(index, cone_deg):
     """Fresnel: share of the light from within a cone, diffuse there, that a surface lets in."""
-    sines, weights = np.polynomial.legendre.leggauss(64)
+    nodes, weights = np.polynomial.legendre.leggauss(64)
     # uniform in the square of the sine, as diffuse light is
-    squared = (1 + sines) / 2 * np.sin(np.radians(cone_deg)) ** 2
+    squared = (1 + nodes) / 2 * np.sin(np.radians(cone_deg)) ** 2
     cosine, inside = np.sqrt(1 - squared), np.sqrt(1 - squared / index**2)
     across = (cosine - index * inside) / (cosine + index * inside)
     along = (index * cosine - inside) / (index * cosine + inside)

@@ -125,6 +125,7 @@ fn shares(ln_odds: &[f64], power: f64) -> Vec<f64> {
 }
 
 impl Found {
+    /// Where a search ended.
     pub fn new(facets: &Facets, solution: &Solution<Second>, ln_evidence: f64) -> Self {
         let (_, unknowns) = facets.split(&solution.w);
         let Second { reflectance, exposure, .. } = &solution.at.second;
