@@ -15,6 +15,7 @@ Laws: P. Kubelka, F. Munk (1931), thick sheets and thin layers; J. L. Saunderson
 J. A. C. Yule, W. J. Nielsen (1951) with the coverages of M. E. Demichel, prints.
 """
 
+from math import factorial
 from pathlib import Path
 
 import numpy as np
@@ -127,17 +128,18 @@ DYES = {
 
 
 def dye(draw, hue=None):
-    """A band of 2600 to 5200 cm-1 (phthalocyanines 1600 to 3000) with the shoulder of a vibration, 1100 to 1800 cm-1 above it, and the
-    next transition 6500 to 11000 cm-1 above it."""
+    """A line of 1100 to 2600 cm-1 (phthalocyanines 700 to 1500) with the steps of a vibration above it, 1100 to 1500 cm-1 apart and as high as
+    Franck and Condon have them, so that the flank towards the red is the steep one, and the next transition 6500 to 11000 cm-1 above it."""
     hue = hue or draw.choice(list(DYES), p=[share for *_, share in DYES.values()])
     first, last, _ = DYES[hue]
-    centre = draw.uniform(first, last)
-    width = draw.uniform(1600, 3000) if hue == "turquoise" else draw.uniform(2600, 5200)
-    width *= 1.25 if hue in ("yellow", "orange") else 1
-    above = lambda least, most: 1e7 / (1e7 / centre + draw.uniform(least, most))
-    main = band(centre, width, draw.uniform(-0.1, 0.25))
-    main += draw.uniform(0, 0.8) * band(above(1100, 1800), width * draw.uniform(0.6, 1))
-    return main / main.max() + draw.uniform(0.05, 0.6) * band(above(6500, 11000), draw.uniform(4000, 7000))
+    energy, step = 1e7 / draw.uniform(first, last), draw.uniform(1100, 1500)
+    if hue == "turquoise":
+        line, coupling = draw.uniform(700, 1500), draw.uniform(0.1, 0.5)
+    else:
+        line, coupling = log_uniform(draw, 1100, 2600), draw.uniform(0.2, 1.2)
+    above = lambda more, width: band(1e7 / (energy + more), width)
+    main = sum(coupling**n / factorial(n) * above(n * step, line * (1 + 0.1 * n)) for n in range(4))
+    return main / main.max() + draw.uniform(0.05, 0.6) * above(draw.uniform(6500, 11000), draw.uniform(4000, 7000))
 
 
 def white_cloth(draw):
@@ -234,15 +236,29 @@ def pigment(draw):
     return kinds[draw.choice(list(kinds), p=shares)][1]()
 
 
-def paint(draw):
-    """One to three pigments with titanium white, whose edge is near 400 nm; one in three greyed with black."""
-    count, depth = draw.choice([1, 2, 3], p=[0.4, 0.4, 0.2]), log_uniform(draw, 0.05, 25)
-    rutile = edge(draw.uniform(395, 408), draw.uniform(4, 7))
-    ks = ks_of(draw.uniform(0.9, 0.97)) * (1 + draw.uniform(1, 6) * rutile)
+def rutile(draw):
+    """Titanium white, K/S: an edge with which the 60 brightest chips of Munsell are white to 0.004 from 380 to 460 nm."""
+    return log_uniform(draw, 0.9, 2.6) * edge(draw.normal(388, 1.5), draw.uniform(4.6, 5.7))
+
+
+def painted(draw, tint, grey):
+    """One to three pigments in titanium white; one in three greyed with black."""
+    count, depth = draw.choice([1, 2, 3], p=[0.4, 0.4, 0.2]), log_uniform(draw, *tint)
+    ks = ks_of(draw.uniform(0.9, 0.97)) + rutile(draw)
     ks = ks + depth * sum(share * pigment(draw) for share in draw.dirichlet(np.ones(count)))
     if draw.random() < 0.35:
-        ks = ks + log_uniform(draw, 0.01, 1.5)
+        ks = ks + log_uniform(draw, *grey)
     return coated(thick(ks * (NM / 550) ** draw.uniform(-0.3, 1.0)), draw.uniform(0.4, 0.6), draw.uniform(0, 0.6))
+
+
+def paint(draw):
+    """Pale to full."""
+    return painted(draw, (0.05, 25), (0.01, 1.5))
+
+
+def white(draw):
+    """White to pale."""
+    return painted(draw, (0.0005, 0.1), (0.0001, 0.1))
 
 
 # ---- plants
@@ -276,8 +292,9 @@ CHLOROPHYLL = (
 
 
 def chlorophyll(draw):
-    """Between the two models."""
-    first, second = (sum(height * band(*where) for height, *where in bands) for bands in CHLOROPHYLL)
+    """Between the two models, each band a quarter higher or lower: leaves differ by more than the models do."""
+    some = lambda height: height * np.exp(0.25 * draw.normal())
+    first, second = (sum(some(height) * band(*where) for height, *where in bands) for bands in CHLOROPHYLL)
     return second + draw.random() * (first - second)
 
 
@@ -407,13 +424,14 @@ def printed(draw):
 # Kind: how many spectra, in how many classes, its share beside Munsell's chips.
 KINDS = {
     textile: (2000, 8, 0.20),
-    paint: (1200, 6, 0.15),
-    leaf: (800, 3, 0.06),
+    paint: (1200, 6, 0.30),
+    white: (400, 1, 0.12),
+    leaf: (1200, 5, 0.18),
     flower: (600, 2, 0.05),
     earth: (900, 3, 0.60),
     skin: (500, 1, 0.18),
     hair: (300, 1, 0.12),
-    paper: (400, 1, 0.05),
+    paper: (600, 2, 0.12),
     printed: (1000, 4, 0.10),
 }
 

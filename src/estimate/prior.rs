@@ -15,8 +15,8 @@ const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
 /// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little and materials differ most;
 /// it falls by e within the decay.
-const MIDDLE_SD: f64 = 0.18;
-const VIOLET_SD: f64 = 0.3;
+const MIDDLE_SD: f64 = 0.16;
+const VIOLET_SD: f64 = 0.2;
 const RED_SD: f64 = 0.1;
 const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
@@ -92,7 +92,7 @@ impl Prior {
     /// ```
     /// use vfold::estimate::prior::Prior;
     /// let prior = Prior::built_in(&[400.0, 500.0, 600.0, 700.0])?;
-    /// assert_eq!(prior.classes().len(), 38);
+    /// assert_eq!(prior.classes().len(), 42);
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn built_in(wavelengths_nm: &[f64]) -> Result<Self> {
@@ -110,7 +110,7 @@ impl Prior {
         })
     }
 
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.18 in logit, more below
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.16 in logit, more below
     /// 420 and above 680 nm) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
     /// ([`classes_of`]).
     ///
