@@ -36,7 +36,7 @@ const FOLLOWED_TOLERANCE: f64 = 0.1;
 const FOLLOWED_LIMIT: usize = 30;
 /// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing comes to an end, no class is like the
 /// spectrum.
-const ESTIMATE_LIMIT: usize = 210;
+const ESTIMATE_LIMIT: usize = 180;
 /// Classes are told apart at so many maxima, and so many are searched of those that come near to the best, as the logarithm of a share of its
 /// evidence.
 const PLACES: usize = 5;
