@@ -87,6 +87,12 @@ impl Shot {
         self
     }
 
+    /// The same facets, white facing the sun being of another value.
+    pub fn with_exposure(mut self, exposure: Exposure) -> Self {
+        self.exposure = exposure;
+        self
+    }
+
     /// The facets in units of their noise.
     pub fn data<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
         FacetData::new(scene, &self.measured(), self.exposure, CUTOFF)

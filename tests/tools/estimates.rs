@@ -1,6 +1,9 @@
 //! Estimates through the tools at the ends of the range of reflectances, and what is said of their errors; published figures are in
 //! `tests/numbers/published`.
 
+#[path = "../../benches/common/many_spectra.rs"]
+mod many_spectra;
+
 use std::fs;
 
 use serde_json::Value;
@@ -9,6 +12,7 @@ use vfold::estimate::prior::classes_of;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
 
 use crate::common::Workdir;
+use many_spectra::many_spectra;
 
 /// Scores of every sample of a pipeline, by name: RMSE and CIEDE2000.
 fn scores(script: &str) -> Vec<(String, f64, f64)> {
@@ -31,42 +35,10 @@ fn dark_and_bright_greys_are_recovered() {
     }
 }
 
-/// 199 greys, whites, dyes and edges, as a table of spectra.
-fn many_spectra() -> String {
-    let share = |n: u32, step: f64| (f64::from(n) * step).fract();
-    let step_at = |nm: f64, middle: f64, width: f64| 1.0 / (1.0 + ((middle - nm) / width).exp());
-    let band = |nm: f64, middle: f64| (-0.5 * ((1e7 / nm - 1e7 / middle) / 1800.0_f64).powi(2)).exp();
-    let grey = |n: u32| 0.02 + 0.02 * f64::from(n);
-    let white =
-        |n: u32, nm: f64| 0.8 + 0.17 * share(n, 0.618) - 0.3 * share(n, 0.414) * (-(nm - 400.0) / 40.0).exp();
-    // Kubelka and Munk's
-    let dye = |n: u32, nm: f64| {
-        let absorbed = 10.0_f64.powf(2.5 * share(n, 0.618) - 1.3) * band(nm, 410.0 + 260.0 * share(n, 0.414))
-            + 0.5 * share(n, 0.732) * band(nm, 410.0 + 260.0 * share(n, 0.236))
-            + 0.01;
-        1.0 + absorbed - (absorbed * absorbed + 2.0 * absorbed).sqrt()
-    };
-    let edge = |n: u32, nm: f64| {
-        let step = step_at(nm, 430.0 + 240.0 * share(n, 0.618), 3.0 + 25.0 * share(n, 0.414));
-        0.03 + (0.2 + 0.6 * share(n, 0.732)) * if n % 5 < 3 { step } else { 1.0 - step }
-    };
-    let at = |nm: f64| -> Vec<f64> {
-        let (greys, whites) = ((0..49).map(grey), (0..30).map(|n| white(n, nm)));
-        let (dyes, edges) = ((0..60).map(|n| dye(n, nm)), (0..60).map(|n| edge(n, nm)));
-        greys.chain(whites).chain(dyes).chain(edges).collect()
-    };
-    let names = (0..at(400.0).len()).map(|n| format!(",s{n}")).collect::<String>();
-    let row = |nm: u32| {
-        let values = at(f64::from(nm)).into_iter().map(|value| format!(",{value:.6}"));
-        format!("{nm}{}\n", values.collect::<String>())
-    };
-    format!("nm{names}\n{}", (400..=700).step_by(5).map(row).collect::<String>())
-}
-
 #[test]
 fn no_spectrum_takes_many_times_the_steps_of_most() {
     let folder = Workdir::new();
-    fs::write(folder.path().join("spectra.csv"), many_spectra()).unwrap();
+    fs::write(folder.path().join("spectra.csv"), many_spectra(199)).unwrap();
     for noise in ["0", "1e-3"] {
         let line = format!("vkernel | vforward --reflectance spectra.csv --noise-sd {noise} | vestimate");
         let run = folder.sh(&line);

@@ -25,14 +25,14 @@ struct Bounds {
 
 #[rustfmt::skip]
 const BOUNDS: [Bounds; 8] = [
-    Bounds { picture: "a", facets_percent: 0.2, known: [0.0114, 0.046], free: [0.0119, 0.106], fitted: [0.0138, 0.302] },
-    Bounds { picture: "b", facets_percent: 0.5, known: [0.0315, 0.407], free: [0.0181, 0.678], fitted: [0.0086, 0.428] },
-    Bounds { picture: "c", facets_percent: 0.5, known: [0.0373, 0.372], free: [0.0366, 0.584], fitted: [0.0396, 0.740] },
-    Bounds { picture: "d", facets_percent: 0.5, known: [0.0181, 0.778], free: [0.0188, 0.728], fitted: [0.0279, 0.834] },
-    Bounds { picture: "e", facets_percent: 0.5, known: [0.0253, 0.261], free: [0.0324, 0.584], fitted: [0.0144, 1.52] },
-    Bounds { picture: "f", facets_percent: 0.6, known: [0.099, 1.23], free: [0.051, 0.624], fitted: [0.051, 0.626] },
-    Bounds { picture: "h", facets_percent: 0.2, known: [0.0124, 0.038], free: [0.0124, 0.090], fitted: [0.0124, 0.176] },
-    Bounds { picture: "g", facets_percent: 0.5, known: [0.0092, 0.078], free: [0.0092, 0.083], fitted: [0.0077, 0.095] },
+    Bounds { picture: "a", facets_percent: 0.2, known: [0.0155, 0.041], free: [0.0122, 0.165], fitted: [0.0149, 0.601] },
+    Bounds { picture: "b", facets_percent: 0.5, known: [0.0177, 0.163], free: [0.0080, 0.306], fitted: [0.0104, 0.485] },
+    Bounds { picture: "c", facets_percent: 0.5, known: [0.0362, 0.476], free: [0.0380, 0.785], fitted: [0.0369, 0.612] },
+    Bounds { picture: "d", facets_percent: 0.5, known: [0.0125, 0.118], free: [0.0167, 0.247], fitted: [0.0258, 0.829] },
+    Bounds { picture: "e", facets_percent: 0.5, known: [0.0136, 0.085], free: [0.0099, 0.355], fitted: [0.0137, 1.350] },
+    Bounds { picture: "f", facets_percent: 0.6, known: [0.0480, 0.725], free: [0.0294, 0.639], fitted: [0.0503, 0.644] },
+    Bounds { picture: "h", facets_percent: 0.2, known: [0.0139, 0.037], free: [0.0136, 0.187], fitted: [0.0142, 0.357] },
+    Bounds { picture: "g", facets_percent: 0.5, known: [0.0097, 0.083], free: [0.0098, 0.085], fitted: [0.0080, 0.118] },
 ];
 
 /// What was measured in one picture.
