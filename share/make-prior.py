@@ -116,7 +116,7 @@ def log_uniform(draw, least, most):
 
 # ---- cloth: dyes on white fibres
 
-# Where dyes of each hue absorb most, nm, and how often they are met (Colour Index; H. Zollinger, *Color Chemistry*).
+# Where the first line of dyes of each hue lies, nm, and how often they are met (Colour Index; H. Zollinger, *Color Chemistry*).
 DYES = {
     "yellow": (385, 440, 0.22),
     "orange": (440, 500, 0.10),
