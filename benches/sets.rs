@@ -6,6 +6,7 @@
 //! that no chart has. `benches/sets.sh` makes a page of it.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
+#![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
 
 #[allow(dead_code, reason = "other benchmarks use the rest")]
 mod common;
