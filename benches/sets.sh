@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Estimates of every set (CSV file) given as an argument and of the ColorChecker, through five cameras in five lights, exposure known and free, and
-# of 5000 spectra that no chart has: how near, how often bars hold, false maxima and times: benches/results/sets.md. Seven minutes.
-# Cameras that are not built in are taken from CAMERAS (../shared/data/cameras).
+# of 5000 spectra that no chart has: how near, how often bars hold, false maxima and times: benches/results/sets.md. Twelve minutes. Cameras
+# that are not built in are taken from CAMERAS (../shared/data/cameras), three more sets from the package luxpy, if pip can install it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
+. benches/peers.sh
 cargo build --quiet --release --bins --benches
 bin=${CARGO_TARGET_DIR:-target}/release
 cameras=${CAMERAS:-../shared/data/cameras}
@@ -12,6 +13,10 @@ page=benches/results/sets.md
 made_by=$(machine "$bin/vkernel")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+unseen=
+if peer luxpy numpy==2.2.6 >/dev/null && python=$(peer luxpy --no-deps luxpy==1.12.5); then
+    unseen=$("$python" benches/unseen.py "$("$python" -c 'import site; print(site.getsitepackages()[0])')" "$work")
+fi
 
 # row NAME NOISE FLAGS STREAM...: their estimates
 row() {
@@ -49,12 +54,13 @@ below_one() {
     echo '"many" are greys, whites, dyes and edges through the first. Exposure known and free. Within: per cent of true values within one and two'
     echo 'standard deviations, of all wavebands, at 400 to 420 and at 680 to 700 nm. False: estimates that are further from the truth than the one that'
     echo 'starts there, by 0.01 of RMSE and twice. Median: ms, one thread, the fastest of three runs; slowest: of all, over the median.'
+    echo 'cri2012, opstelten and tm30 (`benches/unseen.py`) were never in view when anything was chosen.'
     echo
     echo '| set | facet noise | estimates | RMSE | within | violet | red | false | median | slowest |'
     echo '|---|---|---|---|---|---|---|---|---|---|'
     for noise in 0 1e-3 1e-2; do
         [ $noise = 0 ] && maxima=--maxima || maxima=
-        for set in share/cc24.csv "$@"; do
+        for set in share/cc24.csv "$@" $unseen; do
             below_one "$set" >"$work/set.csv"
             row "$(basename "$set" .csv)" $noise $maxima $(streams "$work/set.csv" $noise)
         done
