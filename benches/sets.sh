@@ -54,7 +54,7 @@ below_one() {
     echo '"many" are greys, whites, dyes and edges through the first. Exposure known and free. Within: per cent of true values within one and two'
     echo 'standard deviations, of all wavebands, at 400 to 420 and at 680 to 700 nm. False: estimates that are further from the truth than the one that'
     echo 'starts there, by 0.01 of RMSE and twice. Median: ms, one thread, the fastest of three runs; slowest: of all, over the median.'
-    echo 'cri2012, opstelten and tm30 (`benches/unseen.py`) were in view of no choice, but for those of TM-30 that are among CES 99.'
+    echo 'Nothing was chosen with cri2012, opstelten and tm30 (`benches/unseen.py`) in view, but for samples of TM-30 that are among CES 99.'
     echo
     echo '| set | facet noise | estimates | RMSE | within | violet | red | false | median | slowest |'
     echo '|---|---|---|---|---|---|---|---|---|---|'
