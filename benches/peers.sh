@@ -2,7 +2,7 @@
 
 # peer NAME PACKAGE...: prints the Python that has these packages, installing them first; fails where pip cannot.
 peer() {
-    environment=$(cd "${CARGO_TARGET_DIR:-target}" && pwd)/$1
+    environment=$(realpath -m "${CARGO_TARGET_DIR:-target}")/$1
     shift
     { [ -x "$environment/bin/python" ] || python3 -m venv "$environment"; } >/dev/null 2>&1 &&
         "$environment/bin/python" -m pip install --quiet --disable-pip-version-check "$@" >/dev/null 2>&1 &&

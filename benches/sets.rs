@@ -19,10 +19,10 @@ mod samples;
 use common::timed_once;
 use many_spectra::many_spectra;
 use samples::Batch;
-use vfold::Result;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::{Estimate, Exposure, map};
 use vfold::score::rmse;
+use vfold::{Error, Result};
 
 /// The fastest of so many runs is the time of an estimate.
 const RUNS: usize = 3;
@@ -45,7 +45,9 @@ fn main() -> Result<()> {
     common::on_one_thread();
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench").peekable();
     if arguments.next_if(|argument| argument == "--spectra").is_some() {
-        let count = arguments.next().and_then(|count| count.parse().ok()).unwrap_or(199);
+        let count = arguments.next().and_then(|count| count.parse().ok());
+        let count =
+            count.ok_or_else(|| Error::Numeric("no number of spectra; write one after --spectra".into()))?;
         print!("{}", many_spectra(count));
         return Ok(());
     }

@@ -59,6 +59,6 @@ fn few_estimates_end_in_a_false_maximum() {
         }
     }
     println!("{} of {estimates} estimates end in a false maximum: {wrong:#?}", wrong.len());
-    // 1 of 984 with all sets
-    assert!(wrong.len() <= 1 + estimates / 900, "{} of {estimates}: {wrong:#?}", wrong.len());
+    // none of 984 with all sets; other processors round otherwise
+    assert!(wrong.len() <= 1, "{} of {estimates}: {wrong:#?}", wrong.len());
 }
