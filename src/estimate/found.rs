@@ -15,8 +15,6 @@ use crate::solve::posterior::{Iteration, Solution};
 /// A maximum explains the facets if it leaves them within so many times their noise; further off the scene is not the one that was
 /// photographed, and evidence says nothing.
 const MISFIT_MOST: f64 = 1.1;
-/// Error bars believe the evidence for a class to that power: it is of Gaussians, and the sheets that a class was made of are not all there are.
-const BELIEF: f64 = 0.75;
 /// The share of the mean from which on the error bars of a class that was not searched are found: that takes as long as a step.
 const LEAST_SHARE: f64 = 0.03;
 /// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
@@ -82,30 +80,30 @@ fn widened(residual_rms: f64) -> f64 {
     residual_rms.max(1.0)
 }
 
-/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it, as far as
-/// evidence is believed; the rest is that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known
-/// as the rest is in the mean.
+/// The mean of the maxima and of classes `beside` them by their evidence, its error bars widened by how far they are from it; the rest is
+/// that of the maximum of most evidence. A class beside of no more than [`LEAST_SHARE`] is taken to be known as the rest is in the mean.
 pub fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
     found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let most = found.first()?;
     // What was not searched counts for no more than the best that was.
     let of_found = found.iter().map(|other| other.ln_evidence);
     let of_all = of_found.chain(beside.iter().map(|other| other.ln_evidence));
-    let ln_odds: Vec<f64> = of_all.map(|ln_evidence| (ln_evidence - most.ln_evidence).min(0.0)).collect();
+    let odds: Vec<f64> = of_all.map(|ln_evidence| (ln_evidence - most.ln_evidence).min(0.0).exp()).collect();
+    let sum: f64 = odds.iter().sum();
+    let shares: Vec<f64> = odds.iter().map(|odds| odds / sum).collect();
     let points = || found.iter().map(|other| &other.point).chain(beside.iter().map(|other| &other.point));
     let mut point = vec![0.0; most.point.len()];
-    for (other, share) in points().zip(shares(&ln_odds, 1.0)) {
+    for (other, share) in points().zip(&shares) {
         point.iter_mut().zip(other).for_each(|(mean, value)| *mean += share * value);
     }
-    let believed = shares(&ln_odds, BELIEF);
-    let apart = points().zip(&believed).map(|(other, share)| {
+    let apart = points().zip(&shares).map(|(other, share)| {
         let apart = other.iter().zip(&point).map(|(other, mean)| share.sqrt() * (other - mean));
         RowDVector::from_iterator(point.len(), apart)
     });
-    let of_beside = &believed[found.len()..];
+    let of_beside = &shares[found.len()..];
     let counting = beside.iter().zip(of_beside).filter(|(_, share)| **share > LEAST_SHARE);
     let counting: Vec<_> = counting.map(|(other, share)| (other.spread(), share)).collect();
-    let spreads = found.iter().map(|other| &other.spread).zip(&believed);
+    let spreads = found.iter().map(|other| &other.spread).zip(&shares);
     let spreads = spreads.chain(counting.iter().map(|(spread, share)| (spread, *share)));
     let counted: f64 = spreads.clone().map(|(_, share)| share).sum();
     let within = spreads.map(|(spread, share)| Some((share / counted).sqrt() * spread.as_ref()?));
@@ -115,13 +113,6 @@ pub fn mean(mut found: Vec<Found>, beside: &[Beside]) -> Option<Found> {
         DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
     });
     Some(Found { spread, point, ..found.swap_remove(0) })
-}
-
-/// Shares by a power of the odds.
-fn shares(ln_odds: &[f64], power: f64) -> Vec<f64> {
-    let odds = || ln_odds.iter().map(|ln| (power * ln).exp());
-    let sum: f64 = odds().sum();
-    odds().map(|odds| odds / sum).collect()
 }
 
 impl Found {

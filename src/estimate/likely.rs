@@ -1,7 +1,7 @@
 //! Classes of spectra by their evidence, and where to look under those of most.
 //!
 //! Three channels tell most classes apart: all spectra as one Gaussian lead near the spectrum, and the model linearised there says
-//! which classes it may be of, and how wide each is: its width is that of most evidence, its evidence that at all widths.
+//! which classes it may be of, and how wide each is: its width is the root mean square of all by their evidence, its evidence that at all.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -41,7 +41,7 @@ pub struct Start {
     pub ln_evidence: f64,
     /// Logarithm of its share of all spectra, as if all of them were as wide as `gaussian`.
     pub ln_share: f64,
-    /// Its spectra, at the width of most evidence.
+    /// Its spectra, as wide as they are likely to be.
     pub gaussian: Gaussian,
     pub w: DVector<f64>,
 }
@@ -82,16 +82,17 @@ pub struct Likely<'a> {
 /// A class by its evidence.
 struct Weighed {
     class: usize,
-    /// The width of most evidence.
-    width: Width,
+    /// How wide it is likely to be.
+    scale: f64,
+    roughness: usize,
     /// Logarithm of the evidence for the class and of its share, at all widths.
     ln_evidence: f64,
-    /// Logarithm of the share that the class would have if all its spectra were of that width.
+    /// Logarithm of the share that the class would have if all its spectra were as wide.
     ln_share: f64,
     facets: LinearClass,
 }
 
-/// How wide a class is: places in [`SCALES`] and [`ROUGHNESSES`].
+/// A width that a class may have: places in [`SCALES`] and [`ROUGHNESSES`].
 #[derive(Clone, Copy)]
 struct Width {
     scale: usize,
@@ -143,8 +144,7 @@ impl<'a> Likely<'a> {
 
     /// The Gaussian of a class as wide as it is likely to be.
     fn gaussian(&self, one: &Weighed) -> Gaussian {
-        let Width { scale, roughness } = one.width;
-        self.prior.classes()[one.class].rough(roughness).scaled(SCALES[scale].0)
+        self.prior.classes()[one.class].rough(one.roughness).scaled(one.scale)
     }
 
     /// Where to look under a class: at the mean of the linear posterior.
@@ -171,7 +171,7 @@ impl<'a> Likely<'a> {
 
     /// The mean of the linear posterior under a class, and the logarithm of the determinant of the facets' covariance.
     fn posterior(&self, one: &Weighed, gaussian: &Gaussian) -> Option<(DVector<f64>, f64)> {
-        let factor = one.facets.covariance(&self.linear, one.width)?;
+        let factor = one.facets.covariance(&self.linear, one.scale, one.roughness)?;
         let by_logit = self.linear.jacobian.tr_mul(&factor.solve(&one.facets.residuals));
         let (bands, coordinates) = gaussian.basis().shape();
         let mut w = gaussian.basis().tr_mul(&by_logit.rows(0, bands));
@@ -185,16 +185,17 @@ impl<'a> Likely<'a> {
 fn weighed(linear: &LinearModel, prior: &Prior) -> Vec<Weighed> {
     let of_class = |(class, known): (usize, &Class)| {
         let facets = LinearClass::new(linear, known);
-        let first = facets.of_most_evidence(linear, FIRST_WIDTHS.into_iter())?;
+        let first = facets.at_widths(linear, FIRST_WIDTHS.into_iter())?;
         Some((known.ln_share + first.ln_evidence, class, facets))
     };
     let first: Vec<_> = prior.classes().iter().enumerate().filter_map(of_class).collect();
     let most = first.iter().map(|(ln_evidence, ..)| *ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let near = first.into_iter().filter(|(ln_evidence, ..)| *ln_evidence >= most + LN_EVIDENCE_NEAR);
     let weighed = near.filter_map(|(_, class, facets)| {
-        let OfWidths { ln_evidence, width, ln_of_width } = facets.of_most_evidence(linear, Width::all())?;
+        let AtWidths { ln_evidence, scale, roughness } = facets.at_widths(linear, Width::all())?;
         let ln_evidence = prior.classes()[class].ln_share + ln_evidence;
-        Some(Weighed { class, width, ln_evidence, ln_share: ln_evidence - ln_of_width, facets })
+        let ln_share = ln_evidence - facets.ln_evidence(linear, scale, roughness)?;
+        Some(Weighed { class, scale, roughness, ln_evidence, ln_share, facets })
     });
     let mut weighed: Vec<_> = weighed.collect();
     weighed.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
@@ -263,12 +264,13 @@ struct LinearClass {
 }
 
 /// A class at several widths.
-struct OfWidths {
+struct AtWidths {
     /// Logarithm of the evidence, the widths being as frequent as they are.
     ln_evidence: f64,
-    /// The width of most evidence, and the logarithm of its evidence alone.
-    width: Width,
-    ln_of_width: f64,
+    /// Root mean square by evidence: where facets do not tell the width of a class, error bars are those of all widths.
+    scale: f64,
+    /// Of most evidence, a place in [`ROUGHNESSES`].
+    roughness: usize,
 }
 
 impl LinearClass {
@@ -279,8 +281,8 @@ impl LinearClass {
         Self { residuals, by_class: &own * own.transpose() }
     }
 
-    fn covariance(&self, linear: &LinearModel, width: Width) -> Option<Cholesky<f64, Dyn>> {
-        let (scale, roughness) = (SCALES[width.scale].0.powi(2), ROUGHNESSES[width.roughness].0.powi(2));
+    fn covariance(&self, linear: &LinearModel, scale: f64, roughness: usize) -> Option<Cholesky<f64, Dyn>> {
+        let (scale, roughness) = (scale.powi(2), ROUGHNESSES[roughness].0.powi(2));
         let mut covariance = linear.by_others.clone();
         let parts = covariance
             .as_mut_slice()
@@ -292,26 +294,27 @@ impl LinearClass {
     }
 
     /// The evidence at a width; none if the numbers are not finite.
-    fn ln_evidence(&self, linear: &LinearModel, width: Width) -> Option<f64> {
-        let factor = self.covariance(linear, width)?;
+    fn ln_evidence(&self, linear: &LinearModel, scale: f64, roughness: usize) -> Option<f64> {
+        let factor = self.covariance(linear, scale, roughness)?;
         let cost = factor.l_dirty().solve_lower_triangular(&self.residuals)?.norm_squared();
         let ln_evidence = -0.5 * (cost + factor.ln_determinant());
         ln_evidence.is_finite().then_some(ln_evidence)
     }
 
     /// None if no number is finite.
-    fn of_most_evidence(
-        &self,
-        linear: &LinearModel,
-        widths: impl Iterator<Item = Width>,
-    ) -> Option<OfWidths> {
+    fn at_widths(&self, linear: &LinearModel, widths: impl Iterator<Item = Width>) -> Option<AtWidths> {
         let weighed = |width: Width| {
-            let ln_of_width = self.ln_evidence(linear, width)?;
-            Some((ln_of_width + width.ln_share(), ln_of_width, width))
+            let ln_of_width = self.ln_evidence(linear, SCALES[width.scale].0, width.roughness)?;
+            Some((ln_of_width + width.ln_share(), width))
         };
         let all: Vec<_> = widths.filter_map(weighed).collect();
-        let &(most, ln_of_width, width) = all.iter().max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
-        let sum: f64 = all.iter().map(|(ln_evidence, ..)| (ln_evidence - most).exp()).sum();
-        Some(OfWidths { ln_evidence: most + sum.ln(), width, ln_of_width })
+        let &(most, Width { roughness, .. }) = all.iter().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (ln_evidence, width) in &all {
+            let odds = (ln_evidence - most).exp();
+            sum += odds;
+            squares += odds * SCALES[width.scale].0.powi(2);
+        }
+        Some(AtWidths { ln_evidence: most + sum.ln(), scale: (squares / sum).sqrt(), roughness })
     }
 }

@@ -33,10 +33,10 @@ const QUICK_COORDINATES: usize = 10;
 const FOLLOWED: usize = 14;
 const FOLLOWED_INFLATION: f64 = 2.0;
 const FOLLOWED_TOLERANCE: f64 = 0.1;
-const FOLLOWED_LIMIT: usize = 30;
+const FOLLOWED_LIMIT: usize = 20;
 /// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing comes to an end, no class is like the
 /// spectrum.
-const ESTIMATE_LIMIT: usize = 180;
+const ESTIMATE_LIMIT: usize = 260;
 /// Classes are told apart at so many maxima, and so many are searched of those that come near to the best, as the logarithm of a share of its
 /// evidence.
 const PLACES: usize = 5;
