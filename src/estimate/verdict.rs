@@ -104,11 +104,22 @@ fn misfit(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// A spectrum of which the facets tell little.
-fn open(estimate: &Estimate) -> Option<Doubt> {
+/// Standard deviation of the reflectance in the mean over all wavebands, if the facets leave too much open.
+fn too_open(estimate: &Estimate) -> Option<f64> {
     let sd = estimate.reflectance_sd()?;
     let mean = sd.iter().sum::<f64>() / sd.len() as f64;
-    (mean > OPEN).then(|| {
+    (mean > OPEN).then_some(mean)
+}
+
+/// Whether facets that are further from the model than chance has it do not tell the spectrum either: another scene may explain both.
+#[must_use]
+pub fn is_loose(estimate: &Estimate, values: usize) -> bool {
+    too_open(estimate).is_some() && beyond_chance(estimate, values).is_some()
+}
+
+/// A spectrum of which the facets tell little.
+fn open(estimate: &Estimate) -> Option<Doubt> {
+    too_open(estimate).map(|mean| {
         Doubt::new(
             format!("the facets leave the reflectance open by ± {:.2} in the mean", 2.0 * mean),
             "a chart or card in the picture, more light, less noise or an angle nearer to 45° tell more",
@@ -166,6 +177,12 @@ mod tests {
             "{wrong:?}"
         );
         assert_eq!(of(0.9, 0.1, vec![Doubt::new("another", "remedy")]).because, "another");
+    }
+
+    #[test]
+    fn loose_is_what_neither_fits_nor_tells() {
+        let of = |rms, sd| is_loose(&estimate(rms, sd), 600);
+        assert_eq!([of(1.2, 0.1), of(1.2, 0.01), of(1.0, 0.1), of(1.0, 0.01)], [true, false, false, false]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::ANGLE;
-use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance};
+use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
@@ -62,17 +62,21 @@ impl Estimator<'_> {
             return Ok(ideal);
         }
         let stands_in = record.camera()?.stands_in.map(|one| one.camera);
+        // A little gloss taken for bounces leaves little of the facets and no spectrum.
+        let is_loose = |estimate: &Estimate| is_loose(estimate, given.data.size().1);
         let mut misfit = map::least_misfit(given.data, prior);
         let told = (misfit < map::CAUTION * EXPLAINED).then(ideal);
         misfit = told.as_ref().map_or(misfit, |told| told.residual_rms);
         if misfit < NEAR
             && stands_in.is_none()
             && let Some(turned) = other_angle(misfit)?
+            && !is_loose(&turned.estimate)
         {
             return Ok(turned.into_estimate(doubts));
         }
+        let is_ideal = misfit < EXPLAINED && stands_in.is_none() && !told.as_ref().is_some_and(is_loose);
         let told = || told.unwrap_or_else(ideal);
-        if (misfit < EXPLAINED && stands_in.is_none()) || given.exposure == Exposure::Sum {
+        if is_ideal || given.exposure == Exposure::Sum {
             return Ok(told());
         }
         match self.parts(record, sample, given.measured)? {
