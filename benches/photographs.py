@@ -118,4 +118,5 @@ def main(folder, shared):
                 measure(tools, panel, [kind(tools, sidecar, work) for sidecar in sidecars], fits, flags)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main(*sys.argv[1:])

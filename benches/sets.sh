@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Estimates of every set (CSV file) given as an argument and of the ColorChecker, through five cameras in five lights, exposure known and free, and
 # of 5000 spectra that no chart has: how near, how often bars hold, false maxima and times: benches/results/sets.md. Twelve minutes. Cameras
-# that are not built in are taken from CAMERAS (../shared/data/cameras), three more sets from the package luxpy, if pip can install it.
+# that are not built in are taken from CAMERAS (../shared/data/cameras), four more sets from the package luxpy, if pip can install it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -56,7 +56,7 @@ below_one() {
     echo '"many" are greys, whites, dyes and edges through the first. Exposure known and free. Within: per cent of true values within one and two'
     echo 'standard deviations, of all wavebands, at 400 to 420 and at 680 to 700 nm. False: estimates that are further from the truth than the one that'
     echo 'starts there, by 0.01 of RMSE and twice. Median: ms, one thread, the fastest of three runs; slowest: of all, over the median.'
-    echo 'Nothing was chosen with cri2012, opstelten and tm30 (`benches/unseen.py`) in view, but for samples of TM-30 that are among CES 99.'
+    echo 'Nothing was chosen with tm30_kept (`benches/unseen.py`) in view, and no class of spectra with cri2012, opstelten and tm30.'
     [ -z "$left_out" ] || echo "$left_out"
     echo
     echo '| set | facet noise | estimates | RMSE | within | violet | red | false | median | slowest |'

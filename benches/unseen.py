@@ -3,8 +3,8 @@
 
     unseen.py SITE_PACKAGES FOLDER
 
-210 measured samples of CRI2012 (K. Smet and others, 2013), the 215 test colours of J. J. Opstelten (1983), and 300 drawn of the 2696 that
-differ of the IES's 4880 (TM-30-15). From 400 to 700 nm by 5. luxpy is under the GPL: its data are measured with, not shipped.
+210 measured samples of CRI2012 (K. Smet and others, 2013), the 215 test colours of J. J. Opstelten (1983), and twice 300 drawn of the 2696
+that differ of the IES's 4880 (TM-30-15): some that choices may be made with, and others to judge. From 400 to 700 nm by 5. luxpy is under the GPL: its data are measured with, not shipped.
 """
 
 import sys
@@ -29,8 +29,9 @@ def main(packages, folder):
         write(folder / f"{name}.csv", nm, spectra)
     nm, *spectra = np.load(data / "IESTM30_15_R4880.npz")["_IESTM30_R4880"]
     differing = np.loadtxt(data / "IESTM30-R4880-subset-with-unique-rfls--2696.dat").astype(int)
-    drawn = np.random.default_rng(3).permutation(differing)[:300]
-    write(folder / "tm30.csv", nm, [spectra[n] for n in drawn])
+    drawn = np.random.default_rng(3).permutation(differing)
+    for name, some in (("tm30", drawn[:300]), ("tm30_kept", drawn[500:800])):
+        write(folder / f"{name}.csv", nm, [spectra[n] for n in some])
 
 
 if __name__ == "__main__":

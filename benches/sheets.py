@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Photographs of real sheets: how near estimates are, how often error bars hold and how long they take, as rows of a table.
+
+    sheets.py TOOLS SHARED SET.csv...        TOOLS: folder of the tools; SHARED: folder of `real` and `materials`
+
+First those that others rendered or measured, then forty sheets drawn of each set, which vforward photographs: gloss, rough bodies, a blue
+sky, a warm sun and a camera of which another measurement is told; angle, tilt, light and corners are told as a user knows them, of half of
+them the exposure, too.
+"""
+
+import json
+import random
+import statistics
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from photographs import Tools, extracted, of_material, of_real, rmse, table
+
+SHEETS = 40
+# Of the corners, px, of the angle and the tilt, degrees, and of the exposure, relative: how far off a user is.
+CORNER_SD, ANGLE_SD_DEG, TILT_SD_DEG, EXPOSURE_SD = 0.5, 1.2, 2.0, 0.05
+SKY_CCT_K = 11000
+GIVEN = [
+    ("rendered, all effects", of_real, "real/all_*.json", []),
+    ("rendered, one effect", of_real, "real/one_*.json", []),
+    ("rendered, all effects, more", of_real, "real/more/*.json", []),
+    ("rendered, two of one sheet", of_real, "real/pairs/*.json", []),
+    ("measured materials", of_material, "materials/*.json", ["--exposure", "1"]),
+]
+
+
+def simulated(tools, cameras, spec, draw, work):
+    """Records of a sheet that vforward photographs, its truth, and the exposure if that is told."""
+    angle_deg, exposure = draw.uniform(44, 72), draw.uniform(0.4, 0.9)
+    true_camera, told_camera = cameras
+    sky, tilt_deg = draw.uniform(0.05, 0.15), draw.gauss(0, TILT_SD_DEG)
+    scene, _ = tools.run("vkernel", "--angle-deg", angle_deg, "--tilt-deg", tilt_deg, "--sky", sky)
+    light = ["--illuminant", f"daylight:{draw.uniform(5100, 5500):.0f}", "--sky-illuminant", f"daylight:{SKY_CCT_K}"]
+    surface = ["--gloss", draw.uniform(0, 0.5), "--gloss-roughness", draw.uniform(0.38, 0.55), "--body-roughness-deg", draw.uniform(0, 20)]
+    noise = ["--noise-sd", 1e-3, "--photon-noise", 1e-2, "--seed", draw.randrange(10000)]
+    picture = ["--exposure", exposure, *noise, "--render", work / "sheet.tif", "--render-size", "400x300"]
+    said, _ = tools.run("vforward", "-q", "--reflectance", spec, "--camera", true_camera, *light, *surface, *picture, given=scene)
+    sample = json.loads(said.splitlines()[-1])
+    truth = dict(zip(sample["truth"]["wavelengths_nm"], sample["truth"]["reflectance"], strict=True))
+    moved = {}
+    for panel in ("panel0", "panel1"):
+        for corner in map(tuple, sample["regions"][panel]):
+            moved.setdefault(corner, tuple(x + draw.gauss(0, CORNER_SD) for x in corner))
+    corners = {panel: [moved[tuple(corner)] for corner in sample["regions"][panel]] for panel in ("panel0", "panel1")}
+    told_light = draw.choice(["D50", "D55", "D65"])
+    fold = ["--angle-deg", angle_deg + draw.gauss(0, ANGLE_SD_DEG)]
+    records = extracted(tools, fold, work / "sheet.tif", told_camera, told_light, corners, [])
+    told_exposure = exposure * (1 + draw.gauss(0, EXPOSURE_SD))
+    return records, truth, ["--exposure", told_exposure] if draw.random() < 0.5 else []
+
+
+def set_of(tools, cameras, path):
+    """Forty sheets of a set, as [`simulated`] has them."""
+    names = path.read_text(encoding="utf-8").splitlines()[0].split(",")[1:]
+    draw = random.Random(path.stem)
+    drawn = [(name, draw.random()) for name in draw.sample(names, min(SHEETS, len(names)))]
+
+    def sheet(one):
+        with tempfile.TemporaryDirectory() as work:
+            return simulated(tools, cameras, f"{path}:{one[0]}", random.Random(one[1]), Path(work))
+
+    with ThreadPoolExecutor() as several:
+        return list(several.map(sheet, drawn))
+
+
+def estimated(tools, records, truth, flags):
+    """RMSE, errors in standard deviations, ms."""
+    said, ms = tools.run("vestimate", "-q", "-j", 1, *flags, given=records)
+    scene, record = (json.loads(line) for line in said.splitlines())
+    nm, estimate = scene["wavelengths_nm"], record["estimate"]
+    off = [
+        abs(r - truth[n]) / sd
+        for n, r, sd in zip(nm, estimate["reflectance"], estimate["reflectance_sd"], strict=True)
+        if n in truth
+    ]
+    return rmse({**record, "wavelengths_nm": nm}, truth), off, ms
+
+
+def row(tools, name, photographs):
+    measured = [estimated(tools, *one) for one in photographs]
+    off = [z for _, of_one, _ in measured for z in of_one]
+    within = " / ".join(f"{100 * statistics.fmean(z < most for z in off):.0f}" for most in (1, 2))
+    error, ms = statistics.fmean(one[0] for one in measured), statistics.median(one[2] for one in measured)
+    print(f"| {name} | {len(measured)} | {error:.4f} | {within} | {ms:.0f} |", flush=True)
+
+
+def main(folder, shared, *sets):
+    tools, shared = Tools(folder), Path(shared)
+    with tempfile.TemporaryDirectory() as work:
+        work = Path(work)
+        for name, kind, pattern, flags in GIVEN:
+            sidecars = sorted(shared.glob(pattern))
+            if sidecars:
+                row(tools, name, [(*kind(tools, sidecar, work), flags) for sidecar in sidecars])
+        said = json.loads((shared / "real/all_blue_paint.json").read_text(encoding="utf-8"))
+        curves = {"true": said["camera_sensitivities_rgb"], "told": said["told"]["camera_sensitivities_rgb"]}
+        cameras = [table(work / f"{which}.csv", said["wavelengths_nm"], columns) for which, columns in curves.items()]
+        for path in map(Path, sets):
+            row(tools, path.stem, set_of(tools, cameras, path))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
