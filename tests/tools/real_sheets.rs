@@ -79,6 +79,27 @@ fn more_sheets_give_their_spectra() {
     assert!(mean(&every, |one| one.within_two_sd) > 0.85);
 }
 
+/// Within twice their noise its facets are those of an ideal fold of another spectrum, 0.08 off, which says little of itself.
+#[test]
+fn a_little_gloss_is_not_taken_for_bounces() {
+    let run = Workdir::new().sh("
+        vkernel --angle-deg 70 | vforward --reflectance cc24:yellow --gloss 0.2 --illuminant daylight:5300 --exposure 0.6 \\
+            --noise-sd 1e-3 --photon-noise 1e-2 --render p.tif --render-size 400x300 -q -o simulated.ndjson
+        vkernel --angle-deg 70 -o scene.json
+        vextract p.tif --regions simulated.ndjson --scene scene.json --camera canon-5d-mark-ii --illuminant D55 -q -o p.ndjson
+        for fit in none auto; do vestimate -q --fit $fit p.ndjson | vscore -q --truth cc24:yellow; done");
+    let found: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let found = found.iter().filter(|record| record["kind"] == "sample");
+    let found: Vec<[f64; 2]> = found
+        .map(|one| [&one["estimate"]["residual_rms"], &one["metrics"]["rmse"]].map(|n| n.as_f64().unwrap()))
+        .collect();
+    let [[ideal_residual, ideal], [residual, rmse]] = found[..] else { panic!("{run:?}") };
+    println!(
+        "residual and RMSE, ideal fold {ideal_residual:.3} {ideal:.3}, by default {residual:.3} {rmse:.3}"
+    );
+    assert!(ideal_residual < 2.0 && residual < 1.0 && rmse < 0.04 && rmse < 0.6 * ideal, "{found:?}");
+}
+
 /// Their shapes are among those of the prior, so that this tests the way from the picture to the spectrum, not the prior.
 #[test]
 fn measured_materials_give_their_reflectance() {
