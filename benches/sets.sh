@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Estimates of every set (CSV file) given as an argument and of the ColorChecker, through five cameras in five lights, exposure known and free, and
-# of 5000 spectra that no chart has: how near, how often bars hold, false maxima and times: benches/results/sets.md. Twelve minutes. Cameras
+# of 5000 spectra that no chart has: how near, how often bars hold, false maxima and times: benches/results/sets.md. Thirteen minutes. Cameras
 # that are not built in are taken from CAMERAS (../shared/data/cameras), four more sets from the package luxpy, if pip can install it.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -4,7 +4,8 @@
     unseen.py SITE_PACKAGES FOLDER
 
 210 measured samples of CRI2012 (K. Smet and others, 2013), the 215 test colours of J. J. Opstelten (1983), and twice 300 drawn of the 2696
-that differ of the IES's 4880 (TM-30-15): some that choices may be made with, and others to judge. From 400 to 700 nm by 5. luxpy is under the GPL: its data are measured with, not shipped.
+that differ of the IES's 4880 (TM-30-15): some that choices may be made with, and others to judge. From 400 to 700 nm by 5. luxpy is under
+the GPL: its data are measured with, not shipped.
 """
 
 import sys

@@ -82,7 +82,7 @@ pub struct Likely<'a> {
 /// A class by its evidence.
 struct Weighed {
     class: usize,
-    /// How wide it is likely to be.
+    /// How wide it is likely to be, and a place in [`ROUGHNESSES`].
     scale: f64,
     roughness: usize,
     /// Logarithm of the evidence for the class and of its share, at all widths.
