@@ -8,3 +8,10 @@ peer() {
         "$environment/bin/python" -m pip install --quiet --disable-pip-version-check "$@" >/dev/null 2>&1 &&
         echo "$environment/bin/python"
 }
+
+# unseen_sets FOLDER [NAME...]: writes the sets of the package luxpy there and prints their files, or those of the names; fails where pip
+# cannot install it.
+unseen_sets() {
+    peer luxpy numpy==2.2.6 >/dev/null && python=$(peer luxpy --no-deps luxpy==1.12.5) || return
+    "$python" benches/unseen.py "$("$python" -c 'import site; print(site.getsitepackages()[0])')" "$@"
+}

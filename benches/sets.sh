@@ -13,12 +13,7 @@ page=benches/results/sets.md
 made_by=$(machine "$bin/vkernel")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-unseen= left_out=
-if ! peer luxpy numpy==2.2.6 >/dev/null || ! python=$(peer luxpy --no-deps luxpy==1.12.5); then
-    left_out='luxpy: pip cannot install it here; its sets are left out'
-else
-    unseen=$("$python" benches/unseen.py "$("$python" -c 'import site; print(site.getsitepackages()[0])')" "$work")
-fi
+unseen=$(unseen_sets "$work") && left_out= || left_out="luxpy cannot be had here; its sets are left out"
 
 # row NAME NOISE FLAGS STREAM...: their estimates
 row() {

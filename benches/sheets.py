@@ -19,6 +19,7 @@ from pathlib import Path
 from photographs import Tools, extracted, of_material, of_real, rmse, table
 
 SHEETS = 40
+FAR = 0.1
 # Of the corners, px, of the angle and the tilt, degrees, and of the exposure, relative: how far off a user is.
 CORNER_SD, ANGLE_SD_DEG, TILT_SD_DEG, EXPOSURE_SD = 0.5, 1.2, 2.0, 0.05
 SKY_CCT_K = 11000
@@ -87,8 +88,9 @@ def row(tools, name, photographs):
     measured = [estimated(tools, *one) for one in photographs]
     off = [z for _, of_one, _ in measured for z in of_one]
     within = " / ".join(f"{100 * statistics.fmean(z < most for z in off):.0f}" for most in (1, 2))
-    error, ms = statistics.fmean(one[0] for one in measured), statistics.median(one[2] for one in measured)
-    print(f"| {name} | {len(measured)} | {error:.4f} | {within} | {ms:.0f} |", flush=True)
+    errors, ms = [one[0] for one in measured], statistics.median(one[2] for one in measured)
+    far = sum(error > FAR for error in errors)
+    print(f"| {name} | {len(measured)} | {statistics.fmean(errors):.4f} | {far} | {within} | {ms:.0f} |", flush=True)
 
 
 def main(folder, shared, *sets):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes sets of spectra that the Python package luxpy has, as CSV files, and prints their names.
 
-    unseen.py SITE_PACKAGES FOLDER
+    unseen.py SITE_PACKAGES FOLDER [NAME...]
 
 210 measured samples of CRI2012 (K. Smet and others, 2013), the 215 test colours of J. J. Opstelten (1983), and twice 300 drawn of the 2696
 that differ of the IES's 4880 (TM-30-15): some that choices may be made with, and others to judge. From 400 to 700 nm by 5. luxpy is under
@@ -23,16 +23,19 @@ def write(path, nm, spectra):
     print(path)
 
 
-def main(packages, folder):
+def main(packages, folder, *wanted):
     data, folder = Path(packages) / "luxpy/data/rfls", Path(folder)
+    sets = {}
     for name, table in (("cri2012", "CRI2012_R210.dat"), ("opstelten", "Opstelten1983_215.dat")):
         nm, *spectra = np.loadtxt(data / table, delimiter=",").T
-        write(folder / f"{name}.csv", nm, spectra)
+        sets[name] = (nm, spectra)
     nm, *spectra = np.load(data / "IESTM30_15_R4880.npz")["_IESTM30_R4880"]
     differing = np.loadtxt(data / "IESTM30-R4880-subset-with-unique-rfls--2696.dat").astype(int)
     drawn = np.random.default_rng(3).permutation(differing)
     for name, some in (("tm30", drawn[:300]), ("tm30_kept", drawn[500:800])):
-        write(folder / f"{name}.csv", nm, [spectra[n] for n in some])
+        sets[name] = (nm, [spectra[n] for n in some])
+    for name in wanted or sets:
+        write(folder / f"{name}.csv", *sets[name])
 
 
 if __name__ == "__main__":

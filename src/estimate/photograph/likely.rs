@@ -13,7 +13,7 @@ use crate::solve::Eigen;
 use crate::solve::posterior::{Model, Solution};
 
 /// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
-const SHARE_POWER: f64 = 0.6;
+const SHARE_POWER: f64 = 0.36;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
