@@ -33,6 +33,6 @@ unseen=$(unseen_sets "$work" cri2012 tm30_kept) && left_out= || left_out="luxpy 
     echo
     echo '| photographs | count | RMSE | far | within | median |'
     echo '|---|---|---|---|---|---|'
-    python3 benches/sheets.py "$bin" "$shared" "$@" $unseen
+    python3 -B benches/sheets.py "$bin" "$shared" "$@" $unseen
 } | tee "$page.new"
 mv "$page.new" "$page"
