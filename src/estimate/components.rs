@@ -45,7 +45,7 @@ impl FlatSheet {
         let exposure = match exposure {
             Exposure::Known(exposure) => Some(exposure),
             Exposure::Sum => None,
-            Exposure::Free => {
+            Exposure::Free | Exposure::Expected(_) => {
                 let problem = "unknown, and a flat sheet does not tell it; give --exposure X or sum";
                 return Err(Error::field("exposure", problem));
             }

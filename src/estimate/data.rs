@@ -5,14 +5,14 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::channels::{ChannelModel, Channels};
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
 use super::measured::{Measured, usable_facets};
 use crate::error::Result;
 use crate::estimate::Exposure;
-use crate::estimate::unknowns::{Amounts, SceneModel};
+use crate::estimate::unknowns::{Amounts, Normal, SceneModel};
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
@@ -94,9 +94,13 @@ pub struct Curvature {
 fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
     match exposure {
         Exposure::Known(exposure) => exposure.max(1.0),
-        Exposure::Free | Exposure::Sum => measured.rgb.greatest().max(1.0),
+        Exposure::Free | Exposure::Expected(_) | Exposure::Sum => measured.rgb.greatest().max(1.0),
     }
 }
+
+/// Most steps to the exposure that fits best, and the relative change that counts: from the second on they gain two digits each.
+const EXPOSURE_STEPS: usize = 20;
+const EXPOSURE_TOLERANCE: f64 = 1e-12;
 
 impl<'a> FacetData<'a> {
     /// Weights and compresses the facets of a sample; directions in which no reflectance moves the data by more than
@@ -152,16 +156,22 @@ impl<'a> FacetData<'a> {
         self.channels.0.len()
     }
 
-    /// Root mean square of all residuals, those outside the compressed data included.
+    /// Root mean square of all residuals of facets, those outside the compressed data included.
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {
-        ((residuals.norm_squared() + self.outside.max(0.0)) / self.count as f64).sqrt()
+        let of_facets = self.of_facets(residuals).norm_squared();
+        ((of_facets + self.outside.max(0.0)) / self.count as f64).sqrt()
+    }
+
+    /// The residuals without that of the exposure that was expected.
+    fn of_facets<'r>(&self, residuals: &'r DVector<f64>) -> DVectorView<'r, f64> {
+        residuals.rows(0, self.values.len())
     }
 
     /// The residuals as a share of the data, both without what no reflectance can do, which is noise.
     #[must_use]
     pub fn unexplained(&self, residuals: &DVector<f64>) -> f64 {
-        residuals.norm() / self.values.norm().max(f64::MIN_POSITIVE)
+        self.of_facets(residuals).norm() / self.values.norm().max(f64::MIN_POSITIVE)
     }
 
     /// The scene and what is unknown of it.
@@ -180,7 +190,16 @@ impl<'a> FacetData<'a> {
     /// Whether the exposure is found from the facets.
     #[must_use]
     pub fn fits_exposure(&self) -> bool {
-        self.exposure == Exposure::Free
+        matches!(self.exposure, Exposure::Free | Exposure::Expected(_))
+    }
+
+    /// How far an exposure is from the one that was expected, in standard deviations; 0 if none was.
+    #[must_use]
+    pub fn exposure_off(&self, exposure: f64) -> f64 {
+        match self.exposure {
+            Exposure::Expected(Normal { mean, sd }) => (exposure.ln() - mean) / sd,
+            Exposure::Known(_) | Exposure::Free | Exposure::Sum => 0.0,
+        }
     }
 
     /// Residuals at a point.
@@ -193,13 +212,14 @@ impl<'a> FacetData<'a> {
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
-        Residuals { residuals: &self.values - exposure * values, exposure }
+        Residuals { residuals: self.left_over(exposure, &values), exposure }
     }
 
     /// Residuals at a point, with the derivatives of the model.
     ///
     /// # Source
-    /// A free exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49).
+    /// An exposure that is not known: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49). What was
+    /// expected of its logarithm is one more datum, which nothing but the exposure changes.
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [terms, slopes, curvatures] = self.scene.facets().derivatives_of(reflectance);
@@ -210,16 +230,24 @@ impl<'a> FacetData<'a> {
         let mut jacobian = self.channels.columns_of(&slopes, &now, by_unknown.ncols());
         jacobian.columns_mut(slopes.nrows(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
         jacobian *= exposure;
-        let square = values.norm_squared().max(f64::MIN_POSITIVE);
+        // What a relative change of the exposure does.
+        let mut by_exposure = exposure * &values;
+        if let Exposure::Expected(Normal { sd, .. }) = self.exposure {
+            by_exposure = by_exposure.push(sd.recip());
+            jacobian = jacobian.insert_row(values.len(), 0.0);
+        }
+        let square = by_exposure.norm_squared().max(f64::MIN_POSITIVE);
         let (relative, sd) = match self.exposure {
             Exposure::Known(_) => (DVector::zeros(jacobian.ncols()), 0.0),
-            Exposure::Free => (jacobian.tr_mul(&values) / (exposure * square), square.sqrt().recip()),
+            Exposure::Free | Exposure::Expected(_) => {
+                (jacobian.tr_mul(&by_exposure) / square, exposure / square.sqrt())
+            }
             Exposure::Sum => (self.shares_of_sum(&terms, &slopes, &now, &by_unknown), 0.0),
         };
         // What a change of the spectrum does beyond what a change of exposure undoes.
-        jacobian.ger(-exposure, &values, &relative, 1.0);
+        jacobian.ger(-1.0, &by_exposure, &relative, 1.0);
         LinearisedFacets {
-            residuals: &self.values - exposure * values,
+            residuals: self.left_over(exposure, &values),
             jacobian,
             exposure: FittedExposure { value: exposure, slopes: -exposure * relative, sd },
             second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures },
@@ -229,6 +257,7 @@ impl<'a> FacetData<'a> {
     /// `Σ λᵢ∇²mᵢ` at the exposure of that point.
     #[must_use]
     pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> Curvature {
+        let multipliers = &self.of_facets(multipliers).into_owned();
         let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
         let mixed = by_unknown
             .column_iter()
@@ -255,8 +284,40 @@ impl<'a> FacetData<'a> {
     fn exposure_of(&self, values: &DVector<f64>, sum: impl Fn() -> f64) -> f64 {
         match self.exposure {
             Exposure::Known(exposure) => exposure,
-            Exposure::Free => values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE),
+            Exposure::Free => self.best_exposure(values),
+            Exposure::Expected(prior) => self.expected_exposure(values, prior),
             Exposure::Sum => self.sums.measured / sum().max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// The exposure that is nearest to the facets.
+    fn best_exposure(&self, values: &DVector<f64>) -> f64 {
+        values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE)
+    }
+
+    /// The exposure that is nearest to the facets and to what was expected of it together, by Gauss and Newton's steps of its logarithm.
+    fn expected_exposure(&self, values: &DVector<f64>, Normal { mean, sd }: Normal) -> f64 {
+        let (square, product) = (values.norm_squared(), values.dot(&self.values));
+        let best = self.best_exposure(values);
+        let mut ln_exposure = if best > 0.0 { best.ln() } else { mean };
+        for _ in 0..EXPOSURE_STEPS {
+            let exposure = ln_exposure.exp();
+            let gradient = exposure * (product - exposure * square) - (ln_exposure - mean) / (sd * sd);
+            let step = gradient / (exposure * exposure * square + (sd * sd).recip());
+            ln_exposure += step.clamp(-1.0, 1.0);
+            if step.abs() < EXPOSURE_TOLERANCE {
+                break;
+            }
+        }
+        ln_exposure.exp()
+    }
+
+    /// Data minus model, `values` being those at exposure 1, then how far the exposure is from the one that was expected, if any was.
+    fn left_over(&self, exposure: f64, values: &DVector<f64>) -> DVector<f64> {
+        let of_facets = &self.values - exposure * values;
+        match self.exposure {
+            Exposure::Expected(_) => of_facets.push(-self.exposure_off(exposure)),
+            Exposure::Known(_) | Exposure::Free | Exposure::Sum => of_facets,
         }
     }
 

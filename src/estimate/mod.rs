@@ -18,13 +18,16 @@ pub mod noise;
 pub mod park;
 pub mod photograph;
 pub mod prior;
+pub mod shading;
 pub mod smooth;
+mod smooth_errors;
 mod starts;
 pub mod unknowns;
 pub mod verdict;
 
 use nalgebra::DMatrix;
-use unknowns::Unknown;
+use smooth_errors::smooth_errors;
+use unknowns::{EXPOSURE_OF_PHOTOGRAPH, Normal, Unknown};
 
 use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
@@ -40,6 +43,8 @@ pub enum Exposure {
     Known(f64),
     /// Unknown: the exposure that fits best, for every spectrum tried (variable projection, Golub and Pereyra 1973).
     Free,
+    /// Unknown, and its logarithm normal before the picture is looked at: the one that is most probable, for every spectrum tried.
+    Expected(Normal),
     /// Unknown: picture and model are divided by their sums, as the paper does (section 5D).
     Sum,
 }
@@ -50,7 +55,16 @@ impl Exposure {
     pub fn known(self) -> Option<f64> {
         match self {
             Self::Known(exposure) => Some(exposure),
-            Self::Free | Self::Sum => None,
+            Self::Free | Self::Expected(_) | Self::Sum => None,
+        }
+    }
+
+    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](EXPOSURE_OF_PHOTOGRAPH).
+    #[must_use]
+    pub fn of_photograph(self) -> Self {
+        match self {
+            Self::Free => Self::Expected(EXPOSURE_OF_PHOTOGRAPH),
+            stated => stated,
         }
     }
 }
@@ -95,11 +109,28 @@ pub struct Fitted {
     pub value: f64,
     /// Standard deviation, in the same unit.
     pub sd: f64,
+    /// How far the value is from what was known before, in standard deviations of that; 0 of one of which nothing was.
+    pub off: f64,
     /// Whether the facets say more of it than was known before.
     pub supported: bool,
 }
 
+/// What is stated of light and camera is right to that, as a part of the reflectance: no photograph tells more.
+const STATED_LIGHT_AND_CAMERA: f64 = 0.02;
+
 impl Estimate {
+    /// The same with error bars that hold what light and camera may be off as stated.
+    #[must_use]
+    pub fn in_stated_light(mut self, wavelengths_nm: &[f64]) -> Self {
+        let sd: Vec<f64> = self.reflectance.iter().map(|r| STATED_LIGHT_AND_CAMERA * r).collect();
+        if let (Some(spread), Some(errors)) = (&self.spread, smooth_errors(wavelengths_nm, &sd)) {
+            let rows: Vec<_> =
+                spread.row_iter().chain(errors.row_iter()).map(nalgebra::Matrix::into_owned).collect();
+            self.spread = Some(DMatrix::from_rows(&rows));
+        }
+        self
+    }
+
     /// Standard deviation in every waveband.
     #[must_use]
     pub fn reflectance_sd(&self) -> Option<Vec<f64>> {

@@ -4,6 +4,8 @@
 //! how much of the spectrum they leave open. What facets cannot show, the colour of the light and the camera's curves, is said to be as it
 //! was told.
 
+use super::photograph::findings::beyond;
+use super::unknowns::EXPOSURE_OF_PHOTOGRAPH;
 use super::{Estimate, MISFIT};
 
 /// Residuals, in units of their expected size, up to which facets are explained.
@@ -12,6 +14,10 @@ pub const EXPLAINED: f64 = 2.0;
 const OPEN: f64 = 0.06;
 /// Standard deviations of the sum of squared residuals beyond which chance does not explain it.
 const CHANCE: f64 = 5.0;
+/// An exposure is doubtful beyond so many standard deviations of those that people take, and wrong; one that is too dark is not so before the
+/// latter: it makes noise, where one that is too bright asks for pixels that no picture holds.
+const EXPOSURE_DOUBTFUL: f64 = 2.0;
+const EXPOSURE_WRONG: f64 = 3.25;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
 
@@ -91,6 +97,31 @@ impl Verdict {
             },
         }
     }
+}
+
+/// An exposure that people do not take: white that faces the sun this many times as bright as the white level of the picture. Is it `stated`, that
+/// is what to look at.
+#[must_use]
+pub fn unusual_exposure(exposure: f64, stated: bool) -> Option<Doubt> {
+    let off = (exposure.ln() - EXPOSURE_OF_PHOTOGRAPH.mean) / EXPOSURE_OF_PHOTOGRAPH.sd;
+    let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
+    let remedy = match stated {
+        true => "state the exposure as a fraction of the picture's white level, such as 0.8",
+        false => {
+            "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
+        }
+    };
+    (off > EXPOSURE_DOUBTFUL || off < -EXPOSURE_WRONG).then(|| Doubt {
+        level,
+        because: format!("white that faces the sun would be {exposure:.2} times the white level of the picture, which no picture shows"),
+        remedy: remedy.to_owned(),
+    })
+}
+
+/// A number of the scene further from what was known before than people err.
+#[must_use]
+pub fn unusual_scene(estimate: &Estimate) -> Option<Doubt> {
+    beyond(&estimate.fitted).map(|(because, remedy)| Doubt::new(because, remedy))
 }
 
 /// Facets that are not those of the scene.

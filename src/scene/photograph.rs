@@ -29,8 +29,6 @@ const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 /// Sine of the height of a sun of which nothing is known: 42°.
 const SUN_HEIGHT: f64 = 0.67;
-/// What a sheet of which nothing is known reflects in its strongest channel.
-const REFLECTANCE: f64 = 0.5;
 
 /// Width and height of a photograph that nobody has taken yet, px.
 const SIZE: [u32; 2] = [640, 480];
@@ -117,13 +115,9 @@ impl<'a> PhotographedFold<'a> {
         let bins = Bins::new(fold, measured, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
-        let strongest = |row: usize| values.row(row).iter().copied().fold(0.0, f64::max);
-        let mean = (0..values.nrows()).map(strongest).sum::<f64>() / values.nrows().max(1) as f64;
-        let on_panel = light.panel_irradiance().iter().sum::<f64>() / 2.0;
         let up = pose.up(sun, SUN_HEIGHT);
         let told = Told {
             exposure,
-            exposure_guess: exposure.unwrap_or(mean / (REFLECTANCE * on_panel)),
             by_chart: picture.by_chart,
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),

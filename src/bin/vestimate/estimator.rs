@@ -136,6 +136,7 @@ impl Transform for Estimator<'_> {
         let mut doubts = Vec::new();
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
+                let exposure = if sample.is_photograph() { exposure.of_photograph() } else { exposure };
                 let believed = context.believed(sample);
                 let deviations = Deviations::of(&noise, believed.model.facets(), &rgb)?;
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
@@ -151,7 +152,7 @@ impl Transform for Estimator<'_> {
                 (flat.estimate(&sheet)?, flat.to_string())
             }
         };
-        self.finish(context, sample, &estimate, &how, (doubts, &[]))
+        self.finish(context, sample, estimate, &how, (doubts, &[]))
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -231,11 +232,18 @@ impl<'a> Estimator<'a> {
         &self,
         context: &Context,
         sample: &mut Sample,
-        estimate: &Estimate,
+        estimate: Estimate,
         how: &str,
-        (doubts, joined): (Vec<Doubt>, &[String]),
+        (mut doubts, joined): (Vec<Doubt>, &[String]),
     ) -> Result<Vec<Fields>> {
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
+        let is_photographed = sample.is_photograph() && matches!(context.method, SceneMethod::Map(_));
+        let estimate = &if is_photographed {
+            doubts.extend(self.doubts_of_facets(context, sample, (&rgb, &noise), &estimate)?);
+            estimate.in_stated_light(context.grid.wavelengths_nm())
+        } else {
+            estimate
+        };
         if self.args.common.verbose {
             let (id, exposure) = (sample.id(), self.exposure_of(sample)?);
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(estimate, exposure)));
@@ -276,6 +284,7 @@ impl<'a> Estimator<'a> {
         (doubt, ids): (Option<&Doubt>, &[String]),
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
+        let estimate = estimate.clone();
         let mut doubts =
             context.record.as_ref().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
         doubts.extend(doubt.cloned());

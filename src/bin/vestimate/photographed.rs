@@ -1,14 +1,18 @@
 //! Which model of a photograph is believed: the fold as it was told, the same with another angle, or a real sheet.
 
+use nalgebra::DMatrix;
 use vfold::cli;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
+use vfold::estimate::noise::Noise;
 use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::ANGLE;
-use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose};
+use vfold::estimate::shading::Shading;
+use vfold::estimate::unknowns::{ANGLE, SceneModel};
+use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose, unusual_exposure, unusual_scene};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
+use vfold::forward::FacetValues;
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
@@ -113,6 +117,33 @@ impl Estimator<'_> {
         }
     }
 
+    /// What the facets of a photograph show to speak against its estimate.
+    pub fn doubts_of_facets(
+        &self,
+        context: &Context,
+        sample: &Sample,
+        (rgb, noise): (&FacetValues, &Noise),
+        estimate: &Estimate,
+    ) -> Result<Vec<Doubt>> {
+        let stated = self.exposure_of(sample)?.known();
+        let by_chart = sample.fields.has("calibration");
+        let mut doubts: Vec<Doubt> = (!by_chart)
+            .then(|| unusual_exposure(stated.unwrap_or(estimate.exposure), stated.is_some()))
+            .flatten()
+            .into_iter()
+            .chain(unusual_scene(estimate))
+            .collect();
+        if let Some(record) = &context.record {
+            let model = &context.told.model;
+            let sd = noise.deviations(model.facets(), rgb)?;
+            let ideal = ideal_facets(model, &estimate.reflectance);
+            let grid = FoldSetting::of(record)?.fold().facets();
+            doubts
+                .extend(Shading::new(grid, rgb, &sd).into_iter().flat_map(|shading| shading.doubts(&ideal)));
+        }
+        Ok(doubts)
+    }
+
     /// What a photograph that is estimated with others is made of.
     ///
     /// # Errors
@@ -139,6 +170,12 @@ impl Estimator<'_> {
         let exposure = self.exposure_of(sample)?.known();
         PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, measured, exposure)
     }
+}
+
+/// The facets of an ideal fold, or another surface, of this reflectance, all that is unknown of the scene being as expected.
+fn ideal_facets(model: &SceneModel, reflectance: &[f64]) -> DMatrix<f64> {
+    let expected: Vec<f64> = model.unknowns().iter().map(|one| one.at(0.0).0).collect();
+    model.with_values(&expected).facet_rgb(reflectance)
 }
 
 /// What speaks against an estimate from how the photograph was taken.

@@ -71,7 +71,7 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
         Exposure::Known(_) => Some("known"),
         Exposure::Sum => Some("by sums"),
         // among what was fitted, unless the method does not know how far off it is
-        Exposure::Free => estimate.fitted.is_empty().then_some("fitted"),
+        Exposure::Free | Exposure::Expected(_) => estimate.fitted.is_empty().then_some("fitted"),
     };
     let exposure = how.map(|how| format!("exposure {:.4} {how}", estimate.exposure));
     let fitted = estimate.fitted.iter().map(|one| {

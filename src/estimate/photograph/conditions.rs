@@ -50,8 +50,6 @@ pub struct Conditions {
 pub struct Told {
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
-    /// An exposure to set out from where it is not.
-    pub exposure_guess: f64,
     /// Whether a chart or a card in the light of sun and sky told the exposure and balanced the channels.
     pub by_chart: bool,
     /// Number of channels.

@@ -15,13 +15,12 @@ use super::prediction::{Predicted, Predictor, Terms};
 use super::sheets::Departure;
 use super::sums::{add, add_product, columns};
 use crate::estimate::gaussian::{Gaussian, logistic};
+use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Expected, TABLE, Unknown};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
-/// Over so many nanometres what an instrument says is off alike.
-const INSTRUMENT_NM: f64 = 60.0;
 /// Of a value that is compared with a measured one, the least share of the brightest.
 const DARKEST: f64 = 1e-6;
 
@@ -104,7 +103,7 @@ impl<'a> PhotographModel<'a> {
     fn conditions(&self, w: &DVector<f64>) -> Conditions {
         let told = &self.parts.told;
         let mut conditions = Conditions {
-            exposure: told.exposure_guess,
+            exposure: 1.0,
             gains: [1.0; 2],
             angle_deg: told.angle_deg,
             tilt_deg: told.tilt_deg,
@@ -245,19 +244,12 @@ impl<'a> PhotographModel<'a> {
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
-        let wavelengths_nm = &self.parts.eye.wavelengths_nm;
         let own = match self.kind {
             Kind::Measured => self.parts.sheets.instrument.own,
             Kind::Matt | Kind::Family => return None,
         };
-        let (first, last) = (wavelengths_nm.first()?, wavelengths_nm.last()?);
-        let count = ((last - first) / INSTRUMENT_NM).ceil() as usize + 1;
-        let bump = |n: usize, nm: f64| (-((nm - first) / INSTRUMENT_NM - n as f64).powi(2)).exp();
-        let all = |nm: f64| (0..count).map(|n| bump(n, nm).powi(2)).sum::<f64>().sqrt();
-        Some(DMatrix::from_fn(count, albedo.len(), |n, band| {
-            let nm = wavelengths_nm[band];
-            own * albedo[band] * bump(n, nm) / all(nm)
-        }))
+        let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
+        smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
     }
 
     /// The Gaussian of logits of albedo.

@@ -28,6 +28,13 @@ impl Expected {
         (value, self.prior.sd * slope)
     }
 
+    /// How far `value` is from what is known before, in standard deviations of that; 0 of a number that is known after all.
+    #[must_use]
+    pub fn off(self, value: f64) -> f64 {
+        let Normal { mean, sd } = self.prior;
+        if sd > 0.0 { (self.unknown.scale.normal(value) - mean) / sd } else { 0.0 }
+    }
+
     /// The end of its range that `value` lies beyond, if it does.
     #[must_use]
     pub fn bound_of(self, value: f64) -> Option<f64> {
