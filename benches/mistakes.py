@@ -366,7 +366,7 @@ for name, along, out in [
 for panel in ("1.2x1", "1.41x1", "2x1", "2.83x1", "1x1.2", "1x1.41", "1x2", "1x2.83"):
     kind("proportions", panel, lambda s, p=panel: s.rendered(["--panel", p]))
 
-for other in ("neutral-8", "neutral-3.5", "blue-sky", "red", "green", "yellow-green", "purple"):
+for other in ("neutral-8", "neutral-3-5", "blue-sky", "red", "green", "yellow-green", "purple"):
     change = lambda s, o=other: s.rendered(sheet=None, flags=["--panel-reflectance", f"0=cc24:{s.sheet}", "--panel-reflectance", f"1=cc24:{o}"])
     kind("two sheets", other, change)
 
@@ -451,7 +451,7 @@ kind("sun", "tilt of the other sign", lambda s: (s.rendered(["--tilt-deg", 8]), 
 for light in ("A", "D50", "D65", "D75", "FL2", "FL11", "LED-B3", "daylight:9000", "sun:10deg"):
     kind("light", f"{light} for {LIGHT}", lambda s, l=light: s.rendered(light=[l]))
 
-for camera in ("nikon-d5100", "sigma-sd-merrill", "nikon-d850", "canon-eos-r5", "sony-a7", "nikon-d70"):
+for camera in ("nikon-d5100", "sigma-sd-merrill", "nikon-d850", "canon-eos-r5", "sony-ilce-7m3", "nikon-d70"):
     kind("camera", f"{camera} stated", lambda s, c=camera: s.extract.__setitem__(1, c))
 for order in ((2, 1, 0), (0, 2, 1), (1, 0, 2)):
     kind("camera", "channels in order " + "".join("RGB"[n] for n in order), lambda s, o=order: setattr(s, "light", s.light[..., list(o)]))

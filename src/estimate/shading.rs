@@ -15,7 +15,11 @@ const ROWS_LEAST: usize = 4;
 const DARKER: f64 = 0.1;
 /// A rise towards the crease that bounces make, and the part of it that is found at least: gloss, bow and lens take and add some.
 const RISE: f64 = 0.1;
-const RISE_LEAST: f64 = 0.25;
+const RISE_LEAST: f64 = 0.35;
+/// The ends of the crease are apart by no more (natural logarithm) in brightness, and in the ratio of two channels: lens, ground and the place of
+/// the sun make less.
+const ENDS_APART: f64 = 0.18;
+const END_COLOURS_APART: f64 = 0.14;
 /// Ratios of channels of the panels' outer halves are apart by no more (natural logarithm) in sheets of one colour: sky, ground and the other
 /// panel shine on both of them alike.
 const COLOURS_APART: f64 = 0.25;
@@ -51,10 +55,42 @@ impl<'a> Shading<'a> {
     /// - `ideal`: facets of an ideal fold with the reflectance that was estimated, facet by channel, in any exposure.
     #[must_use]
     pub fn doubts(&self, ideal: &DMatrix<f64>) -> Vec<Doubt> {
-        [self.darker_at_crease().or_else(|| self.without_bounces(ideal)), self.two_colours()]
-            .into_iter()
-            .flatten()
-            .collect()
+        [
+            self.darker_at_crease().or_else(|| self.without_bounces(ideal)),
+            self.two_colours(),
+            self.uneven_ends(),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Panels of which one end of the crease is brighter than the other, or has another colour.
+    fn uneven_ends(&self) -> Option<Doubt> {
+        let third = self.grid.cols / 3;
+        let ends = |panel, channel| {
+            let rows = 0..self.grid.rows;
+            let near = self.mean(panel, channel, rows.clone(), |column| column < third)?;
+            let far = self.mean(panel, channel, rows, |column| column >= self.grid.cols - third)?;
+            Some(Ratio::of(near, far))
+        };
+        let is_uneven = |panel: usize| {
+            let all: Vec<Ratio> =
+                (0..self.rgb.channels()).filter_map(|channel| ends(panel, channel)).collect();
+            let least = all.iter().min_by(|a, b| a.ln.total_cmp(&b.ln));
+            let most = all.iter().max_by(|a, b| a.ln.total_cmp(&b.ln));
+            least.zip(most).is_some_and(|(least, most)| {
+                let sd = SURE * least.sd.hypot(most.sd);
+                (0.5 * (least.ln + most.ln)).abs() - sd > ENDS_APART
+                    || most.ln - least.ln - sd > END_COLOURS_APART
+            })
+        };
+        [0, 1].into_iter().find(|panel| is_uneven(*panel)).map(|panel| {
+            Doubt::new(
+                format!("panel {panel} is not alike at both ends of the crease: a shadow, a lamp near by, a pattern, or corners not at the crease"),
+                "photograph a sheet of one colour, in even light; look at vextract --overlay",
+            )
+        })
     }
 
     /// Panels whose every channel is darker beside the crease than at the outer side.

@@ -4,9 +4,8 @@
 //! how much of the spectrum they leave open. What facets cannot show, the colour of the light and the camera's curves, is said to be as it
 //! was told.
 
-use super::photograph::findings::beyond;
-use super::unknowns::EXPOSURE_OF_PHOTOGRAPH;
-use super::{Estimate, MISFIT};
+use super::unknowns::{EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
+use super::{Estimate, Fitted, MISFIT};
 
 /// Residuals, in units of their expected size, up to which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
@@ -14,10 +13,17 @@ pub const EXPLAINED: f64 = 2.0;
 const OPEN: f64 = 0.06;
 /// Standard deviations of the sum of squared residuals beyond which chance does not explain it.
 const CHANCE: f64 = 5.0;
-/// An exposure is doubtful beyond so many standard deviations of those that people take, and wrong; one that is too dark is not so before the
-/// latter: it makes noise, where one that is too bright asks for pixels that no picture holds.
-const EXPOSURE_DOUBTFUL: f64 = 2.0;
+/// An exposure is doubtful that is brighter than nineteen in twenty, in standard deviations of those that people take, and wrong if it is this
+/// much brighter or darker: one that is too dark makes noise, where one that is too bright asks for pixels that no picture holds.
+const EXPOSURE_DOUBTFUL: f64 = 1.65;
 const EXPOSURE_WRONG: f64 = 3.25;
+/// A sheet that is darker than this in its brightest waveband is exposed longer: by the root of how much darker it is.
+const DARK_SHEET: f64 = 0.2;
+/// Facets say another exposure than was stated if that leaves so small a part of the misfit, is so many standard deviations away, and by this
+/// logarithm of a factor.
+const EXPOSURE_BETTER: f64 = 0.8;
+const EXPOSURE_SURE: f64 = 3.0;
+const EXPOSURE_APART: f64 = 0.1;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
 
@@ -99,29 +105,58 @@ impl Verdict {
     }
 }
 
-/// An exposure that people do not take: white that faces the sun this many times as bright as the white level of the picture. Is it `stated`, that
-/// is what to look at.
+/// An exposure that people do not take: white that faces the sun too many times as bright as the white level of the picture.
+///
+/// # Arguments
+/// - `is_stated`: whether somebody stated the exposure, which then is what to look at.
 #[must_use]
-pub fn unusual_exposure(exposure: f64, stated: bool) -> Option<Doubt> {
-    let off = (exposure.ln() - EXPOSURE_OF_PHOTOGRAPH.mean) / EXPOSURE_OF_PHOTOGRAPH.sd;
+pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
+    let brightest = estimate.reflectance.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let longer = 0.5 * (DARK_SHEET / brightest).ln().max(0.0);
+    let Normal { mean, sd } = EXPOSURE_OF_PHOTOGRAPH;
+    let off = (estimate.exposure.ln() - mean - longer) / sd;
     let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
-    let remedy = match stated {
-        true => "state the exposure as a fraction of the picture's white level, such as 0.8",
-        false => {
-            "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
-        }
+    let remedy = if is_stated {
+        "state the exposure as a fraction of the picture's white level, such as 0.8"
+    } else {
+        "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
     };
     (off > EXPOSURE_DOUBTFUL || off < -EXPOSURE_WRONG).then(|| Doubt {
         level,
-        because: format!("white that faces the sun would be {exposure:.2} times the white level of the picture, which no picture shows"),
+        because: format!(
+            "white that faces the sun would be {:.3} times the white level of the picture, which people do not expose to",
+            estimate.exposure
+        ),
         remedy: remedy.to_owned(),
     })
 }
 
-/// A number of the scene further from what was known before than people err.
+/// An exposure that was stated where the facets of an ideal fold say another: `told` is the estimate with the exposure as stated, `free` one to
+/// which it was unknown.
 #[must_use]
-pub fn unusual_scene(estimate: &Estimate) -> Option<Doubt> {
-    beyond(&estimate.fitted).map(|(because, remedy)| Doubt::new(because, remedy))
+pub fn other_exposure(told: &Estimate, free: &Estimate) -> Option<Doubt> {
+    let Fitted { value, sd, .. } = free.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
+    let apart = (value / told.exposure).ln().abs();
+    let is_better = free.residual_rms < EXPLAINED && free.residual_rms < EXPOSURE_BETTER * told.residual_rms;
+    (is_better && apart > EXPOSURE_APART && apart * value > EXPOSURE_SURE * sd).then(|| {
+        let because = format!(
+            "the facets are those of an exposure of {value:.2} ± {sd:.2}, not {} as stated",
+            told.exposure
+        );
+        Doubt::new(
+            because,
+            "leave --exposure out, or measure it again with a white card or chart in the sheet's light",
+        )
+    })
+}
+
+/// Something about the photograph that is further from what is usual than people err and sheets differ: it is no longer only allowed for.
+#[must_use]
+pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
+    let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
+    unusual
+        .map(|finding| Doubt::new(format!("{}, more than is usual", finding.what), finding.remedy))
+        .collect()
 }
 
 /// Facets that are not those of the scene.

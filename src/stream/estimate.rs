@@ -201,7 +201,7 @@ impl fmt::Display for VerdictRecord {
 }
 
 impl From<&Finding> for FindingRecord {
-    fn from(Finding { what, remedy }: &Finding) -> Self {
+    fn from(Finding { what, remedy, .. }: &Finding) -> Self {
         Self { what: what.clone(), remedy: (*remedy).to_owned() }
     }
 }

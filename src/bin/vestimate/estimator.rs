@@ -240,7 +240,9 @@ impl<'a> Estimator<'a> {
         let is_photographed = sample.is_photograph() && matches!(context.method, SceneMethod::Map(_));
         let estimate = &if is_photographed {
             doubts.extend(self.doubts_of_facets(context, sample, (&rgb, &noise), &estimate)?);
-            estimate.in_stated_light(context.grid.wavelengths_nm())
+            let mut estimate = estimate.in_stated_light(context.grid.wavelengths_nm());
+            estimate.findings.retain(|finding| !finding.is_unusual);
+            estimate
         } else {
             estimate
         };

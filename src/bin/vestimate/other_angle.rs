@@ -116,7 +116,7 @@ impl Turned {
     fn finding(&self) -> Finding {
         let Self { told_deg, value_deg, sd_deg, .. } = self;
         let what = format!("the fold is open by {value_deg:.1} ± {sd_deg:.1}°, not {told_deg}° as told");
-        Finding { what, remedy: "measure the angle again" }
+        Finding { what, remedy: "measure the angle again", is_unusual: false }
     }
 
     /// Why the estimate is doubtful where that angle is far from the one that was told.

@@ -10,7 +10,9 @@ use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::shading::Shading;
 use vfold::estimate::unknowns::{ANGLE, SceneModel};
-use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose, unusual_exposure, unusual_scene};
+use vfold::estimate::verdict::{
+    Doubt, EXPLAINED, beyond_chance, is_loose, other_exposure, unusual_exposure, unusual_findings,
+};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::forward::FacetValues;
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
@@ -18,7 +20,7 @@ use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
 
 use super::context::{Believed, Context};
-use super::estimator::Estimator;
+use super::estimator::{CUTOFF, Estimator};
 use super::said::Deviations;
 
 /// Misfit of a fold as it was told up to which another angle is tried at once: what sets real sheets apart from ideal ones mostly makes more.
@@ -56,6 +58,26 @@ impl Estimator<'_> {
         }
         let Some(record) = &context.record else { return Ok(ideal()) };
         doubts.extend(doubts_of_taking(record, sample)?);
+        let told = self.of_fold(context, sample, given, prior, doubts)?;
+        if matches!(given.exposure, Exposure::Known(_)) && !sample.fields.has("calibration") {
+            let exposure = Exposure::Free.of_photograph();
+            let data = FacetData::new(&given.believed.model, given.measured, exposure, CUTOFF)?;
+            doubts.extend(map::glance(&data, prior).and_then(|free| other_exposure(&told, &free)));
+        }
+        Ok(told)
+    }
+
+    /// The estimate of a photographed fold: as it was told, with another angle, or of a real sheet.
+    fn of_fold(
+        &self,
+        context: &Context,
+        sample: &Sample,
+        given: &Given,
+        prior: &Prior,
+        doubts: &mut Vec<Doubt>,
+    ) -> Result<Estimate> {
+        let ideal = || map::estimate(given.data, prior, context.start.as_deref());
+        let Some(record) = &context.record else { return Ok(ideal()) };
         let other_angle = |misfit: f64| {
             let Believed { fit, other_angle, .. } = given.believed;
             other_angle.better(misfit, record, fit, (given.measured, given.exposure), prior)
@@ -125,14 +147,11 @@ impl Estimator<'_> {
         (rgb, noise): (&FacetValues, &Noise),
         estimate: &Estimate,
     ) -> Result<Vec<Doubt>> {
-        let stated = self.exposure_of(sample)?.known();
-        let by_chart = sample.fields.has("calibration");
-        let mut doubts: Vec<Doubt> = (!by_chart)
-            .then(|| unusual_exposure(stated.unwrap_or(estimate.exposure), stated.is_some()))
-            .flatten()
-            .into_iter()
-            .chain(unusual_scene(estimate))
-            .collect();
+        let is_stated = self.exposure_of(sample)?.known().is_some();
+        let mut doubts = unusual_findings(estimate);
+        if !sample.fields.has("calibration") {
+            doubts.extend(unusual_exposure(estimate, is_stated));
+        }
         if let Some(record) = &context.record {
             let model = &context.told.model;
             let sd = noise.deviations(model.facets(), rgb)?;

@@ -59,6 +59,7 @@ pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> V
                 100.0 * off
             ),
             remedy: "look at it in vextract --overlay and mark it again; --refine finds edges",
+            is_unusual: off > 3.0 * sd,
         })
     };
     shifts.iter().enumerate().filter_map(found).collect()

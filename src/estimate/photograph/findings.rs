@@ -10,28 +10,14 @@ pub struct Finding {
     pub what: String,
     /// What to do about it.
     pub remedy: &'static str,
+    /// Whether it is by more than people err and sheets differ: where facets say so, something else is wrong as a rule.
+    pub is_unusual: bool,
 }
 
 /// Differences from what is ideal, in standard deviations, of which a word is said.
 const SURE: f64 = 2.0;
-
-/// Numbers further than that from what was known before, in standard deviations, are not allowed for but doubted: people seldom err by so
-/// much, and where facets say so something else is wrong as a rule.
-const BEYOND: f64 = 3.0;
-
-/// What the facets say of the unknowns that is further from what was known before than people err, in words.
-#[must_use]
-pub fn beyond(fitted: &[Fitted]) -> Option<(String, &'static str)> {
-    let doubted = |one: &&Fitted| one.supported && one.off.abs() > BEYOND;
-    let with_symptom = fitted.iter().filter(doubted).filter_map(|one| {
-        let symptom = one.unknown.photograph.as_ref()?.symptom.as_ref()?;
-        Some((one, symptom))
-    });
-    let (one, symptom) = with_symptom.max_by(|(a, _), (b, _)| a.off.abs().total_cmp(&b.off.abs()))?;
-    let Fitted { unknown, value, sd, .. } = one;
-    let words = symptom.words;
-    Some((format!("{words}, by more than people err: {} {value:.3} ± {sd:.3}", unknown.name), symptom.remedy))
-}
+/// Numbers further than that from what was known before, in standard deviations, are unusual.
+const UNUSUAL: f64 = 3.0;
 
 /// What the facets tell of the unknowns, what they are surest of first.
 #[must_use]
@@ -39,16 +25,18 @@ pub fn findings(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
     let found = |one: &Fitted| {
         let symptom = one.unknown.photograph.as_ref()?.symptom.as_ref()?;
         let off = (one.value - (symptom.ideal)(told)).abs();
-        let is_found =
-            one.supported && off >= symptom.least && off > SURE * one.sd && one.off.abs() <= BEYOND;
-        is_found.then_some((off / one.sd, symptom))
+        let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
+        is_found.then_some((off / one.sd, one.off.abs() > UNUSUAL, symptom))
     };
     let mut all: Vec<_> = fitted.iter().filter_map(found).collect();
-    all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    all.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
     let mut findings: Vec<Finding> = Vec::new();
-    for (_, symptom) in all {
-        if findings.iter().all(|one| one.what != symptom.words) {
-            findings.push(Finding { what: symptom.words.to_owned(), remedy: symptom.remedy });
+    for (_, is_unusual, symptom) in all {
+        match findings.iter_mut().find(|one| one.what == symptom.words) {
+            Some(same) => same.is_unusual |= is_unusual,
+            None => {
+                findings.push(Finding { what: symptom.words.to_owned(), remedy: symptom.remedy, is_unusual })
+            }
         }
     }
     findings
