@@ -7,8 +7,9 @@ use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::ANGLE;
-use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose};
+use vfold::estimate::verdict::{Doubt, EXPLAINED, Level, beyond_chance, is_loose};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
+use vfold::image::Processing;
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
@@ -143,10 +144,30 @@ impl Estimator<'_> {
 
 /// What speaks against an estimate from how the photograph was taken.
 pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
-    let developed = sample.is_developed()?.then(|| {
+    let developed = sample.is_developed()?.then(|| Doubt {
+        level: Level::Wrong,
+        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
+            .to_owned(),
+        remedy:
+            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
+                .to_owned(),
+    });
+    let processed = sample.processing()?.map(|processing| Doubt {
+        level: Level::Wrong,
+        because: match processing {
+            Processing::Curve => "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's",
+            Processing::Matrix => "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files",
+        }
+        .to_owned(),
+        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
+    });
+    let black = sample.unsubtracted_black()?.map(|part| {
+        let percent = 100.0 * part;
         Doubt::new(
-            "a camera developed this picture, and neither its white balance nor its matrix was undone",
-            "take the RAW file, or give vextract --undo",
+            format!(
+                "the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"
+            ),
+            "give vextract --black-level auto, or the camera's black level",
         )
     });
     let stand_in = record.camera()?.stands_in.map(|one| {
@@ -155,5 +176,5 @@ pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
             "make them of a photograph of a colour chart (vextract --save-camera)",
         )
     });
-    Ok(developed.into_iter().chain(stand_in).collect())
+    Ok(developed.into_iter().chain(processed).chain(black).chain(stand_in).collect())
 }
