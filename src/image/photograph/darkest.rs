@@ -57,10 +57,10 @@ struct Peak {
 fn peak(channel: &Sampled) -> Option<Peak> {
     let [first, second] = LEAST.map(|part| channel.quantile(part).map(f64::from));
     let (first, second) = (first?, second?);
-    let width = (second - first) / 1.5;
-    if width <= 0.0 {
-        return None;
+    if first.total_cmp(&second).is_eq() {
+        return Some(Peak { middle: first, sd: 0.0 });
     }
+    let width = (second - first) / 1.5;
     let start = first - 2.0 * width;
     let mut steps = [0.0; MOST_STEPS];
     let step_of = |number: f32| ((f64::from(number) - start) / width).max(0.0) as usize;

@@ -15,8 +15,12 @@ const LEAST_PART: f64 = 1e-3;
 const TIMES: usize = 4;
 /// How many different numbers below and above count as next.
 const NEXT: usize = 4;
-/// Part of the equal numbers that may be greater: scaling a picture overshoots at edges.
+/// One over the part of the equal numbers that may be greater.
 const GREATER: usize = 10;
+/// Scaling a picture overshoots at edges: where this many times as many are equal as next to it, and the light comes near the level gradually,
+const CLEARLY: usize = 20;
+/// so many times as many may be greater.
+const OVERSHOT: usize = 2;
 /// An even colour that makes this part of the equal numbers is another of its kind.
 const OTHER: usize = 4;
 /// Numbers below this part of the level are surroundings.
@@ -43,16 +47,21 @@ fn level(channel: &Sampled) -> Option<f32> {
     let counts = channel.counts();
     let all = channel.sorted.len();
     let least = FEW.max((LEAST_PART * all as f64) as usize);
-    let stands_out = |at: usize| {
+    let most_next = |at: usize| {
         let next = counts[at.saturating_sub(NEXT)..at].iter().chain(counts[at + 1..].iter().take(NEXT));
-        counts[at].1 >= TIMES * next.map(|(_, count)| *count).max().unwrap_or(0)
+        next.map(|(_, count)| *count).max().unwrap_or(0)
     };
+    let stands_out = |at: usize| counts[at].1 >= TIMES * most_next(at);
     let mut greater = 0;
     for (at, &(level, count)) in counts.iter().enumerate() {
         if GREATER * greater > all {
             break;
         }
-        if count >= least && GREATER * greater <= count && stands_out(at) {
+        let is_top = || {
+            let is_clear = OVERSHOT * count >= greater && count >= CLEARLY * most_next(at);
+            GREATER * greater <= count || is_clear && is_gradual(channel, level)
+        };
+        if count >= least && stands_out(at) && is_top() {
             let is_other = |other: usize| OTHER * counts[other].1 >= count && stands_out(other);
             let lit = counts[at + 1..].iter().take_while(|(number, _)| *number > DARK * level).count();
             return (!(at + 1..=at + lit).any(is_other) && level > 0.0).then_some(level);
