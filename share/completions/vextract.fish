@@ -13,7 +13,7 @@ complete -c vextract -l distortion -d 'Lens distortion about the picture\'s cent
 complete -c vextract -l overlay -d 'Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
 complete -c vextract -l preview -d 'Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above' -r -F
 complete -c vextract -l transfer -d 'Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest' -r
-complete -c vextract -l black-level -d 'Stored number that means no light' -r
+complete -c vextract -l black-level -d 'Stored number that means no light; auto: the darkest ones, where they are alike in all channels and not 0' -r
 complete -c vextract -l white-level -d 'Stored number that means 1, from which on pixels are clipped' -r
 complete -c vextract -l white -d 'Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1' -r -F
 complete -c vextract -l undo -d 'Undo the white balance and the matrix with which the camera made an sRGB picture' -r

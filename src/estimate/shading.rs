@@ -23,6 +23,11 @@ const END_COLOURS_APART: f64 = 0.14;
 /// Ratios of channels of the panels' outer halves are apart by no more (natural logarithm) in sheets of one colour: sky, ground and the other
 /// panel shine on both of them alike.
 const COLOURS_APART: f64 = 0.25;
+/// A rise towards the crease that a lens, a bow and the ground make without any bounces, and by how much channels differ in it.
+const WEAK_RISE: f64 = 0.12;
+const WEAK_COLOUR: f64 = 0.012;
+/// Panels are no further apart in brightness (natural logarithm) than the sun's place makes them.
+const PANELS_APART: f64 = 0.45;
 /// Standard deviations from which on a difference is no chance.
 const SURE: f64 = 3.0;
 
@@ -53,16 +58,57 @@ impl<'a> Shading<'a> {
     ///
     /// # Arguments
     /// - `ideal`: facets of an ideal fold with the reflectance that was estimated, facet by channel, in any exposure.
+    /// - `is_loose`: whether nothing but bounces tells the exposure, in a fold that is not ideal.
     #[must_use]
-    pub fn doubts(&self, ideal: &DMatrix<f64>) -> Vec<Doubt> {
-        [
-            self.darker_at_crease().or_else(|| self.without_bounces(ideal)),
-            self.two_colours(),
-            self.uneven_ends(),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+    pub fn doubts(&self, ideal: &DMatrix<f64>, is_loose: bool) -> Vec<Doubt> {
+        let shape = self.darker_at_crease().or_else(|| self.without_bounces(ideal));
+        let shape = shape.or_else(|| is_loose.then(|| self.weak_bounces()).flatten());
+        let all = [shape, self.two_colours(), self.uneven_ends(), self.uneven_panels(ideal)];
+        all.into_iter().flatten().collect()
+    }
+
+    /// Panels that rise alike in all channels, by no more than a lens or a bow makes: the same facets without any bounces.
+    fn weak_bounces(&self) -> Option<Doubt> {
+        let is_weak = |panel: usize| {
+            let rises: Vec<Ratio> = self.rises(panel).map(|(_, rise)| rise).collect();
+            let least = rises.iter().min_by(|a, b| a.ln.total_cmp(&b.ln));
+            let most = rises.iter().max_by(|a, b| a.ln.total_cmp(&b.ln));
+            least.zip(most).is_some_and(|(least, most)| {
+                most.ln < WEAK_RISE && most.ln - least.ln < WEAK_COLOUR + SURE * least.sd.hypot(most.sd)
+            })
+        };
+        [0, 1].into_iter().all(is_weak).then(|| {
+            Doubt::new(
+                "no bounces show: both panels change alike in all channels, by no more than a lens or a bow makes, and nothing else tells \
+                 the exposure",
+                "check that this is a fold; put a white card or a chart in the picture",
+            )
+        })
+    }
+
+    /// Panels that are further apart in brightness than the sun where it was said to stand makes them.
+    fn uneven_panels(&self, ideal: &DMatrix<f64>) -> Option<Doubt> {
+        let outer = |panel, channel| self.mean(panel, channel, self.grid.rows / 2..self.grid.rows, |_| true);
+        let expected = |panel: usize, channel| {
+            let facets = self.facet(panel, self.grid.rows / 2, 0)..(panel + 1) * self.grid.len();
+            facets.map(|facet| ideal[(facet, channel)]).sum::<f64>()
+        };
+        let off = |channel: usize| {
+            let apart = Ratio::of(outer(0, channel)?, outer(1, channel)?).ln;
+            Some(apart - (expected(0, channel) / expected(1, channel)).ln())
+        };
+        let all: Vec<f64> = (0..self.rgb.channels()).filter_map(off).collect();
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        (mean.abs() > PANELS_APART).then(|| {
+            Doubt::new(
+                format!(
+                    "panel {} is {:.1} times as bright beside the other as this sun makes it: a shadow, another light, or a sun far off the middle",
+                    usize::from(mean < 0.0),
+                    mean.abs().exp()
+                ),
+                "turn the fold until both panels are equally bright, or state --tilt-deg",
+            )
+        })
     }
 
     /// Panels of which one end of the crease is brighter than the other, or has another colour.
@@ -238,7 +284,7 @@ mod tests {
         let (rgb, sd) = (facets(value), facets(|_, _, _| 1e-4));
         let bounces = |row: usize| 1.4 - 0.05 * row as f64;
         let ideal = DMatrix::from_fn(2 * GRID.len(), 3, |facet, _| bounces(facet % GRID.len() / GRID.cols));
-        Shading::new(GRID, &rgb, &sd).unwrap().doubts(&ideal).iter().map(|doubt| doubt.level).collect()
+        Shading::new(GRID, &rgb, &sd).unwrap().doubts(&ideal, false).iter().map(|doubt| doubt.level).collect()
     }
 
     #[test]

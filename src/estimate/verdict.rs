@@ -5,7 +5,7 @@
 //! was told.
 
 use super::unknowns::{EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
-use super::{Estimate, Fitted, MISFIT};
+use super::{Estimate, Exposure, Fitted, MISFIT};
 
 /// Residuals, in units of their expected size, up to which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
@@ -131,18 +131,20 @@ pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
     })
 }
 
-/// An exposure that was stated where the facets of an ideal fold say another: `told` is the estimate with the exposure as stated, `free` one to
-/// which it was unknown.
+/// An exposure that was stated where the facets of the fold as it was told say another.
+///
+/// # Arguments
+/// - `told`: what facets tell with the exposure as stated, none if the search did not come to its end; `free`: if it is unknown.
 #[must_use]
-pub fn other_exposure(told: &Estimate, free: &Estimate) -> Option<Doubt> {
+pub fn other_exposure(stated: Exposure, told: Option<&Estimate>, free: &Estimate) -> Option<Doubt> {
     let Fitted { value, sd, .. } = free.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
-    let apart = (value / told.exposure).ln().abs();
-    let is_better = free.residual_rms < EXPLAINED && free.residual_rms < EXPOSURE_BETTER * told.residual_rms;
+    let stated = stated.known()?;
+    let apart = (value / stated).ln().abs();
+    let is_better = free.residual_rms < EXPLAINED
+        && told.is_none_or(|told| free.residual_rms < EXPOSURE_BETTER * told.residual_rms);
     (is_better && apart > EXPOSURE_APART && apart * value > EXPOSURE_SURE * sd).then(|| {
-        let because = format!(
-            "the facets are those of an exposure of {value:.2} ± {sd:.2}, not {} as stated",
-            told.exposure
-        );
+        let because =
+            format!("the facets are those of an exposure of {value:.2} ± {sd:.2}, not {stated} as stated");
         Doubt::new(
             because,
             "leave --exposure out, or measure it again with a white card or chart in the sheet's light",

@@ -25,12 +25,13 @@ mod placing;
 mod reading;
 
 pub use drawing::{
-    Balance, Thumbnail, White, is_preview, png_bytes, thumbnail, write_linear, write_overlay, write_preview,
-    write_srgb_png,
+    Balance, Thumbnail, White, is_for_the_eye, png_bytes, thumbnail, write_linear, write_overlay,
+    write_preview, write_srgb_png,
 };
 pub use edges::{Marked, Refinement, refine};
 pub use measuring::{
-    FacetMeasurement, PixelRun, corner_orders, measure, measure_patches, pixels_sharing_noise,
+    FacetMeasurement, PixelRun, Processing, corner_orders, measure, measure_patches, open_sides,
+    pixels_sharing_noise, processing,
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{

@@ -9,7 +9,7 @@ use super::Sample;
 use super::colours;
 use super::development::DevelopmentRecord;
 use crate::error::Result;
-use crate::image::{FacetMeasurement, Grid, PhotographInfo, Refinement};
+use crate::image::{FacetMeasurement, Grid, PhotographInfo, Processing, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -28,15 +28,24 @@ pub struct ImageRecord {
     black_level: Levels,
     /// The stored number that is 1.
     white_level: Levels,
+    /// The stored number at which each channel ends below the white level, and from which on its pixels are clipped; null for a channel that goes on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    ends_at: Vec<Option<f64>>,
+    /// The darkest stored numbers of each channel, where they are alike in all, as if black had not been subtracted.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    darkest: Vec<f64>,
     /// Of a RAW file: what was read of the sensor.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensor: Option<SensorRecord>,
     /// What the camera did to the picture, and was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
-    /// Whether a camera developed the picture, it seems, and nothing of that was undone.
+    /// Whether the picture was developed for the eye, it seems, and nothing of that was undone.
     #[serde(skip_serializing_if = "is_false")]
     developed: bool,
+    /// What was done to the numbers, as their noise shows: `curve` or `matrix`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    processing: Option<ProcessingRecord>,
     /// How many neighbouring pixels make one independent number, per channel; 1 where noise is not shared.
     pixels_sharing_noise: Vec<f64>,
     /// The camera's maker.
@@ -59,6 +68,9 @@ pub struct ImageRecord {
     orientation: u32,
     /// Four corners of each panel, [x, y] each, px of the upright picture; null where a panel was not marked.
     panels: Vec<Option<[[f64; 2]; 4]>>,
+    /// Sides along which no edge of the sheet lies, such as `the outer side of panel 0`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    open_sides: Vec<String>,
     /// Distance from a facet's sides within which pixels are left out, px.
     margin_px: f64,
     /// Coefficients K1 and K2 of the lens.
@@ -72,6 +84,34 @@ pub struct ImageRecord {
     notes: Vec<String>,
 }
 
+/// What was done to numbers that pass for a sensor's own.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum ProcessingRecord {
+    /// They have a curve such as sRGB's.
+    Curve,
+    /// A matrix mixed the channels.
+    Matrix,
+}
+
+impl From<Processing> for ProcessingRecord {
+    fn from(processing: Processing) -> Self {
+        match processing {
+            Processing::Curve => Self::Curve,
+            Processing::Matrix => Self::Matrix,
+        }
+    }
+}
+
+impl From<ProcessingRecord> for Processing {
+    fn from(record: ProcessingRecord) -> Self {
+        match record {
+            ProcessingRecord::Curve => Self::Curve,
+            ProcessingRecord::Matrix => Self::Matrix,
+        }
+    }
+}
+
 /// How corners were moved to the edges around them.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct RefinedRecord {
@@ -83,13 +123,22 @@ struct RefinedRecord {
 }
 
 /// A level of the sensor.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 enum Levels {
     /// For all channels.
     All(f64),
     /// For each channel.
     Each(Vec<f64>),
+}
+
+impl Levels {
+    fn of(&self, channel: usize) -> Option<f64> {
+        match self {
+            Self::All(level) => Some(*level),
+            Self::Each(levels) => levels.get(channel).copied(),
+        }
+    }
 }
 
 impl From<&[f64]> for Levels {
@@ -134,12 +183,15 @@ impl ImageRecord {
             transfer: info.transfer_used.name(),
             black_level: info.black_level.as_slice().into(),
             white_level: info.white_level.as_slice().into(),
+            ends_at: info.ends_at.clone(),
+            darkest: info.darkest.clone(),
             sensor: info
                 .sensor
                 .as_ref()
                 .map(|sensor| SensorRecord { mosaic: sensor.mosaic.clone(), area: sensor.area }),
             undone: info.undone.as_ref().map(DevelopmentRecord::from),
             developed: info.is_developed(),
+            processing: None,
             pixels_sharing_noise: pixels_sharing_noise.to_vec(),
             make: info.camera.make.clone(),
             model: info.camera.model.clone(),
@@ -148,11 +200,26 @@ impl ImageRecord {
             iso: info.camera.iso,
             orientation: info.camera.orientation.exif(),
             panels: (0..count).map(corners).collect(),
+            open_sides: Vec::new(),
             margin_px,
             distortion: None,
             refined: None,
             notes: info.camera.notes.clone(),
         }
+    }
+
+    /// The record with what was done to the numbers, if that shows.
+    #[must_use]
+    pub fn with_processing(mut self, processing: Option<Processing>) -> Self {
+        self.processing = processing.map(ProcessingRecord::from);
+        self
+    }
+
+    /// The record with sides along which no edge of the sheet lies, in words.
+    #[must_use]
+    pub fn with_open_sides(mut self, open_sides: Vec<String>) -> Self {
+        self.open_sides = open_sides;
+        self
     }
 
     /// The record with the lens's coefficients and what refinement did, if they were asked for.
@@ -193,16 +260,61 @@ struct FramingRecord {
 struct MakingRecord {
     #[serde(default)]
     developed: bool,
+    processing: Option<ProcessingRecord>,
+    #[serde(default)]
+    open_sides: Vec<String>,
+    #[serde(default)]
+    darkest: Vec<f64>,
+    black_level: Option<Levels>,
+    white_level: Option<Levels>,
+}
+
+impl MakingRecord {
+    /// How far above black the darkest numbers of the first channel are, white being 1.
+    fn darkest_part(&self) -> Option<f64> {
+        let level = |levels: &Option<Levels>| levels.as_ref()?.of(0);
+        let (darkest, black, white) =
+            (self.darkest.first()?, level(&self.black_level)?, level(&self.white_level)?);
+        Some((darkest - black) / (white - black))
+    }
 }
 
 impl Sample {
-    /// Whether a camera developed the photograph, it seems, and nothing of that was undone.
+    /// Whether the photograph was developed for the eye, it seems, and nothing of that was undone.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if the record of the photograph is not one.
     pub fn is_developed(&self) -> Result<bool> {
         let record: Option<MakingRecord> = self.fields.get("image")?;
         Ok(record.is_some_and(|record| record.developed))
+    }
+
+    /// What was done to the photograph's numbers, if their noise shows it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn processing(&self) -> Result<Option<Processing>> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.and_then(|record| record.processing).map(Processing::from))
+    }
+
+    /// Sides of the panels along which no edge of the sheet lies, in words.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn open_sides(&self) -> Result<Vec<String>> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.map(|record| record.open_sides).unwrap_or_default())
+    }
+
+    /// How far the photograph's darkest numbers are above black, white being 1, if they are alike in all channels: black was not subtracted, it
+    /// seems.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn unsubtracted_black(&self) -> Result<Option<f64>> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.and_then(|record| record.darkest_part()))
     }
 
     /// Where the panels are in the photograph; none if the sample is not one of two panels.

@@ -19,6 +19,7 @@ mod flat_sheets;
 mod ill_posed;
 mod install;
 mod joint;
+mod levels;
 mod measure;
 mod not_modelled;
 mod photographs;

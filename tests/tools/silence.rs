@@ -1,4 +1,4 @@
-//! What would be wrong in silence is refused or said: previews, crease ends that differ, pictures that a camera developed, a light that
+//! What would be wrong in silence is refused or said: previews, crease ends that differ, pictures that were developed, a light that
 //! nobody named.
 
 use crate::common::{Ended, Workdir};
@@ -20,7 +20,12 @@ fn a_preview_is_no_photograph() {
         extract(&folder, PHOTO, &format!("--illuminant D65 {PANELS} --overlay overlay.png")).status,
         0
     );
-    for picture in ["preview.png", "overlay.png"] {
+    // saved again by another program, the first two times with the description, then with the comment
+    let again = folder
+        .sh("vkernel --angle-deg 50 | vforward --reflectance 0.5 --render render.png -q > rendered.ndjson
+        oiiotool render.png -o again.tif -o again.jpg; oiiotool preview.png -o again.png");
+    assert_eq!((again.status, again.stderr.as_str()), (0, ""));
+    for picture in ["preview.png", "overlay.png", "render.png", "again.tif", "again.jpg", "again.png"] {
         let run = extract(&folder, picture, &format!("--illuminant D65 {PANELS}"));
         assert_eq!(run.status, 1, "{run:?}");
         assert!(
@@ -48,7 +53,7 @@ fn a_crease_has_its_ends_in_one_place() {
 }
 
 #[test]
-fn a_picture_that_a_camera_developed_is_warned_of() {
+fn a_picture_that_was_developed_is_warned_of() {
     let folder = Workdir::new();
     let run = extract(&folder, JPEG, &format!("--illuminant D65 {PANELS}"));
     assert_eq!(run.status, 0, "{run:?}");

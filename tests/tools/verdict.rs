@@ -113,7 +113,7 @@ fn what_facets_do_not_show_is_said_to_be_told() {
 }
 
 #[test]
-fn a_picture_that_a_camera_developed_is_doubtful() {
+fn a_picture_that_was_developed_is_wrong() {
     let told = Told {
         photo: JPEG,
         camera: "nikon-d5100",
@@ -122,7 +122,7 @@ fn a_picture_that_a_camera_developed_is_doubtful() {
         ..AS_IT_IS
     };
     let one = judged("JPEG, nothing undone", told);
-    assert!(one.level == "doubtful" && one.because.contains("developed"), "{one:?}");
+    assert!(one.level == "wrong" && one.because.contains("developed"), "{one:?}");
 }
 
 #[test]

@@ -11,10 +11,11 @@ use vfold::estimate::prior::Prior;
 use vfold::estimate::shading::Shading;
 use vfold::estimate::unknowns::{ANGLE, SceneModel};
 use vfold::estimate::verdict::{
-    Doubt, EXPLAINED, beyond_chance, is_loose, other_exposure, unusual_exposure, unusual_findings,
+    Doubt, EXPLAINED, Level, beyond_chance, is_loose, other_exposure, unusual_exposure, unusual_findings,
 };
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::forward::FacetValues;
+use vfold::image::Processing;
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
@@ -59,10 +60,11 @@ impl Estimator<'_> {
         let Some(record) = &context.record else { return Ok(ideal()) };
         doubts.extend(doubts_of_taking(record, sample)?);
         let told = self.of_fold(context, sample, given, prior, doubts)?;
-        if matches!(given.exposure, Exposure::Known(_)) && !sample.fields.has("calibration") {
+        if given.exposure.known().is_some() && !sample.fields.has("calibration") {
             let exposure = Exposure::Free.of_photograph();
-            let data = FacetData::new(&given.believed.model, given.measured, exposure, CUTOFF)?;
-            doubts.extend(map::glance(&data, prior).and_then(|free| other_exposure(&told, &free)));
+            let free = FacetData::new(&given.believed.model, given.measured, exposure, CUTOFF)?;
+            let (told, free) = (map::glance(given.data, prior), map::glance(&free, prior));
+            doubts.extend(free.and_then(|free| other_exposure(given.exposure, told.as_ref(), &free)));
         }
         Ok(told)
     }
@@ -148,8 +150,9 @@ impl Estimator<'_> {
         estimate: &Estimate,
     ) -> Result<Vec<Doubt>> {
         let is_stated = self.exposure_of(sample)?.known().is_some();
+        let is_by_chart = sample.fields.has("calibration");
         let mut doubts = unusual_findings(estimate);
-        if !sample.fields.has("calibration") {
+        if !is_by_chart {
             doubts.extend(unusual_exposure(estimate, is_stated));
         }
         if let Some(record) = &context.record {
@@ -157,8 +160,9 @@ impl Estimator<'_> {
             let sd = noise.deviations(model.facets(), rgb)?;
             let ideal = ideal_facets(model, &estimate.reflectance);
             let grid = FoldSetting::of(record)?.fold().facets();
-            doubts
-                .extend(Shading::new(grid, rgb, &sd).into_iter().flat_map(|shading| shading.doubts(&ideal)));
+            let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
+            let shading = Shading::new(grid, rgb, &sd);
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(&ideal, is_loose)));
         }
         Ok(doubts)
     }
@@ -199,10 +203,40 @@ fn ideal_facets(model: &SceneModel, reflectance: &[f64]) -> DMatrix<f64> {
 
 /// What speaks against an estimate from how the photograph was taken.
 pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
-    let developed = sample.is_developed()?.then(|| {
+    let developed = sample.is_developed()?.then(|| Doubt {
+        level: Level::Wrong,
+        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
+            .to_owned(),
+        remedy:
+            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
+                .to_owned(),
+    });
+    let processed = sample.processing()?.map(|processing| Doubt {
+        level: Level::Wrong,
+        because: match processing {
+            Processing::Curve => "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's",
+            Processing::Matrix => "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files",
+        }
+        .to_owned(),
+        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
+    });
+    let black = sample.unsubtracted_black()?.map(|part| {
+        let percent = 100.0 * part;
         Doubt::new(
-            "a camera developed this picture, and neither its white balance nor its matrix was undone",
-            "take the RAW file, or give vextract --undo",
+            format!(
+                "the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"
+            ),
+            "give vextract --black-level auto, or the camera's black level",
+        )
+    });
+    let open_sides = sample.open_sides()?;
+    let open = (!open_sides.is_empty()).then(|| {
+        Doubt::new(
+            format!(
+                "no edge of the sheet lies along {}: it goes on beyond the corners, or does not reach them",
+                open_sides.join(", ")
+            ),
+            "mark the corners of the whole panels, as vextract --overlay shows them",
         )
     });
     let stand_in = record.camera()?.stands_in.map(|one| {
@@ -211,5 +245,5 @@ pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
             "make them of a photograph of a colour chart (vextract --save-camera)",
         )
     });
-    Ok(developed.into_iter().chain(stand_in).collect())
+    Ok(developed.into_iter().chain(processed).chain(black).chain(open).chain(stand_in).collect())
 }

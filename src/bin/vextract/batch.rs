@@ -8,7 +8,6 @@ use vfold::parallel::{Item, in_order};
 use vfold::stream::{Kept, Sample};
 
 use super::pictures::name;
-use super::reading::open;
 use super::sample::Setup;
 
 /// Measures photographs, of which the first is open already, and hands on their samples in order, each as soon as it is there.
@@ -31,7 +30,7 @@ pub fn measure(
         }
     });
     let measure = |(path, opened): (&PathBuf, Option<_>)| {
-        setup.sample_or_error(path, opened.unwrap_or_else(|| open(path, &setup.options)))
+        setup.sample_or_error(path, opened.unwrap_or_else(|| setup.reading.open(path)))
     };
     in_order(steps, rayon::current_num_threads(), measure, |sample| done(sample?))
 }

@@ -7,6 +7,7 @@ mod camera;
 mod chart_camera;
 mod light;
 mod list;
+mod numbers;
 mod panels;
 mod pictures;
 mod placing;
@@ -23,7 +24,7 @@ use calibration::CalibrationArgs;
 use clap::Parser;
 use pictures::PictureArgs;
 use placing::PlacingArgs;
-use reading::{ReadingArgs, open};
+use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
@@ -108,24 +109,24 @@ fn main() -> ExitCode {
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
-    let options = args.reading.options()?;
+    let reading = args.reading.reading()?;
     let images = list::images(args)?;
     args.pictures.check(&images)?;
     let balance = |photograph: &Photograph| balance::of_photograph(args, photograph);
-    if args.pictures.preview(&images, |path| open(path, &options), balance)? {
+    if args.pictures.preview(&images, |path| reading.open(path), balance)? {
         return Ok(());
     }
     args.placing.check()?;
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;
-    let flat_field = args.reading.flat_field(&options)?.map(Arc::new);
+    let flat_field = args.reading.flat_field(&reading)?.map(Arc::new);
     if let Some(file) = &args.calibration.save_camera {
-        let first = open(&images[0], &options);
+        let first = reading.open(&images[0]);
         return chart_camera::save(args, file, &images, first, (&regions, &calibration), flat_field);
     }
     let mut scene = read_scene(&args.scene)?;
-    let first = open(&images[0], &options);
+    let first = reading.open(&images[0]);
     let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
@@ -151,7 +152,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     };
     let setup = Setup {
         args,
-        options,
+        reading,
         scene: &scene,
         id,
         panels,

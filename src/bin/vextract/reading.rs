@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FlatField, Photograph, ReadOptions, Transfer, is_preview};
+use vfold::image::{FlatField, Photograph, ReadOptions, Transfer, is_for_the_eye};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
 
@@ -13,9 +13,9 @@ pub struct ReadingArgs {
     /// Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest
     #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]
     transfer: Transfer,
-    /// Stored number that means no light
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
-    black_level: Option<f64>,
+    /// Stored number that means no light; auto: the darkest ones, where they are alike in all channels and not 0
+    #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = black_level)]
+    black_level: Option<BlackLevel>,
     /// Stored number that means 1, from which on pixels are clipped
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
@@ -27,34 +27,70 @@ pub struct ReadingArgs {
     undo: Option<String>,
 }
 
-/// Opens a photograph.
-///
-/// # Errors
-/// As [`Photograph::open`]; [`Error::Picture`] if it is a preview or an overlay, in which nothing can be measured.
-pub fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
-    if is_preview(path) {
-        let problem = "this is a picture for the eye that vextract made of a photograph";
-        return Err(Error::picture(path, problem, "give the photograph itself"));
+/// The stored number that means no light.
+#[derive(Clone, Copy)]
+enum BlackLevel {
+    Given(f64),
+    /// As the darkest pixels say.
+    Darkest,
+}
+
+/// How photographs are to be read.
+pub struct Reading {
+    options: ReadOptions,
+    black_level: Option<BlackLevel>,
+}
+
+impl Reading {
+    /// Opens a photograph.
+    ///
+    /// # Errors
+    /// As [`Photograph::open`]; [`Error::Picture`] if it is a picture for the eye.
+    pub fn open(&self, path: &Path) -> Result<Photograph> {
+        if is_for_the_eye(path) {
+            let problem = "this is a picture for the eye, made by vfold";
+            return Err(Error::picture(
+                path,
+                problem,
+                "render it as .exr or .tif, or give the photograph itself",
+            ));
+        }
+        let photograph = Photograph::open(path, &self.options)?;
+        match self.black_level {
+            Some(BlackLevel::Darkest) => Ok(photograph.with_darkest_as_black()),
+            _ => Ok(photograph),
+        }
     }
-    Photograph::open(path, options)
 }
 
 impl ReadingArgs {
     /// # Errors
     /// If what the camera did cannot be read.
-    pub fn options(&self) -> Result<ReadOptions> {
-        Ok(ReadOptions {
+    pub fn reading(&self) -> Result<Reading> {
+        let given = |level| match level {
+            BlackLevel::Given(stored) => Some(stored),
+            BlackLevel::Darkest => None,
+        };
+        let options = ReadOptions {
             transfer: self.transfer,
-            black_level: self.black_level,
+            black_level: self.black_level.and_then(given),
             white_level: self.white_level,
             development: self.undo.as_deref().map(read_development).transpose()?,
-        })
+        };
+        Ok(Reading { options, black_level: self.black_level })
     }
 
     /// # Errors
-    /// As [`Photograph::open`] and [`Photograph::into_flat_field`].
-    pub fn flat_field(&self, options: &ReadOptions) -> Result<Option<FlatField>> {
-        self.white.as_ref().map(|path| Photograph::open(path, options)?.into_flat_field(path)).transpose()
+    /// As [`Reading::open`] and [`Photograph::into_flat_field`].
+    pub fn flat_field(&self, reading: &Reading) -> Result<Option<FlatField>> {
+        self.white.as_ref().map(|path| reading.open(path)?.into_flat_field(path)).transpose()
+    }
+}
+
+fn black_level(text: &str) -> std::result::Result<BlackLevel, String> {
+    match text {
+        "auto" => Ok(BlackLevel::Darkest),
+        number => number.parse().map(BlackLevel::Given).map_err(|_| "write a number, or auto".to_owned()),
     }
 }
 

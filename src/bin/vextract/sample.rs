@@ -8,7 +8,8 @@ use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
-    FacetMeasurement, FlatField, Homography, Photograph, ReadOptions, measure, pixels_sharing_noise,
+    FacetMeasurement, FlatField, Homography, Photograph, measure, open_sides, pixels_sharing_noise,
+    processing,
 };
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
@@ -17,13 +18,14 @@ use super::calibration::{GivenCalibration, apply};
 use super::panels::MarkedPanels;
 use super::pictures::name;
 use super::placing;
+use super::reading::Reading;
 use super::regions::GivenRegions;
-use super::{Args, balance};
+use super::{Args, balance, numbers};
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
     pub args: &'a Args,
-    pub options: ReadOptions,
+    pub reading: Reading,
     pub scene: &'a Scene,
     pub id: String,
     pub panels: BTreeMap<usize, Panel>,
@@ -50,6 +52,7 @@ impl Setup<'_> {
         let outlines: Vec<Homography> = placed.grids.iter().map(|grid| grid.outline.clone()).collect();
         let sharing_noise = pixels_sharing_noise(&photograph, &outlines);
         let measured = measure(&photograph, &placed.grids, margin)?;
+        let processing = processing(&photograph, &outlines, &measured);
         let mut measured: Vec<_> =
             measured.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
         if let Some(sight) = &self.sight {
@@ -63,8 +66,7 @@ impl Setup<'_> {
         let balance = balance::of_scene(self.scene, &photograph);
         args.pictures.overlay(path, &photograph, &grids, &facets, &balance)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
-            let remedy = "check the panels' corners, --margin and the white level";
-            return Err(Error::picture(path, "no facet has a pixel that can be used", remedy));
+            return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
         let calibrated = self.calibration.calibrate(self.scene, &regions, placed.lens, path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
@@ -76,13 +78,17 @@ impl Setup<'_> {
             sample.set_calibration(record)?;
         }
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &sharing_noise)
+            .with_processing(processing)
+            .with_open_sides(open_sides(&photograph, &placed.grids))
             .with_placing(placed.distortion, placed.refinement.as_ref());
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
             placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
         }
-        if photograph.info().is_developed() && !args.common.quiet {
-            cli::say("vextract", &developed(path, &photograph));
+        if !args.common.quiet {
+            numbers::warnings(path, photograph.info(), processing, &facets)
+                .iter()
+                .for_each(|line| cli::say("vextract", line));
         }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
@@ -138,14 +144,4 @@ impl Setup<'_> {
         }
         cli::say("vextract", &format!("{}: {text}", path.display()));
     }
-}
-
-/// What is said of a picture that a camera developed.
-fn developed(path: &Path, photograph: &Photograph) -> String {
-    format!(
-        "warning: {} ({}) was developed by a camera, and neither its white balance nor its matrix is undone: expect a wrong spectrum; \
-         give the RAW file, or --undo",
-        path.display(),
-        photograph.info().format
-    )
 }

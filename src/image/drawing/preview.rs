@@ -1,7 +1,5 @@
 //! A picture for the eye of any photograph: small, bright enough, sRGB.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 use ndarray::Array2;
@@ -55,7 +53,7 @@ impl Canvas {
     fn write_naming(&self, path: &Path, photograph: Option<&Path>) -> Result<()> {
         let size = self.photographed.map(|side| side.to_string()).join("x");
         let name = photograph.map(|photograph| (NAME_KEYWORD, photograph.display().to_string()));
-        let texts = Texts { plain: (SIZE_KEYWORD, size), international: name };
+        let texts = Texts { plain: Some((SIZE_KEYWORD, size)), international: name };
         let (height, width) = self.rgb.dim();
         let rgb: Vec<f64> = self.rgb.iter().flatten().copied().collect();
         write_srgb_png_with_texts(path, [width, height], &rgb, texts)
@@ -72,13 +70,13 @@ impl Canvas {
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Balance, Photograph, ReadOptions, is_preview, write_linear, write_preview};
+/// use vfold::image::{Balance, Photograph, ReadOptions, is_for_the_eye, write_linear, write_preview};
 /// let folder = tempfile::tempdir().unwrap();
 /// let (path, preview) = (folder.path().join("wide.tif"), folder.path().join("preview.png"));
 /// write_linear(&path, 3200, 2, &vec![0.1; 3200 * 2 * 3])?;
 /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
 /// write_preview(&preview, &photograph, &path, &Balance::of(&photograph, None))?;
-/// assert!(is_preview(&preview) && !is_preview(&path));
+/// assert!(is_for_the_eye(&preview) && !is_for_the_eye(&path));
 /// assert_eq!(Photograph::open(&preview, &ReadOptions::default())?.width(), 1600);
 /// # Ok::<(), vfold::Error>(())
 /// ```
@@ -87,14 +85,6 @@ pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance:
     let mut canvas = Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0), balance);
     canvas.note(&format!("preview, {}", balance.said));
     canvas.write_naming(path, Some(name))
-}
-
-/// Whether a file is a preview or an overlay, made for the eye: what it shows was measured in another. A file that cannot be read is none.
-#[must_use]
-pub fn is_preview(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
-    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
-    reader.info().uncompressed_latin1_text.iter().any(|text| text.keyword == SIZE_KEYWORD)
 }
 
 /// Mean light of the photograph's pixels that pixel `at` of a canvas of this `size` shows; clipped ones count as white.

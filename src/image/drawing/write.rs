@@ -6,9 +6,9 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use super::for_the_eye::{MARK, MARK_KEYWORDS};
 use crate::files::Saved;
 use crate::{Error, Result};
-use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
@@ -46,7 +46,7 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
     }
 }
 
-/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG; other values are clipped.
+/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG that says it is for the eye; other values are clipped.
 ///
 /// # Errors
 /// As [`write_linear`], whatever the name's ending.
@@ -59,7 +59,7 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<()> {
-    save(path, &eight_bits(path, width, height, rgb)?, ImageFormat::Png)
+    write_srgb_png_with_texts(path, [width, height], rgb, Texts::default())
 }
 
 /// Bytes of a PNG of RGB that is already encoded for display, 8 bits a number.
@@ -79,13 +79,14 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
         .filter(|_| count > 0)
         .ok_or_else(|| failed(format!("{count} numbers do not fill {width} x {height} RGB pixels")))?;
     let mut png = Vec::new();
-    picture.write_with_encoder(PngEncoder::new(&mut png)).map_err(|error| failed(error.to_string()))?;
+    encode_for_the_eye(&mut png, &picture, Texts::default()).map_err(|error| failed(error.to_string()))?;
     Ok(png)
 }
 
-/// What a PNG tells programs that read it: a keyword and its text, ASCII; and, if there is one, a keyword and a text of any letters.
+/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII; a keyword and a text of any letters.
+#[derive(Default)]
 pub(super) struct Texts<'a> {
-    pub plain: (&'a str, String),
+    pub plain: Option<(&'a str, String)>,
     pub international: Option<(&'a str, String)>,
 }
 
@@ -102,22 +103,39 @@ pub(super) fn write_srgb_png_with_texts(
     };
     let picture = eight_bits(path, width, height, rgb)?;
     let mut saved = Saved::new(path)?;
-    let mut encoder = png::Encoder::new(BufWriter::new(saved.file_mut()), picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgb);
-    let (keyword, text) = texts.plain;
-    encoder.add_text_chunk(keyword.to_owned(), text).map_err(failed)?;
-    if let Some((keyword, text)) = texts.international {
-        encoder.add_itxt_chunk(keyword.to_owned(), text).map_err(failed)?;
-    }
-    let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(picture.as_bytes()).map_err(failed)?;
-    writer.finish().map_err(failed)?;
+    encode_for_the_eye(BufWriter::new(saved.file_mut()), &picture, texts).map_err(failed)?;
     saved.keep()
 }
 
-fn eight_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {
+/// Writes a PNG that says it is sRGB, and for the eye.
+fn encode_for_the_eye(
+    out: impl Write,
+    picture: &ImageBuffer<Rgb<u8>, Vec<u8>>,
+    texts: Texts,
+) -> std::result::Result<(), png::EncodingError> {
+    let mut encoder = png::Encoder::new(out, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let marks = MARK_KEYWORDS.map(|keyword| (keyword, MARK.to_owned()));
+    for (keyword, text) in marks.into_iter().chain(texts.plain) {
+        encoder.add_text_chunk(keyword.to_owned(), text)?;
+    }
+    if let Some((keyword, text)) = texts.international {
+        encoder.add_itxt_chunk(keyword.to_owned(), text)?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(picture.as_raw())?;
+    writer.finish()
+}
+
+fn eight_bits(
+    path: &Path,
+    width: usize,
+    height: usize,
+    rgb: &[f64],
+) -> Result<ImageBuffer<Rgb<u8>, Vec<u8>>> {
     // `as` cuts to the integer's range
-    buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8).map(DynamicImage::ImageRgb8)
+    buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8)
 }
 
 fn sixteen_bits(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Result<DynamicImage> {

@@ -2,13 +2,19 @@
 
 mod facets;
 mod measurement;
+mod mixed_channels;
+mod noise_growth;
+mod open_sides;
 mod outliers;
 mod patches;
 mod plane_fit;
+mod processing;
 mod shared_noise;
 mod tally;
 
 pub use facets::measure;
 pub use measurement::{FacetMeasurement, PixelRun};
+pub use open_sides::open_sides;
 pub use patches::{corner_orders, measure_patches};
+pub use processing::{Processing, processing};
 pub use shared_noise::pixels_sharing_noise;

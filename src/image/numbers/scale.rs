@@ -66,6 +66,23 @@ impl Scale {
         Ok(Self { transfer, black, white, clipped_from, clipped_to, bits })
     }
 
+    /// The same, but clipped from this stored number on.
+    pub fn ending_at(self, stored: f64) -> Self {
+        Self { clipped_from: self.clipped_from.min(stored), ..self }
+    }
+
+    /// The same, but no light at this stored number. Where that is above white, as in floats that are a sensor's numbers, white stays as far
+    /// above it as it was.
+    pub fn with_black(self, black: f64) -> Self {
+        let white = if self.white > black { self.white } else { black + self.white - self.black };
+        Self { black, white, ..self }
+    }
+
+    /// Whether a stored number is clipped.
+    pub fn is_clipped(&self, stored: f64) -> bool {
+        stored >= self.clipped_from
+    }
+
     /// Linear light of a stored number; infinite if it is clipped, NaN for what is not finite.
     pub fn linear(&self, stored: f64) -> f64 {
         if !stored.is_finite() {

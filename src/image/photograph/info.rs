@@ -16,10 +16,17 @@ pub struct PhotographInfo {
     pub format: String,
     /// The curve that was undone, [`Transfer::Linear`] or [`Transfer::Srgb`].
     pub transfer_used: Transfer,
+    /// Whether that curve was asked for, and not what the file or its depth says.
+    pub transfer_given: bool,
     /// The stored number taken as no light, one for all channels or one for each.
     pub black_level: Vec<f64>,
     /// The stored number taken as 1, one for all channels or one for each.
     pub white_level: Vec<f64>,
+    /// The stored number at which each channel ends below the white level, and is clipped; none for a channel that does not. Empty if none does.
+    pub ends_at: Vec<Option<f64>>,
+    /// The darkest stored numbers, one for each channel, where they are alike in all and above the black level, as if that had not been
+    /// subtracted. Empty otherwise.
+    pub darkest: Vec<f64>,
     /// White balance and matrix that were undone.
     pub undone: Option<Development>,
     /// Of a RAW file: what was read of the sensor.
@@ -36,12 +43,12 @@ pub struct SensorInfo {
 }
 
 impl PhotographInfo {
-    /// Whether a camera developed the picture, it seems, and nothing of that was undone: sRGB that is a JPEG or names a camera.
+    /// Whether the picture was developed for the eye, it seems, and nothing of that was undone: it has the curve of sRGB, and nobody said that this
+    /// is all there is to it, or it names a camera, which does more.
     #[must_use]
     pub fn is_developed(&self) -> bool {
-        let of_camera =
-            self.format.starts_with("JPEG") || self.camera.make.is_some() || self.camera.model.is_some();
-        of_camera && self.transfer_used == Transfer::Srgb && self.undone.is_none()
+        let of_camera = self.camera.make.is_some() || self.camera.model.is_some();
+        self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_given)
     }
 
     /// Of a linear picture of `stored_size` from 0 to 1, with what the camera wrote.
@@ -53,8 +60,11 @@ impl PhotographInfo {
             height,
             format,
             transfer_used: Transfer::Linear,
+            transfer_given: false,
             black_level: vec![0.0],
             white_level: vec![1.0],
+            ends_at: Vec::new(),
+            darkest: Vec::new(),
             undone: None,
             sensor: None,
         }

@@ -4,6 +4,7 @@
 //! costs little more than decoding it.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use image::DynamicImage;
 use ndarray::{Array3, ShapeError};
@@ -19,9 +20,10 @@ pub(in crate::image) struct Interleaved {
     /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
     colours: [usize; 3],
     alpha: Option<usize>,
-    scale: Scale,
-    /// Linear light of every integer; empty for floats.
-    table: Vec<f64>,
+    /// Of red, green and blue.
+    scales: [Scale; 3],
+    /// Linear light of every integer by those scales, one table for equal ones; empty for floats.
+    tables: [Arc<[f64]>; 3],
     development: Option<Development>,
 }
 
@@ -49,11 +51,11 @@ impl Interleaved {
         let color = picture.color();
         let channels = usize::from(color.channel_count()) - usize::from(color.has_alpha());
         Ok(Self {
-            table: scale.table(),
             samples: Samples::new(picture, orientation)?,
             colours: colours(channels),
             alpha: color.has_alpha().then_some(channels),
-            scale,
+            scales: [scale; 3],
+            tables: one_for_all(&scale),
             development,
         })
     }
@@ -65,8 +67,8 @@ impl Interleaved {
             samples: Samples::Light(light),
             colours: colours(channels),
             alpha: None,
-            scale: Scale::LINEAR,
-            table: Vec::new(),
+            scales: [Scale::LINEAR; 3],
+            tables: one_for_all(&Scale::LINEAR),
             development: None,
         }
     }
@@ -75,6 +77,43 @@ impl Interleaved {
     pub fn channels(&self) -> usize {
         let [red, _, blue] = self.colours;
         blue - red + 1
+    }
+
+    /// Whether its numbers are light already, and not those of a file.
+    pub fn is_light(&self) -> bool {
+        matches!(self.samples, Samples::Light(_))
+    }
+
+    /// The stored numbers of a colour in `columns` of row `y` that are finite and not clipped.
+    pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
+        let at = |x: usize| [y, x, self.colours[colour]];
+        let stored = |x: usize| match &self.samples {
+            Samples::U8(stored) => stored[at(x)].into(),
+            Samples::U16(stored) => stored[at(x)].into(),
+            Samples::F32(stored) | Samples::Light(stored) => stored[at(x)],
+        };
+        let scale = &self.scales[colour];
+        columns
+            .map(stored)
+            .filter(|stored| stored.is_finite() && !scale.is_clipped((*stored).into()))
+            .collect()
+    }
+
+    /// Changes what the stored numbers of each colour mean.
+    pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
+        self.scales = [0, 1, 2].map(|k| change(k, self.scales[k]));
+        match &mut self.samples {
+            // these are light already, each number by a scale of its own
+            Samples::Light(light) => {
+                for ((_, _, channel), light) in
+                    light.indexed_iter_mut().filter(|(_, light)| light.is_finite())
+                {
+                    *light = self.scales[channel].linear((*light).into()) as f32;
+                }
+                self.scales = [Scale::LINEAR; 3];
+            }
+            _ => self.tables = [0, 1, 2].map(|k| self.scales[k].table().into()),
+        }
     }
 
     /// Shows the pixels in `columns` of row `y` one after another, with their columns.
@@ -90,13 +129,17 @@ impl Interleaved {
 
     #[inline]
     fn visit_linear(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
-        let integer = |v: usize| self.table[v];
-        let float = |v: f32| self.scale.linear(v.into());
+        let integer = |k: usize, v: usize| self.tables[k][v];
+        let float = |k: usize, v: f32| self.scales[k].linear(v.into());
         match &self.samples {
-            Samples::U8(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
-            Samples::U16(stored) => self.visit_stored(stored, |v| integer(v.into()), columns, y, visitor),
+            Samples::U8(stored) => {
+                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor)
+            }
+            Samples::U16(stored) => {
+                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor)
+            }
             Samples::F32(stored) => self.visit_stored(stored, float, columns, y, visitor),
-            Samples::Light(light) => self.visit_stored(light, f64::from, columns, y, visitor),
+            Samples::Light(light) => self.visit_stored(light, |_, v| v.into(), columns, y, visitor),
         }
     }
 
@@ -104,17 +147,22 @@ impl Interleaved {
     fn visit_stored<T: Copy + Into<f64>>(
         &self,
         stored: &Array3<T>,
-        linear: impl Fn(T) -> f64,
+        linear: impl Fn(usize, T) -> f64,
         columns: Range<usize>,
         y: usize,
         mut visitor: impl FnMut(usize, Pixel),
     ) {
         for x in columns {
-            let light = self.colours.map(|channel| linear(stored[[y, x, channel]]));
+            let light = [0, 1, 2].map(|k| linear(k, stored[[y, x, self.colours[k]]]));
             let transparent = self.alpha.is_some_and(|alpha| stored[[y, x, alpha]].into() <= 0.0);
             visitor(x, Pixel::new(light, transparent));
         }
     }
+}
+
+fn one_for_all(scale: &Scale) -> [Arc<[f64]>; 3] {
+    let table: Arc<[f64]> = scale.table().into();
+    [table.clone(), table.clone(), table]
 }
 
 /// Where red, green and blue are in a pixel of so many channels.

@@ -1,13 +1,17 @@
 //! A photograph as linear light, pixel by pixel, however it was stored.
 
 mod camera_notes;
+mod darkest;
+mod ends;
 mod flat_field;
 mod info;
 mod interleaved;
+mod limits;
 mod mosaic;
 mod orientation;
 mod pixel;
 mod pixels;
+mod sampled;
 mod sites;
 mod taken;
 
@@ -146,6 +150,11 @@ impl Photograph {
             return Err(Error::picture(path, problem, "take both with the same camera and framing"));
         }
         Ok(Self { flat_field: Some(flat_field), ..self })
+    }
+
+    /// Whether each pixel is divided by that of a flat field.
+    pub(in crate::image) fn is_divided(&self) -> bool {
+        self.flat_field.is_some()
     }
 
     /// Width of the upright picture, px.

@@ -1,8 +1,11 @@
 //! The pixels of a photograph, however they are stored.
 
+use std::ops::Range;
+
 use super::interleaved::Interleaved;
 use super::pixel::Pixel;
 use super::sites::Sites;
+use crate::image::numbers::Scale;
 
 /// Pixels with their colours side by side, or sites of one colour each.
 #[derive(Debug, Clone)]
@@ -29,6 +32,31 @@ impl Pixels {
                 pixel
             }
             Self::Sites(sites) => sites.pixel(x, y),
+        }
+    }
+
+    /// Whether the numbers it holds are light already, and not those of a file.
+    pub fn are_light(&self) -> bool {
+        match self {
+            Self::Interleaved(pixels) => pixels.is_light(),
+            Self::Sites(_) => true,
+        }
+    }
+
+    /// Numbers of a colour that stand beside each other in `columns`, in row `y` or just below it, as they are stored or as light of a sensor; those
+    /// that are finite and not clipped.
+    pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
+        match self {
+            Self::Interleaved(pixels) => pixels.stored(colour, columns, y),
+            Self::Sites(sites) => sites.stored(colour, columns, y),
+        }
+    }
+
+    /// Changes what these numbers mean.
+    pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
+        match self {
+            Self::Interleaved(pixels) => pixels.rescale(change),
+            Self::Sites(sites) => sites.rescale(change),
         }
     }
 }

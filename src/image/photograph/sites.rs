@@ -11,6 +11,7 @@ use ndarray::Array2;
 use super::mosaic::Mosaic;
 use super::orientation::Orientation;
 use super::pixel::Pixel;
+use crate::image::numbers::Scale;
 
 /// The sites of a sensor under a mosaic of colour filters.
 #[derive(Debug, Clone)]
@@ -62,6 +63,24 @@ impl Sites {
             }
         }
         Pixel::new([0, 1, 2].map(|colour| sums[colour] / counts[colour]), false)
+    }
+
+    /// The light of a colour's sites in `columns` of row `y` that is finite, or of the next row that has any.
+    pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
+        let is_of_colour = |x: &usize, y: usize| self.mosaic.colour(*x, y) == colour;
+        let rows = y..(y + self.mosaic.side()).min(self.light.nrows());
+        let of_row =
+            |y: usize| columns.clone().filter(move |x| is_of_colour(x, y)).map(move |x| self.light[[y, x]]);
+        let mut rows = rows.map(|y| of_row(y).filter(|light| light.is_finite()).collect());
+        rows.find(|row: &Vec<f32>| row.len() > 1).unwrap_or_default()
+    }
+
+    /// Changes what the light of each colour means.
+    pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
+        let scales = [0, 1, 2].map(|colour| change(colour, Scale::LINEAR));
+        for ((y, x), light) in self.light.indexed_iter_mut().filter(|(_, light)| light.is_finite()) {
+            *light = scales[self.mosaic.colour(x, y)].linear((*light).into()) as f32;
+        }
     }
 
     fn site(&self, x: usize, y: usize) -> f64 {

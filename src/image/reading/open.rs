@@ -40,20 +40,22 @@ impl Photograph {
             let problem = format!("{what} has no white balance and matrix to undo");
             Error::picture(path, problem, "read it without --undo")
         };
-        match decoded {
+        let photograph = match decoded {
             Decoded::Raw if undo => Err(no_colours("a RAW file")),
             Decoded::Raw => raw::open(path, options),
             Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
                 Err(no_colours("a grey picture"))
             }
             Decoded::Picture(picture) => {
+                let is_given = options.transfer != Transfer::Auto;
                 let options = &ReadOptions { transfer: transfer(path, &picture, options)?, ..*options };
-                Self::from_picture(*picture, options)
+                Self::from_picture(*picture, options, is_given)
             }
-        }
+        };
+        photograph.map(Self::with_limits_found)
     }
 
-    fn from_picture(picture: Picture, options: &ReadOptions) -> Result<Self> {
+    fn from_picture(picture: Picture, options: &ReadOptions, transfer_given: bool) -> Result<Self> {
         let Picture { format, pixels, camera, .. } = picture;
         let color = pixels.color();
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
@@ -62,6 +64,7 @@ impl Photograph {
         let orientation = camera.orientation;
         let info = PhotographInfo {
             transfer_used: scale.transfer,
+            transfer_given,
             black_level: vec![scale.black],
             white_level: vec![scale.white],
             undone: options.development,

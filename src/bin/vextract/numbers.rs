@@ -1,0 +1,101 @@
+//! What is said of a photograph's numbers: where they begin and end, and whether they are a camera's own.
+
+use std::path::Path;
+
+use vfold::Error;
+use vfold::image::{FacetMeasurement, PhotographInfo, Processing};
+
+/// What may make a photograph's spectrum wrong, a line each.
+pub fn warnings(
+    path: &Path,
+    info: &PhotographInfo,
+    processing: Option<Processing>,
+    facets: &[FacetMeasurement],
+) -> Vec<String> {
+    let lines = [clipped(info, facets), darkest(info), developed(info), processing.map(processed)];
+    lines.into_iter().flatten().map(|line| format!("warning: {}{line}", path.display())).collect()
+}
+
+/// The error of a photograph none of whose facets has a pixel.
+pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasurement]) -> Error {
+    match ends(info) {
+        Some(ends) if clipped_part(facets) > 0.0 => {
+            let problem = format!(
+                "no facet has a pixel that can be used: its numbers end at {ends}, where they are clipped"
+            );
+            Error::picture(path, problem, "expose it less")
+        }
+        _ => {
+            let remedy = "check the panels' corners, --margin and the white level";
+            Error::picture(path, "no facet has a pixel that can be used", remedy)
+        }
+    }
+}
+
+fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String> {
+    let (ends, percent) = (ends(info)?, 100.0 * clipped_part(facets));
+    (percent > 0.0).then(|| {
+        format!(": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken as clipped; expose it less")
+    })
+}
+
+/// `4095 in R, G and B`.
+fn ends(info: &PhotographInfo) -> Option<String> {
+    let channels = if info.ends_at.len() == 1 { &["grey"][..] } else { &["R", "G", "B"] };
+    let mut by_level: Vec<(f64, Vec<&str>)> = Vec::new();
+    for (channel, end) in channels.iter().zip(&info.ends_at) {
+        let Some(end) = end else { continue };
+        match by_level.iter_mut().find(|(level, _)| level.total_cmp(end).is_eq()) {
+            Some((_, channels)) => channels.push(channel),
+            None => by_level.push((*end, vec![channel])),
+        }
+    }
+    let each: Vec<String> =
+        by_level.iter().map(|(level, channels)| format!("{level} in {}", listed(channels))).collect();
+    (!each.is_empty()).then(|| each.join(", "))
+}
+
+/// `R, G and B`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+fn clipped_part(facets: &[FacetMeasurement]) -> f64 {
+    let clipped: usize = facets.iter().map(|facet| facet.clipped).sum();
+    let left: f64 = facets.iter().map(|facet| facet.pixels).sum();
+    if clipped == 0 { 0.0 } else { clipped as f64 / (clipped as f64 + left) }
+}
+
+fn darkest(info: &PhotographInfo) -> Option<String> {
+    let digits = if info.darkest.iter().all(|stored| *stored >= 10.0) { 0 } else { 5 };
+    let levels: Vec<String> = info.darkest.iter().map(|stored| format!("{stored:.digits$}")).collect();
+    (!levels.is_empty()).then(|| {
+        format!(
+            ": its darkest pixels are alike in all channels ({}): black was not subtracted, it seems; give --black-level auto",
+            levels.join(", ")
+        )
+    })
+}
+
+fn developed(info: &PhotographInfo) -> Option<String> {
+    info.is_developed().then(|| {
+        format!(
+            " ({}) was developed for the eye, and neither white balance nor matrix is undone: expect a wrong spectrum; \
+             give the RAW file, or --undo, or --transfer if its numbers are the camera's own",
+            info.format
+        )
+    })
+}
+
+fn processed(processing: Processing) -> String {
+    let why = match processing {
+        Processing::Curve => "its noise falls as brightness rises: its numbers have a curve such as sRGB's",
+        Processing::Matrix => "the noise of its channels goes opposite ways: a matrix mixed them",
+    };
+    format!(
+        ": {why}; expect a wrong spectrum; give the RAW file, or a linear TIFF in the camera's own colours"
+    )
+}

@@ -1,0 +1,90 @@
+//! Sides of marked panels along which no edge of the sheet lies.
+//!
+//! A panel that is marked whole ends at its outer sides: what lies beyond has another brightness or colour. Where nothing changes across
+//! a side, the sheet goes on beyond the corners, or does not reach them.
+
+use super::facets::measure;
+use crate::image::photograph::Photograph;
+use crate::image::placing::Grid;
+
+/// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and how many pieces of them are compared.
+const STRIP: [f64; 2] = [0.04, 0.1];
+const PIECES: usize = 8;
+/// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes in one that is open.
+const SEEN_LEAST: usize = 4;
+const OPEN_SHARE: f64 = 0.75;
+/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet ends.
+const STEP_LEAST: f64 = 0.05;
+
+/// A panel's sides away from the crease.
+const SIDES: [&str; 3] = ["the outer side", "the side at crease end 0", "the side at crease end 1"];
+
+/// The open sides of panels that are marked, in words, such as `the outer side of panel 0`.
+///
+/// # Arguments
+/// - `panels`: where they lie; the first side of each is its crease.
+#[must_use]
+pub fn open_sides(photograph: &Photograph, panels: &[Grid]) -> Vec<String> {
+    let numbered = panels.iter().filter_map(|panel| Some((panel, panel.panel?)));
+    let open = numbered.flat_map(|(panel, number)| {
+        let is_open = move |side: &usize| is_open(photograph, panel, *side);
+        (0..SIDES.len()).filter(is_open).map(move |side| format!("{} of panel {number}", SIDES[side]))
+    });
+    open.collect()
+}
+
+fn is_open(photograph: &Photograph, panel: &Grid, side: usize) -> bool {
+    let [near, far] = STRIP;
+    let (inner, outer) = match side {
+        0 | 2 => ([1.0 - far, 1.0 - near], [1.0 + near, 1.0 + far]),
+        _ => ([near, far], [-far, -near]),
+    };
+    let [inside, outside] = [inner, outer].map(|across| pieces(photograph, panel, side, across));
+    let pairs = inside.iter().zip(&outside);
+    let steps: Vec<f64> = pairs.filter_map(|(a, b)| step(a.as_ref()?, b.as_ref()?)).collect();
+    let alike = steps.iter().filter(|step| **step < STEP_LEAST).count();
+    steps.len() >= SEEN_LEAST && alike as f64 >= OPEN_SHARE * steps.len() as f64
+}
+
+/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer side, or along the crease.
+fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<Vec<f64>>> {
+    let along: Vec<f64> = (0..=PIECES).map(|n| 0.05 + 0.9 * n as f64 / PIECES as f64).collect();
+    let across = across.to_vec();
+    let (row_edges, col_edges) = if side == 0 { (across, along) } else { (along, across) };
+    let strip = Grid { outline: panel.outline.clone(), row_edges, col_edges, panel: panel.panel };
+    // what does not lie in the picture cannot be measured
+    let measured = measure(photograph, &[strip], 0.0).unwrap_or_default();
+    measured.into_iter().map(|piece| piece.mean).collect()
+}
+
+/// The greatest change of a channel, as a logarithm.
+fn step(inside: &[f64], outside: &[f64]) -> Option<f64> {
+    let change = |(a, b): (&f64, &f64)| if *a > 0.0 && *b > 0.0 { (a / b).ln().abs() } else { f64::INFINITY };
+    inside.iter().zip(outside).map(change).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::placing::{Homography, Point};
+
+    /// A sheet of 40 x 30 px on a dark table, of which the panel is marked to `right` and `bottom`.
+    fn open(right: f64, bottom: f64) -> Vec<String> {
+        let light =
+            |n: usize| if (10..50).contains(&(n % 80)) && (10..40).contains(&(n / 80)) { 0.5 } else { 0.1 };
+        let light: Vec<f32> = (0..80 * 60).flat_map(|n| [light(n); 3]).collect();
+        let photograph = Photograph::from_light(80, 60, light).unwrap();
+        let corners =
+            [(10., 10.), (right, 10.), (right, bottom), (10., bottom)].map(|(x, y)| Point::new(x, y));
+        let outline = Homography::from_unit_square(corners).unwrap();
+        open_sides(&photograph, &[Grid::of_panel(0, outline, &[0.0, 1.0], &[0.0, 1.0])])
+    }
+
+    #[test]
+    fn a_panel_ends_where_it_is_marked() {
+        assert!(open(50.0, 40.0).is_empty());
+        assert_eq!(open(50.0, 30.0), ["the outer side of panel 0"]);
+        assert_eq!(open(35.0, 40.0), ["the side at crease end 1 of panel 0"]);
+        assert_eq!(open(75.0, 40.0), ["the side at crease end 1 of panel 0"]);
+    }
+}

@@ -1,0 +1,102 @@
+//! The level of no light, where it was not subtracted: the darkest numbers of the whole picture, which are then alike in all channels.
+//!
+//! Where no light falls a sensor's numbers scatter about one level, the same for red, green and blue. What little light there is elsewhere
+//! has a colour: in the camera's own numbers even a grey surface has two to three times as much green as red.
+
+use super::sampled::Sampled;
+
+/// Parts of the pixels that are certainly among the darkest: what lies between them tells how much these scatter.
+const LEAST: [f64; 2] = [1e-3, 1e-2];
+/// Least part of the pixels in the densest of steps as wide as the darkest scatter.
+const DENSE: f64 = 3e-3;
+/// Beyond so many steps nothing is dark.
+const MOST_STEPS: usize = 400;
+/// How far up a peak must be followed by fewer pixels, steps, and how many fewer.
+const BEYOND: usize = 6;
+const FEWER: f64 = 0.6;
+/// Channels are alike within this part of the level and this part of what the numbers scatter.
+const ALIKE: f64 = 0.05;
+const ALIKE_SCATTER: f64 = 0.3;
+/// A level below this part of the brightest numbers does no harm; one above that part is no darkness.
+const HARMLESS: f64 = 3e-3;
+const DARK: f64 = 0.25;
+/// The part of the pixels that are not brighter than the brightest.
+const BRIGHTEST: f64 = 0.99;
+/// Part of normally distributed numbers within one standard deviation.
+const ONE_SD: f64 = 0.683;
+/// How far from its middle a peak's numbers are taken, standard deviations, and how often the middle is sought.
+const REACH: f64 = 2.0;
+const ROUNDS: usize = 4;
+
+/// The number of no light in each of several channels, above `black`, which was taken for it; none if none shows.
+pub(super) fn darkest(channels: &[Sampled], black: &[f64]) -> Option<Vec<f64>> {
+    let peaks: Vec<Peak> = channels.iter().map(peak).collect::<Option<_>>()?;
+    let brightest = channels
+        .iter()
+        .zip(black)
+        .filter_map(|(all, black)| Some(f64::from(all.quantile(BRIGHTEST)?) - black));
+    let brightest = brightest.fold(0.0, f64::max);
+    let above: Vec<f64> = peaks.iter().zip(black).map(|(peak, black)| peak.middle - black).collect();
+    let least = above.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = above.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let scatter = peaks.iter().map(|peak| peak.sd).fold(0.0, f64::max);
+    let is_level = channels.len() > 1
+        && least > HARMLESS * brightest
+        && most < DARK * brightest
+        && most - least <= ALIKE * least + ALIKE_SCATTER * scatter;
+    is_level.then(|| peaks.into_iter().map(|peak| peak.middle).collect())
+}
+
+/// Numbers that scatter about one.
+struct Peak {
+    middle: f64,
+    sd: f64,
+}
+
+/// The first peak of a channel's numbers, from the least up.
+fn peak(channel: &Sampled) -> Option<Peak> {
+    let [first, second] = LEAST.map(|part| channel.quantile(part).map(f64::from));
+    let (first, second) = (first?, second?);
+    if first.total_cmp(&second).is_eq() {
+        return Some(Peak { middle: first, sd: 0.0 });
+    }
+    let width = (second - first) / 1.5;
+    let start = first - 2.0 * width;
+    let mut steps = [0.0; MOST_STEPS];
+    let step_of = |number: f32| ((f64::from(number) - start) / width).max(0.0) as usize;
+    channel
+        .sorted
+        .iter()
+        .map(|number| step_of(*number))
+        .take_while(|step| *step < MOST_STEPS)
+        .for_each(|step| steps[step] += 1.0);
+    let smooth: Vec<f64> = steps.windows(3).map(|three| three.iter().sum::<f64>() / 3.0).collect();
+    let dense = DENSE * channel.sorted.len() as f64;
+    let is_peak = |at: &usize| {
+        let beyond = smooth[at + 1..].iter().take(BEYOND).copied().fold(f64::INFINITY, f64::min);
+        let before = at.checked_sub(1).map_or(0.0, |before| smooth[before]);
+        smooth[*at] >= dense
+            && smooth[*at] >= before
+            && smooth[*at] >= smooth[at + 1]
+            && beyond < FEWER * smooth[*at]
+    };
+    let at = (0..smooth.len() - 1).find(is_peak)?;
+    let mut peak = Peak { middle: start + (at as f64 + 1.5) * width, sd: width };
+    for _ in 0..ROUNDS {
+        peak = peak.nearer(&channel.sorted)?;
+    }
+    Some(peak)
+}
+
+impl Peak {
+    /// The same from the numbers around it.
+    fn nearer(&self, sorted: &[f32]) -> Option<Self> {
+        let below = |number: f64| sorted.partition_point(|one| f64::from(*one) < number);
+        let (from, to) = (below(self.middle - REACH * self.sd), below(self.middle + REACH * self.sd));
+        let middle = f64::from(*sorted.get(from + to.checked_sub(from)? / 2)?);
+        // what is brighter than the middle may have some light
+        let darker = below(middle);
+        let sd = middle - f64::from(*sorted.get((darker as f64 * (1.0 - ONE_SD)) as usize)?);
+        Some(Self { middle, sd: if sd > 0.0 { sd } else { self.sd } })
+    }
+}

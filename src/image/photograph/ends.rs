@@ -1,0 +1,118 @@
+//! Where a channel's numbers end although they could go on: the level at which a sensor, or a program since, has cut them.
+//!
+//! More pixels than chance puts there hold one number, and hardly any a greater one. That may also be an even colour without noise, as
+//! simulated pictures have it: then other numbers stand out as much, or the light does not come near that level gradually, and no pixel
+//! elsewhere has noise.
+
+use super::sampled::Sampled;
+
+/// Fewer numbers that are equal are chance.
+const FEW: usize = 16;
+/// Least part of all numbers that are equal.
+const LEAST_PART: f64 = 1e-3;
+/// So many times as many numbers are equal as there are of any that is next to it. Light that is greatest along a line, stored in coarse steps,
+/// makes it 2.4.
+const TIMES: usize = 4;
+/// How many different numbers below and above count as next.
+const NEXT: usize = 4;
+/// One over the part of the equal numbers that may be greater.
+const GREATER: usize = 10;
+/// Scaling a picture overshoots at edges: where this many times as many are equal as next to it, and the light comes near the level gradually,
+const CLEARLY: usize = 20;
+/// so many times as many may be greater.
+const OVERSHOT: usize = 2;
+/// An even colour that makes this part of the equal numbers is another of its kind.
+const OTHER: usize = 4;
+/// Numbers below this part of the level are surroundings.
+const DARK: f32 = 0.1;
+/// Where a level is reached gradually, at least this part of its boundary
+const GRADUAL_PART: f64 = 0.25;
+/// is within this part of it,
+const NEAR: f32 = 0.1;
+/// and it is so long, px.
+const BOUNDARY: usize = 8;
+
+/// The number at which each channel ends; none for those that do not, or end where they are known to.
+pub(super) fn ends(channels: &[Sampled]) -> Vec<Option<f32>> {
+    let levels: Vec<Option<f32>> = channels.iter().map(level).collect();
+    let is_reached =
+        |(channel, level): (&Sampled, &Option<f32>)| level.is_some_and(|level| is_gradual(channel, level));
+    let is_cut = channels.iter().zip(&levels).any(is_reached)
+        || levels.iter().any(Option::is_some) && channels.iter().any(has_noise);
+    levels.into_iter().map(|level| level.filter(|_| is_cut)).collect()
+}
+
+/// The number that stands out at the top.
+fn level(channel: &Sampled) -> Option<f32> {
+    let counts = channel.counts();
+    let all = channel.sorted.len();
+    let least = FEW.max((LEAST_PART * all as f64) as usize);
+    let most_next = |at: usize| {
+        let next = counts[at.saturating_sub(NEXT)..at].iter().chain(counts[at + 1..].iter().take(NEXT));
+        next.map(|(_, count)| *count).max().unwrap_or(0)
+    };
+    let stands_out = |at: usize| counts[at].1 >= TIMES * most_next(at);
+    let mut greater = 0;
+    for (at, &(level, count)) in counts.iter().enumerate() {
+        if GREATER * greater > all {
+            break;
+        }
+        let is_top = || {
+            let is_clear = OVERSHOT * count >= greater && count >= CLEARLY * most_next(at);
+            GREATER * greater <= count || is_clear && is_gradual(channel, level)
+        };
+        if count >= least && stands_out(at) && is_top() {
+            let is_other = |other: usize| OTHER * counts[other].1 >= count && stands_out(other);
+            let lit = counts[at + 1..].iter().take_while(|(number, _)| *number > DARK * level).count();
+            return (!(at + 1..=at + lit).any(is_other) && level > 0.0).then_some(level);
+        }
+        greater += count;
+    }
+    None
+}
+
+/// Whether the light comes near a level before it reaches it.
+fn is_gradual(channel: &Sampled, level: f32) -> bool {
+    let pairs = channel.runs.iter().flat_map(|run| run.windows(2));
+    let lower =
+        pairs.filter(|pair| (pair[0] >= level) != (pair[1] >= level)).map(|pair| pair[0].min(pair[1]));
+    let boundary: Vec<f32> = lower.collect();
+    let near = boundary.iter().filter(|lower| **lower > (1.0 - NEAR) * level).count();
+    boundary.len() >= BOUNDARY && near as f64 >= GRADUAL_PART * boundary.len() as f64
+}
+
+/// A second difference of less than this part of the light may be the light's own.
+const NOISE: f64 = 2e-3;
+/// Or of less than so many of the steps between numbers, their rounding.
+const STEPS: f64 = 2.5;
+/// Second differences beside each other change their sign in 73 % of cases where every pixel's noise is its own, seldom where light is smooth.
+const CHANGES: f64 = 0.4;
+/// Fewer pixels tell nothing.
+const FEW_PIXELS: usize = 200;
+
+/// Whether the light of neighbouring pixels differs by noise, and not only because it changes from place to place.
+fn has_noise(channel: &Sampled) -> bool {
+    let Some(greatest) = channel.sorted.last() else { return false };
+    let is_lit = |run: &[f32]| run.iter().all(|number| *number > DARK * greatest && number < greatest);
+    let fours = channel.runs.iter().flat_map(|run| run.windows(4)).filter(|run| is_lit(run));
+    let (mut relative, mut absolute, mut changes) = (Vec::new(), Vec::new(), 0_usize);
+    for run in fours {
+        let [a, b, c, d] = [run[0], run[1], run[2], run[3]].map(f64::from);
+        let (first, second) = (a - 2.0 * b + c, b - 2.0 * c + d);
+        relative.push((first / b).abs());
+        absolute.push(first.abs());
+        changes += usize::from(first * second < 0.0);
+    }
+    let count = relative.len();
+    let median = |mut all: Vec<f64>| *all.select_nth_unstable_by(count / 2, f64::total_cmp).1;
+    count >= FEW_PIXELS
+        && changes as f64 > CHANGES * count as f64
+        && median(relative) > NOISE
+        && median(absolute) > STEPS * step(channel)
+}
+
+/// The least difference of two numbers.
+fn step(channel: &Sampled) -> f64 {
+    let differences = channel.sorted.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0]));
+    differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,85 @@
+//! Where a photograph's numbers begin and end: black and white level as its own pixels have them, whatever its file says.
+
+use super::Photograph;
+use super::darkest::darkest;
+use super::ends::ends;
+use super::sampled::Sampled;
+use crate::image::numbers::{Scale, Transfer};
+
+impl Photograph {
+    /// The same with the pixels clipped at which a channel's numbers end, and with what its darkest numbers say.
+    pub(in crate::image) fn with_limits_found(mut self) -> Self {
+        let sampled = Sampled::of(&self.pixels, self.channels(), (self.width(), self.height()));
+        let ends = ends(&sampled);
+        if ends.iter().any(Option::is_some) {
+            self.pixels.rescale(|channel, scale| match ends.get(channel).or(ends.last()) {
+                Some(Some(end)) => scale.ending_at((*end).into()),
+                _ => scale,
+            });
+            self.info.ends_at =
+                (0..ends.len()).map(|channel| Some(self.stored(channel, ends[channel]?.into()))).collect();
+        }
+        if self.info.transfer_used == Transfer::Linear {
+            let black: Vec<f64> =
+                (0..sampled.len()).map(|channel| self.number(channel, self.black(channel))).collect();
+            let found = darkest(&sampled, &black).unwrap_or_default();
+            self.info.darkest =
+                found.iter().enumerate().map(|(channel, number)| self.stored(channel, *number)).collect();
+        }
+        self
+    }
+
+    /// The same with its darkest numbers taken as no light, if they seem to be ([`PhotographInfo::darkest`]).
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Photograph, Pixel};
+    /// let light = vec![0.25, 0.5, 0.75];
+    /// let photograph = Photograph::from_light(1, 1, light)?;
+    /// assert!(photograph.info().darkest.is_empty());
+    /// assert_eq!(photograph.with_darkest_as_black().pixel(0, 0), Pixel::Light([0.25, 0.5, 0.75]));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_darkest_as_black(mut self) -> Self {
+        let darkest = std::mem::take(&mut self.info.darkest);
+        if darkest.is_empty() {
+            return self;
+        }
+        let black: Vec<f64> =
+            darkest.iter().enumerate().map(|(channel, stored)| self.number(channel, *stored)).collect();
+        self.pixels.rescale(|channel, scale: Scale| scale.with_black(black[channel.min(black.len() - 1)]));
+        self.info.black_level = darkest;
+        self
+    }
+
+    /// The black level of a channel, in the file's numbers.
+    fn black(&self, channel: usize) -> f64 {
+        level(&self.info.black_level, channel)
+    }
+
+    /// The number in the file of one that the picture's pixels hold; RAW files have become light.
+    fn stored(&self, channel: usize, number: f64) -> f64 {
+        let white = level(&self.info.white_level, channel);
+        if self.pixels.are_light() {
+            self.black(channel) + number * (white - self.black(channel))
+        } else {
+            number
+        }
+    }
+
+    /// The number that the picture's pixels hold for one in the file.
+    fn number(&self, channel: usize, stored: f64) -> f64 {
+        let white = level(&self.info.white_level, channel);
+        if self.pixels.are_light() {
+            (stored - self.black(channel)) / (white - self.black(channel))
+        } else {
+            stored
+        }
+    }
+}
+
+/// The level of a channel, where there is one for all or one for each.
+fn level(levels: &[f64], channel: usize) -> f64 {
+    levels.get(channel).or(levels.last()).copied().unwrap_or_default()
+}
