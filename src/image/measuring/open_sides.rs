@@ -5,16 +5,17 @@
 
 use super::facets::measure;
 use crate::image::photograph::Photograph;
-use crate::image::placing::Grid;
+use crate::image::placing::{Grid, Homography};
 
 /// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and how many pieces of them are compared.
-const STRIP: [f64; 2] = [0.04, 0.1];
-const PIECES: usize = 8;
+const STRIP: [f64; 2] = [0.03, 0.13];
+const ALONG: [f64; 2] = [0.05, 0.95];
+const PIECES: usize = 6;
 /// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes in one that is open.
 const SEEN_LEAST: usize = 4;
 const OPEN_SHARE: f64 = 0.75;
 /// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet ends.
-const STEP_LEAST: f64 = 0.05;
+const STEP_LEAST: f64 = 0.07;
 
 /// A panel's sides away from the crease.
 const SIDES: [&str; 3] = ["the outer side", "the side at crease end 0", "the side at crease end 1"];
@@ -48,13 +49,11 @@ fn is_open(photograph: &Photograph, panel: &Grid, side: usize) -> bool {
 
 /// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer side, or along the crease.
 fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<Vec<f64>>> {
-    let along: Vec<f64> = (0..=PIECES).map(|n| 0.05 + 0.9 * n as f64 / PIECES as f64).collect();
-    let across = across.to_vec();
-    let (row_edges, col_edges) = if side == 0 { (across, along) } else { (along, across) };
-    let strip = Grid { outline: panel.outline.clone(), row_edges, col_edges, panel: panel.panel };
+    let (u, v, pieces) = if side == 0 { (ALONG, across, [1, PIECES]) } else { (across, ALONG, [PIECES, 1]) };
+    let strip = Homography::from_unit_square(panel.outline.rectangle(u, v));
     // what does not lie in the picture cannot be measured
-    let measured = measure(photograph, &[strip], 0.0).unwrap_or_default();
-    measured.into_iter().map(|piece| piece.mean).collect()
+    let measured = strip.and_then(|strip| measure(photograph, &[Grid::even(strip, pieces)], 0.0));
+    measured.unwrap_or_default().into_iter().map(|piece| piece.mean).collect()
 }
 
 /// The greatest change of a channel, as a logarithm.
@@ -66,7 +65,7 @@ fn step(inside: &[f64], outside: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::placing::{Homography, Point};
+    use crate::image::placing::Point;
 
     /// A sheet of 40 x 30 px on a dark table, of which the panel is marked to `right` and `bottom`.
     fn open(right: f64, bottom: f64) -> Vec<String> {
