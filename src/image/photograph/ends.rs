@@ -49,7 +49,8 @@ fn level(channel: &Sampled) -> Option<f32> {
     let least = FEW.max((LEAST_PART * all as f64) as usize);
     let most_next = |at: usize| {
         let next = counts[at.saturating_sub(NEXT)..at].iter().chain(counts[at + 1..].iter().take(NEXT));
-        next.map(|(_, count)| *count).max().unwrap_or(0)
+        let lit = next.filter(|(number, _)| *number > DARK * counts[at].0);
+        lit.map(|(_, count)| *count).max().unwrap_or(0)
     };
     let stands_out = |at: usize| counts[at].1 >= TIMES * most_next(at);
     let mut greater = 0;
