@@ -100,3 +100,38 @@ impl Peak {
         Some(Self { middle, sd: if sd > 0.0 { sd } else { self.sd } })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// A third of the pixels at each of these levels, with noise of 20, and the others far brighter.
+    fn channels(levels: [f64; 3]) -> Vec<Sampled> {
+        let mut draws = ChaCha8Rng::seed_from_u64(7);
+        let mut channel = |level: f64| {
+            let mut number = |k: usize| {
+                let noise: f64 = StandardNormal.sample(&mut draws);
+                let light = if k % 3 == 0 { 0.0 } else { 10_000.0 + k as f64 };
+                (level + light + 20.0 * noise).max(0.0).round() as f32
+            };
+            Sampled::new(vec![(0..9000).map(&mut number).collect()])
+        };
+        levels.map(&mut channel).into()
+    }
+
+    #[test]
+    fn darkness_that_is_alike_in_all_channels_is_black() {
+        let found = darkest(&channels([512.0, 511.0, 514.0]), &[0.0; 3]).unwrap();
+        assert!(
+            found.iter().zip([512.0, 511.0, 514.0]).all(|(found, level)| (found - level).abs() < 2.0),
+            "{found:?}"
+        );
+        assert_eq!(darkest(&channels([512.0, 512.0, 512.0]), &[512.0; 3]), None);
+        assert_eq!(darkest(&channels([0.0, 0.0, 0.0]), &[0.0; 3]), None);
+        assert_eq!(darkest(&channels([512.0, 800.0, 600.0]), &[0.0; 3]), None);
+        assert_eq!(darkest(&channels([9000.0, 9000.0, 9000.0]), &[0.0; 3]), None, "nothing is dark");
+    }
+}

@@ -49,7 +49,8 @@ fn level(channel: &Sampled) -> Option<f32> {
     let least = FEW.max((LEAST_PART * all as f64) as usize);
     let most_next = |at: usize| {
         let next = counts[at.saturating_sub(NEXT)..at].iter().chain(counts[at + 1..].iter().take(NEXT));
-        next.map(|(_, count)| *count).max().unwrap_or(0)
+        let lit = next.filter(|(number, _)| *number > DARK * counts[at].0);
+        lit.map(|(_, count)| *count).max().unwrap_or(0)
     };
     let stands_out = |at: usize| counts[at].1 >= TIMES * most_next(at);
     let mut greater = 0;
@@ -115,4 +116,53 @@ fn has_noise(channel: &Sampled) -> bool {
 fn step(channel: &Sampled) -> f64 {
     let differences = channel.sorted.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0]));
     differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// A channel of 100 x 100 pixels whose number at each place from -1 to 1 is rounded.
+    fn channel(mut number: impl FnMut(f64, f64) -> f64) -> Sampled {
+        let place = |k: usize| (k as f64 + 0.5) / 50.0 - 1.0;
+        let runs = (0..100).map(|y| (0..100).map(|x| number(place(x), place(y)).round() as f32).collect());
+        Sampled::new(runs.collect())
+    }
+
+    #[test]
+    fn light_that_is_cut_ends() {
+        // brightest along a line, as in a fold
+        let light = |x: f64, y: f64| 9000.0 * (1.0 - 0.8 * x.abs()) * (1.0 - 0.2 * y * y);
+        assert_eq!(ends(&[channel(light), channel(|x, y| light(x, y).min(7000.0))]), [None, Some(7000.0)]);
+        // in steps so coarse that a flat top holds many equal ones
+        assert_eq!(ends(&[channel(|x, y| 200.0 * (1.0 - 0.3 * x * x - 0.1 * y * y))]), [None]);
+    }
+
+    #[test]
+    fn noise_tells_an_end_from_an_even_colour() {
+        let mut draws = ChaCha8Rng::seed_from_u64(1);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut draws) };
+        // all of the sheet at its end, where it is sharply bounded
+        let sheet = |x: f64| if x.abs() < 0.5 { 4095.0 } else { 0.0 };
+        let noisy = channel(|x, _| if x.abs() < 0.5 { 2000.0 + 20.0 * noise() } else { 0.0 });
+        assert_eq!(ends(&[channel(|x, _| sheet(x)), noisy]), [Some(4095.0), None]);
+        let smooth = channel(|x, y| if x.abs() < 0.5 { 2000.0 + 300.0 * x + 100.0 * y } else { 0.0 });
+        assert_eq!(ends(&[channel(|x, _| sheet(x)), smooth]), [None, None]);
+    }
+
+    #[test]
+    fn a_picture_of_even_colours_has_no_end() {
+        let mut draws = ChaCha8Rng::seed_from_u64(1);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut draws) };
+        let patches = channel(|x, y| match (x > 0.0, y > 0.0) {
+            (true, true) => 4000.0,
+            (true, false) => 3000.0,
+            (false, true) => 2000.0,
+            (false, false) => 1000.0 + 20.0 * noise(),
+        });
+        assert_eq!(ends(&[patches]), [None]);
+    }
 }

@@ -129,7 +129,8 @@ impl Interleaved {
 
     #[inline]
     fn visit_linear(&self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
-        let integer = |k: usize, v: usize| self.tables[k][v];
+        let tables = self.tables.each_ref().map(|table| &**table);
+        let integer = |k: usize, v: usize| tables[k][v];
         let float = |k: usize, v: f32| self.scales[k].linear(v.into());
         match &self.samples {
             Samples::U8(stored) => {

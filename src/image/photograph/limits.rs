@@ -29,7 +29,7 @@ impl Photograph {
         self
     }
 
-    /// The same with its darkest numbers taken as no light, if they seem to be ([`PhotographInfo::darkest`]).
+    /// The same with its darkest numbers taken as no light, if they seem to be ([`darkest`](crate::image::PhotographInfo::darkest)).
     ///
     /// # Example
     /// ```
