@@ -10,6 +10,8 @@ use vfold::estimate::unknowns::ANGLE;
 use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
+use vfold::spectrum::have_one_peak;
+use vfold::spectrum::library::{What, is_built_in};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
 
@@ -149,11 +151,21 @@ pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
             "take the RAW file, or give vextract --undo",
         )
     });
-    let stand_in = record.camera()?.stands_in.map(|one| {
+    let camera = record.camera()?;
+    // two built-in cameras were published so
+    let is_own = !is_built_in(What::Cameras, &camera.name);
+    let has_one_peak = is_own && have_one_peak(camera.sensitivities.iter().map(Vec::as_slice));
+    let scaled = has_one_peak.then(|| {
+        Doubt::new(
+            format!("all channels of the camera {} have the same peak: scaled one by one, they have lost their ratios", camera.name),
+            "give curves on one scale, or make them of a photograph of a colour chart (vextract --save-camera)",
+        )
+    });
+    let stand_in = camera.stands_in.map(|one| {
         Doubt::new(
             format!("nobody measured the curves of {}: another camera's stand in for them", one.camera),
             "make them of a photograph of a colour chart (vextract --save-camera)",
         )
     });
-    Ok(developed.into_iter().chain(stand_in).collect())
+    Ok(developed.into_iter().chain(scaled).chain(stand_in).collect())
 }
