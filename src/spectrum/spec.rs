@@ -264,14 +264,14 @@ mod tests {
             assert_eq!(black.note(), Some(note.as_str()));
             assert_eq!(illuminant(&format!("{path}:white")).unwrap().values(), [90.0, 95.0]);
         });
-        with_csv("nm,r [%]\n400,0.5\n700,0.7\n", |path| {
-            assert_eq!(reflectances(path).unwrap()[0].values(), [0.005, 0.007]);
+        with_csv("nm,r [%]\n400,0.5\n700,0.75\n", |path| {
+            assert_eq!(reflectances(path).unwrap()[0].values(), [0.005, 0.0075]);
         });
-        with_csv("nm,grey 50%\n400,0.5\n700,0.7\n", |path| {
+        with_csv("nm,grey 50%\n400,0.5\n700,0.75\n", |path| {
             assert!(message(reflectances(path)).contains("--percent=no if the values are fractions"));
             let in_percent = |percent| Specs::default().in_percent(Some(percent)).reflectances(path).unwrap();
-            assert_eq!(in_percent(true)[0].values(), [0.005, 0.007]);
-            assert_eq!(in_percent(false)[0].values(), [0.5, 0.7]);
+            assert_eq!(in_percent(true)[0].values(), [0.005, 0.0075]);
+            assert_eq!(in_percent(false)[0].values(), [0.5, 0.75]);
         });
     }
 

@@ -199,7 +199,7 @@ fn channels_are_found_by_name_in_any_order() {
         awk -F, -v OFS=, 'NR == 1 {{ print "nm,green,BLUE,Red" }} NR > 1 {{ print $1, $3, $4, $2 }}' rgb.csv > words.csv
         awk -F, -v OFS=, 'NR == 1 {{ print "nm,B,B_sd,IR,Canon G,R_std,R,Canon G uncertainty" }}
             NR > 1 {{ print $1, $4, 1, 2, $3, 3, $2, 4 }}' rgb.csv > beside.csv
-        awk -F, -v OFS=, 'NR == 1 {{ print "nm,R,G1,G2,B" }} NR > 1 {{ print $1, $2, $3 - $3 / 8, $3 + $3 / 8, $4 }}' rgb.csv > greens.csv
+        awk -F, -v OFS=, -v OFMT=%.17g 'NR == 1 {{ print "nm,R,G1,G2,B" }} NR > 1 {{ print $1, $2, 0, 2 * $3, $4 }}' rgb.csv > greens.csv
         awk -F, 'BEGIN {{ printf "{{\"spectral_data\": {{\"index\": {{\"main\": [\"B\", \"R\", \"G\"]}}, \"data\": {{\"main\": {{" }}
             NR > 1 {{ printf "%s\"%s\": [%s, %s, %s]", (NR > 2 ? ", " : ""), $1, $4, $2, $3 }} END {{ print "}}}}}}}}" }}' rgb.csv > aces.json
         vkernel --facets 1x1 -o scene.json

@@ -142,8 +142,8 @@ fn encodings_and_line_ends_change_nothing() {
         done
         echo '</SpectralDistribution></IESTM2714>' >> plain.spdx
         printf '{"spectral_data": {"units": "reflectance", "index": {"main": ["x"]},\n"data": {"main": {"380": [0.05], "550": [0.1], "780": [0.7]}}}}\n' > plain.json
-        vkernel --facets 1x1 -o scene.json
-        vforward scene.json --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
+        vkernel --facets 1x1 -o scene
+        vforward scene --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
         for ending in csv txt sp spdx json; do
             mark=$(printf '\357\273\277')
             tr '\n' '\r' < plain.$ending > cr.$ending
@@ -154,11 +154,11 @@ fn encodings_and_line_ends_change_nothing() {
             iconv -f UTF-8 -t UTF-16LE plain.$ending > utf16le.$ending
             sed 's/$/\r/' plain.$ending | iconv -f UTF-8 -t UTF-16BE > utf16be.$ending
             for file in *.$ending; do
-                vforward scene.json --reflectance $file --save truth.reflectance=found.npy -o found.ndjson
+                vforward scene --reflectance $file --save truth.reflectance=found.npy -o found.ndjson
                 cmp wanted.npy found.npy || { echo $file; exit 1; }
             done
         done
-        vforward scene.json --reflectance utf16le.csv | grep -q '"id":"utf16le"'"#,
+        vforward scene --reflectance utf16le.csv | grep -q '"id":"utf16le"'"#,
     );
 }
 
