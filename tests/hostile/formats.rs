@@ -43,7 +43,7 @@ END
             case("sh forward member.sp:b", 1, &["no column 'b'", "a"]),
             case("sh forward cut.sp", 1, &["cut.sp:6", "END_DATA is missing"]),
             case("sh forward film.sp", 1, &["film.sp", "transmittances, not reflectances"]),
-            case("sh forward second.ti3", 1, &["second.ti3:12", "1 values", "2 columns"]),
+            case("sh forward second.ti3", 1, &["second.ti3:13", "1 values", "2 columns"]),
             case("sh forward twice.sp", 1, &["twice.sp:16", "two samples are called 'a'"]),
             case("sh forward quote.sp", 1, &["quote.sp:1", "not a CGATS table"]),
             case("sh forward binary.sp", 1, &["binary.sp"]),

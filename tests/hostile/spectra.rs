@@ -46,7 +46,6 @@ fn tables_of_spectra() {
                 &["1.44 is outside 0..1"],
             ),
             case("vforward scene.json --reflectance 0.5 --percent=perhaps", 2, &["--percent", "perhaps"]),
-            case("vestimate scene.json --start ambiguous.csv", 1, &["--percent"]),
             case("vscore scene.json --truth ambiguous.csv", 1, &["--percent"]),
             case(
                 "vforward scene.json --reflectance sign.csv",
