@@ -58,13 +58,14 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
         _ if channels.len() == COLOURS.len() => {
             notes.push(format!("channels R, G and B taken by name, {} left out", list(&nameless)));
         }
-        1 if all.len() == 1 => channels = columns.to_vec(),
         _ if channels.is_empty() => {
             channels = columns.to_vec();
-            notes.push(format!(
-                "channels {} taken for R, G, B by their places, as no name says a colour",
-                list(&all)
-            ));
+            if all.len() == COLOURS.len() {
+                notes.push(format!(
+                    "channels {} taken for R, G, B by their places, as no name says a colour",
+                    list(&all)
+                ));
+            }
         }
         _ => {
             let problem = format!("the columns {} do not name all of R, G and B", list(&all));
@@ -84,8 +85,8 @@ fn mean(name: &str, a: &Spectrum, b: &Spectrum) -> Spectrum {
     Spectrum::from_table(name.to_owned(), a.wavelengths_nm.clone(), values)
 }
 
-/// Whether several channels of a camera have the same peak: someone scaled them one by one, and they do not say any more how they
-/// compare.
+/// Whether the two or three channels of a camera have the same peak: someone scaled them one by one, and they do not say any more how they
+/// compare. Filters of a camera with more may well be so.
 ///
 /// # Example
 /// ```
@@ -98,7 +99,7 @@ pub fn have_one_peak<'a>(channels: impl IntoIterator<Item = &'a [f64]>) -> bool 
     let peaks: Vec<f64> = channels.into_iter().map(peak).collect();
     let (lowest, highest) =
         (peaks.iter().copied().fold(f64::INFINITY, f64::min), peaks.iter().copied().fold(0.0, f64::max));
-    peaks.len() > 1 && lowest > (1.0 - SAME_PEAK) * highest
+    (2..=COLOURS.len()).contains(&peaks.len()) && lowest > (1.0 - SAME_PEAK) * highest
 }
 
 #[cfg(test)]
