@@ -63,6 +63,11 @@ pub struct Common {
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
+    /// Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a
+    /// value is above 2]
+    #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes",
+        value_parser = clap::builder::BoolishValueParser::new(), hide_possible_values = true)]
+    pub percent: Option<bool>,
     #[arg(skip)]
     said: spectra::Said,
 }
@@ -247,17 +252,44 @@ const DAYLIGHT: &str = "D65";
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a
-    /// picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
+    /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or
+    /// a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
     /// [default: D65; of a photograph that says where and when it was taken, the sun's]
-    #[arg(long, value_name = "SPEC")]
+    #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]
-    #[arg(long, value_name = "SPEC")]
+    #[arg(long, value_name = "SPEC", value_parser = light)]
     pub sky_illuminant: Option<String>,
     /// Wavelengths, nm
     #[arg(long, value_name = "FIRST:LAST:STEP", default_value = "400:700:5", value_parser = wavelengths)]
     pub wavelengths_nm: WavelengthGrid,
+}
+
+/// Parses the SPEC of a light, of which a large number may be the temperature or the power of a flat spectrum.
+///
+/// # Errors
+/// Both readings, if the text is such a number.
+///
+/// # Example
+/// ```
+/// assert!(vfold::cli::light("2856").unwrap_err().starts_with("a number may be a temperature (2856K,"));
+/// assert_eq!(vfold::cli::light("2856K").as_deref(), Ok("2856K"));
+/// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
+/// ```
+pub fn light(text: &str) -> std::result::Result<String, String> {
+    /// Nothing shines at so few kelvins, and no light is called by such a number, as D50 and D65 are by theirs.
+    const POWER_MAX: f64 = 10.0;
+    let number = text.trim();
+    match number.parse() {
+        Ok(value) if value > POWER_MAX && f64::is_finite(value) => {
+            let daylight = if (4000.0..=25000.0).contains(&value) { number } else { "5500" };
+            Err(format!(
+                "a number may be a temperature ({number}K, a black body; daylight:{daylight}, daylight) or a flat spectrum (E, or 1): \
+                 write which"
+            ))
+        }
+        _ => Ok(text.to_owned()),
+    }
 }
 
 fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {

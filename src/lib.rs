@@ -45,7 +45,7 @@
 //! image                -> colorimetry, files, room
 //! score, camera        -> colorimetry
 //! camera, colorimetry  -> spectrum
-//! spectrum             -> files, markup
+//! spectrum             -> files, markup, message
 //! progress             -> message
 //! ```
 //!

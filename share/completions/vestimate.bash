@@ -23,7 +23,7 @@ _vestimate() {
 
     case "${cmd}" in
         vestimate)
-            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --join --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --join --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -135,6 +135,10 @@ _vestimate() {
                     ;;
                 --list)
                     COMPREPLY=($(compgen -W "cameras illuminants reflectances" -- "${cur}"))
+                    return 0
+                    ;;
+                --percent)
+                    COMPREPLY=($(compgen -W "true false" -- "${cur}"))
                     return 0
                     ;;
                 --camera)

@@ -40,6 +40,8 @@ fish\t'Completions for fish'"
 complete -c vestimate -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
+complete -c vestimate -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+false\t''"
 complete -c vestimate -l camera -d 'Camera of a scene that has none [default: canon-5d-mark-ii]' -r -F -a "canon-5d-mark-ii\t''
 nikon-d5100\t''
 sigma-sd-merrill\t''

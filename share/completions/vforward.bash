@@ -23,7 +23,7 @@ _vforward() {
 
     case "${cmd}" in
         vforward)
-            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -151,6 +151,10 @@ _vforward() {
                     ;;
                 --list)
                     COMPREPLY=($(compgen -W "cameras illuminants reflectances" -- "${cur}"))
+                    return 0
+                    ;;
+                --percent)
+                    COMPREPLY=($(compgen -W "true false" -- "${cur}"))
                     return 0
                     ;;
                 --camera)

@@ -36,6 +36,8 @@ fish\t'Completions for fish'"
 complete -c vforward -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
+complete -c vforward -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+false\t''"
 complete -c vforward -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)' -r -F -a "canon-5d-mark-ii\t''
 nikon-d5100\t''
 sigma-sd-merrill\t''
@@ -90,7 +92,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''

@@ -42,6 +42,8 @@ fish\t'Completions for fish'"
 complete -c vkernel -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
+complete -c vkernel -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+false\t''"
 complete -c vkernel -l check -d 'Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit status 1 if one is broken'
 complete -c vkernel -l two-sided -d 'The surface of --shape reflects on both sides: the backs are as many facets again'
 complete -c vkernel -s q -l quiet -d 'Say nothing but errors'

@@ -23,7 +23,7 @@ _vscore() {
 
     case "${cmd}" in
         vscore)
-            opts="-o -j -q -v -h -V --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --illuminant --truth --help --version"
+            opts="-o -j -q -v -h -V --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --illuminant --truth --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -91,6 +91,10 @@ _vscore() {
                     ;;
                 --list)
                     COMPREPLY=($(compgen -W "cameras illuminants reflectances" -- "${cur}"))
+                    return 0
+                    ;;
+                --percent)
+                    COMPREPLY=($(compgen -W "true false" -- "${cur}"))
                     return 0
                     ;;
                 --illuminant)

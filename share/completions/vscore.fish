@@ -26,6 +26,8 @@ fish\t'Completions for fish'"
 complete -c vscore -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
+complete -c vscore -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+false\t''"
 complete -c vscore -l illuminant -d 'Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others' -r -F -a "A\t''
 D50\t''
 D55\t''

@@ -18,7 +18,7 @@ impl Common {
     /// # Errors
     /// As [`stream::reflectances`].
     pub fn reflectances(&self, spec: &str) -> Result<Vec<Spectrum>> {
-        let spectra = stream::reflectances(spec)?;
+        let spectra = stream::specs().in_percent(self.percent).reflectances(spec)?;
         self.say_notes(&spectra);
         Ok(spectra)
     }

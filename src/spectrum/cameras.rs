@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use super::names::words;
 use super::{Spectrum, WavelengthGrid};
 use crate::error::{Error, Result};
 
@@ -129,13 +130,6 @@ pub(super) fn by_exif(make: &str, model: &str) -> Option<MeasuredCamera> {
 /// The camera called `name` on the command line: its maker, and any name of its model.
 pub(super) fn by_name(name: &str) -> Option<MeasuredCamera> {
     measured_cameras().find(|camera| camera.is_made_by(name) && camera.is_or_shares_sensor(name))
-}
-
-/// Lower-case words of letters and digits.
-fn words(text: &str) -> impl Iterator<Item = String> {
-    text.split(|letter: char| !letter.is_alphanumeric())
-        .filter(|word| !word.is_empty())
-        .map(str::to_lowercase)
 }
 
 /// What tells a model from the others of its maker: `NIKON D70` is `d70`, `Canon EOS 400D DIGITAL` is `400d`.

@@ -6,10 +6,10 @@ use super::interpolation::even_step_nm;
 use crate::error::{Error, Result};
 use std::fmt;
 
-/// More wavelengths than any spectrometer gives: a mistyped step must not fill the memory.
-const MAX_WAVELENGTHS: usize = 100_000;
+/// More wavebands than facets of three numbers have use for, 300 to 2300 nm by 1: time and memory grow with their square.
+const MAX_WAVELENGTHS: usize = 2001;
 
-/// Strictly increasing wavelengths in nm, at least two.
+/// Strictly increasing wavelengths in nm, 2 to 2001.
 ///
 /// # Example
 /// ```
@@ -27,17 +27,11 @@ impl WavelengthGrid {
     /// A grid of any spacing, from `wavelengths_nm`.
     ///
     /// # Errors
-    /// Fewer than two wavelengths, or not finite, positive and strictly increasing.
+    /// Fewer than two wavelengths or more than 2001, or not finite, positive and strictly increasing.
     pub fn new(wavelengths_nm: Vec<f64>) -> Result<Self> {
-        if wavelengths_nm.len() < 2 {
-            return Err(bad("fewer than two wavelengths".into(), "give at least two"));
-        }
-        if let Some(nm) = wavelengths_nm.iter().find(|nm| !nm.is_finite() || **nm <= 0.0) {
-            return Err(bad(format!("{nm} nm is not a wavelength"), "give finite wavelengths above 0 nm"));
-        }
-        if let Some(pair) = wavelengths_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let problem = format!("{} nm is followed by {} nm", pair[0], pair[1]);
-            return Err(bad(problem, "sort the wavelengths and drop repeated ones"));
+        check_rising(&wavelengths_nm)?;
+        if wavelengths_nm.len() > MAX_WAVELENGTHS {
+            return Err(too_many(wavelengths_nm.len() as f64));
         }
         Ok(Self { wavelengths_nm })
     }
@@ -45,7 +39,7 @@ impl WavelengthGrid {
     /// The grid `first_nm, first_nm + step_nm, …, last_nm`.
     ///
     /// # Errors
-    /// The step is not positive, or does not divide the range, or gives more than 100 000 wavelengths.
+    /// The step is not positive, or does not divide the range, or gives more than 2001 wavelengths.
     ///
     /// # Example
     /// ```
@@ -64,8 +58,7 @@ impl WavelengthGrid {
             ));
         }
         if steps >= MAX_WAVELENGTHS as f64 {
-            let problem = format!("{first_nm}..{last_nm} nm by {step_nm} has {} wavelengths", steps + 1.0);
-            return Err(bad(problem, "choose a larger step"));
+            return Err(too_many(steps + 1.0));
         }
         Self::new((0..=steps as usize).map(|i| first_nm + i as f64 * step_nm).collect())
     }
@@ -108,6 +101,25 @@ impl WavelengthGrid {
         }
         weights_nm
     }
+}
+
+/// Refuses what are no wavelengths in nm, two or more and rising.
+pub(super) fn check_rising(wavelengths_nm: &[f64]) -> Result<()> {
+    if wavelengths_nm.len() < 2 {
+        return Err(bad("fewer than two wavelengths".into(), "give at least two"));
+    }
+    if let Some(nm) = wavelengths_nm.iter().find(|nm| !nm.is_finite() || **nm <= 0.0) {
+        return Err(bad(format!("{nm} nm is not a wavelength"), "give finite wavelengths above 0 nm"));
+    }
+    if let Some(pair) = wavelengths_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+        let problem = format!("{} nm is followed by {} nm", pair[0], pair[1]);
+        return Err(bad(problem, "sort the wavelengths and drop repeated ones"));
+    }
+    Ok(())
+}
+
+fn too_many(count: f64) -> Error {
+    bad(format!("{count} wavelengths, more than {MAX_WAVELENGTHS}"), "choose a larger step")
 }
 
 fn bad(problem: String, remedy: &'static str) -> Error {
@@ -176,8 +188,10 @@ mod tests {
         {
             assert!(WavelengthGrid::uniform(first, last, step).is_err(), "{first} {last} {step}");
         }
-        let message = WavelengthGrid::uniform(400.0, 700.0, 1e-6).unwrap_err().to_string();
-        assert!(message.contains("choose a larger step"), "{message}");
+        let message = WavelengthGrid::uniform(400.0, 700.0, 0.02).unwrap_err().to_string();
+        assert_eq!(message, "wavelength grid: 15001 wavelengths, more than 2001; choose a larger step");
+        assert_eq!(WavelengthGrid::uniform(400.0, 700.0, 0.15).unwrap().len(), 2001);
+        assert!(WavelengthGrid::new((1..=2002).map(f64::from).collect()).is_err());
     }
 
     #[test]

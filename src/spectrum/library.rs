@@ -3,7 +3,7 @@
 pub use super::names::What;
 use super::names::{same_name, unknown};
 use super::tables::builtin;
-use super::{ClearSky, Spectrum, Sun, cameras, daylight, munsell, own};
+use super::{ClearSky, Spectrum, Sun, black_body, cameras, daylight, munsell, own};
 use crate::error::{Error, Result};
 
 /// A table embedded in the program, with the file it was made from.
@@ -96,12 +96,25 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
     Ok(rows)
 }
 
-/// Names of what is built in, without those that stand for any of a kind, such as `daylight:CCT`.
+/// Names of what is built in, without those that stand for any of a kind, such as `daylight:CCT` and `2856K`.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.
 pub fn built_in(what: What) -> Result<Vec<String>> {
-    Ok(listed(what)?.into_iter().map(|(name, _)| name).filter(|name| !name.contains(':')).collect())
+    let is_of_many = |name: &String| name.contains(':') || black_body::temperature_k(name).is_some();
+    Ok(listed(what)?.into_iter().map(|(name, _)| name).filter(|name| !is_of_many(name)).collect())
+}
+
+/// Whether something built in is called `name`.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::library::{What, is_built_in};
+/// assert!(is_built_in(What::Cameras, "Nikon-D5100") && !is_built_in(What::Cameras, "mine.csv"));
+/// ```
+#[must_use]
+pub fn is_built_in(what: What, name: &str) -> bool {
+    find(what, name).is_ok_and(|found| found.is_some())
 }
 
 /// What is built in.
@@ -115,7 +128,8 @@ fn listed(what: What) -> Result<Vec<(String, String)>> {
             let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
             let sky =
                 "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
-            let computed = [daylight, ("sun:WHERE", sun), ("sky:WHERE", sky)];
+            let black_body = ("2856K", "black body of 1000..25000 K, such as 3200K for a lamp");
+            let computed = [daylight, black_body, ("sun:WHERE", sun), ("sky:WHERE", sky)];
             rows(cie.iter().map(|cie| (cie.name(), about(cie.name()))).chain(computed))
         }
     })
@@ -205,8 +219,11 @@ fn of_sky(error: Error) -> Error {
     }
 }
 
-/// One of the tables, or daylight of a colour temperature.
+/// One of the tables, or daylight or a black body of a temperature.
 fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
+    if let Some(temperature_k) = black_body::temperature_k(name) {
+        return black_body::black_body(temperature_k).map(Some);
+    }
     let Some(cct_k) = name.strip_prefix("daylight:") else {
         return Ok(cie_illuminants()?.into_iter().find(|cie| same_name(cie.name(), name)));
     };
@@ -240,7 +257,7 @@ mod tests {
 
     #[test]
     fn every_listed_name_is_found() {
-        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 54), (What::Illuminants, 49)] {
+        for (what, count) in [(What::Reflectances, 4), (What::Cameras, 54), (What::Illuminants, 50)] {
             let names = listed(what).unwrap();
             assert_eq!(names.len(), count);
             for (name, _) in names {

@@ -3,7 +3,9 @@
 //! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the files are
 //! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
 
+mod black_body;
 mod cameras;
+mod channels;
 mod clear_sky;
 mod daylight;
 pub mod formats;
@@ -19,6 +21,7 @@ mod sun;
 mod tables;
 
 pub use cameras::{MeasuredCamera, measured_cameras, measured_curves};
+pub use channels::have_one_peak;
 pub use clear_sky::ClearSky;
 pub use daylight::{daylight_vectors, daylight_weights};
 pub use grid::WavelengthGrid;
@@ -29,6 +32,7 @@ pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 
 use crate::error::{Error, Result};
+use grid::check_rising;
 use interpolation::sprague;
 use std::sync::Arc;
 
@@ -75,16 +79,17 @@ impl Spectrum {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn new(name: impl Into<String>, wavelengths_nm: Vec<f64>, values: Vec<f64>) -> Result<Self> {
-        let (name, grid) = (name.into(), WavelengthGrid::new(wavelengths_nm)?);
-        if grid.len() != values.len() {
-            let problem = format!("{} values for {} wavelengths", values.len(), grid.len());
+        let name = name.into();
+        check_rising(&wavelengths_nm)?;
+        if wavelengths_nm.len() != values.len() {
+            let problem = format!("{} values for {} wavelengths", values.len(), wavelengths_nm.len());
             return Err(Error::Spectrum { name, problem, remedy: "give one value per wavelength".into() });
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             let problem = format!("{value} is not a number");
             return Err(Error::Spectrum { name, problem, remedy: "give finite values".into() });
         }
-        Ok(Self::from_table(name, grid.wavelengths_nm().into(), values))
+        Ok(Self::from_table(name, wavelengths_nm.into(), values))
     }
 
     /// The same `value` at every wavelength.

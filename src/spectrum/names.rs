@@ -22,6 +22,13 @@ fn plain(name: &str) -> impl Iterator<Item = u8> {
     name.bytes().filter(|&letter| letter != b' ').map(|letter| letter.to_ascii_lowercase())
 }
 
+/// Lower-case words of letters and digits.
+pub(super) fn words(text: &str) -> impl Iterator<Item = String> {
+    text.split(|letter: char| !letter.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .map(str::to_lowercase)
+}
+
 /// The error for a name that is not among `known`, with the nearest of those.
 pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
     let (kind, list) = match what {

@@ -1,7 +1,7 @@
 //! SPEC, the way the command line names spectra.
 //!
-//! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `sun:WHERE` or `sky:WHERE`, the same in the directory
-//! `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
+//! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `2856K`, `sun:WHERE` or `sky:WHERE`, the same in the
+//! directory `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
 
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
@@ -10,6 +10,7 @@ use super::library;
 use super::names::{What, unknown};
 use super::own::{self, OwnFile};
 use crate::error::Result;
+use crate::message::printable;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -65,11 +66,12 @@ pub fn camera(spec: &str) -> Result<Sensitivities> {
 #[derive(Clone, Copy, Debug)]
 pub struct Specs {
     json: JsonReader,
+    percent: Option<bool>,
 }
 
 impl Default for Specs {
     fn default() -> Self {
-        Self { json: no_json }
+        Self::with_json(no_json)
     }
 }
 
@@ -77,7 +79,13 @@ impl Specs {
     /// The same with a reader of JSON files.
     #[must_use]
     pub fn with_json(json: JsonReader) -> Self {
-        Self { json }
+        Self { json, percent: None }
+    }
+
+    /// The same for files of which it is known whether reflectances are in percent where the file does not say it.
+    #[must_use]
+    pub fn in_percent(self, percent: Option<bool>) -> Self {
+        Self { percent, ..self }
     }
 
     /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in percent, in fractions.
@@ -140,8 +148,11 @@ impl Specs {
 
     fn file(self, what: What, path: &str, member: Option<&str>) -> Result<Vec<Spectrum>> {
         let mut table = formats::read(path, self.json)?;
-        if what == What::Reflectances {
-            table = table.in_fractions(path)?;
+        table.check_quantity(path, what, member)?;
+        match what {
+            What::Reflectances => table = table.in_fractions(path, self.percent)?,
+            What::Cameras if member.is_none() => table = table.as_channels(path)?,
+            What::Cameras | What::Illuminants => {}
         }
         let spectra = column_called(path, member, table.spectra(path))?;
         Ok(if what == What::Cameras { spectra } else { called_after_file(path, member, spectra) })
@@ -168,6 +179,7 @@ fn noted_as_built_in(name: &str, file: &OwnFile, spectra: Vec<Spectrum>) -> Vec<
 /// The column asked for, or all of them.
 fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     let Some(column) = column else { return Ok(spectra) };
+    let column = printable(column);
     let Some(at) = spectra.iter().position(|spectrum| spectrum.name() == column) else {
         let names: Vec<_> = spectra.iter().map(Spectrum::name).collect();
         let hint = format!("the columns are {}", names[..names.len().min(12)].join(", "));
@@ -252,8 +264,14 @@ mod tests {
             assert_eq!(black.note(), Some(note.as_str()));
             assert_eq!(illuminant(&format!("{path}:white")).unwrap().values(), [90.0, 95.0]);
         });
-        with_csv("nm,r [%]\n400,0.5\n700,0.7\n", |path| {
-            assert!(message(reflectances(path)).contains("says percent, but no value is above 1"));
+        with_csv("nm,r [%]\n400,0.5\n700,0.75\n", |path| {
+            assert_eq!(reflectances(path).unwrap()[0].values(), [0.005, 0.0075]);
+        });
+        with_csv("nm,grey 50%\n400,0.5\n700,0.75\n", |path| {
+            assert!(message(reflectances(path)).contains("--percent=no if the values are fractions"));
+            let in_percent = |percent| Specs::default().in_percent(Some(percent)).reflectances(path).unwrap();
+            assert_eq!(in_percent(true)[0].values(), [0.005, 0.0075]);
+            assert_eq!(in_percent(false)[0].values(), [0.5, 0.75]);
         });
     }
 

@@ -16,7 +16,15 @@ const MAX_BYTES: u64 = 64 << 20;
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds something else.
 pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> {
-    serde_json::from_slice(&bytes(path, example)?).map_err(|error| fault(path, error.line(), &error, example))
+    parse(path, &bytes(path, example)?, example)
+}
+
+/// Reads what a JSON file holds.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn parse<T: DeserializeOwned>(path: &str, bytes: &[u8], example: &str) -> Result<T> {
+    serde_json::from_slice(bytes).map_err(|error| fault(path, error.line(), &error, example))
 }
 
 /// Reads a file of JSON values one after the other, such as NDJSON.

@@ -64,7 +64,7 @@ pub use outline::{FieldOutline, RecordOutline, outline};
 pub use photograph::{Framing, ImageRecord};
 pub use pipe::{Transform, pipe};
 pub use plan::{NewPlan, plan};
-pub use rawtoaces::{camera, illuminant, reflectances};
+pub use rawtoaces::{camera, illuminant, reflectances, specs};
 pub use reader::{Reader, Record};
 pub use reference_panel::ReferencePanel;
 pub use regions::{Corners, Regions};

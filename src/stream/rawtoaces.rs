@@ -20,6 +20,8 @@ struct SpectraFile {
 
 #[derive(Deserialize)]
 struct SpectralData {
+    /// What the spectra are, in the words of IES TM-27.
+    units: Option<String>,
     index: Main<Vec<String>>,
     data: Main<HashMap<String, Vec<f64>>>,
 }
@@ -33,6 +35,12 @@ struct Main<T> {
 const NM: RangeInclusive<f64> = 100.0..=3000.0;
 
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
+
+/// Finds what a SPEC names, JSON files among it.
+#[must_use]
+pub fn specs() -> Specs {
+    Specs::with_json(read)
+}
 
 /// The camera that `spec` names: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in `.json`.
 ///
@@ -49,7 +57,7 @@ const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\",
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn camera(spec: &str) -> Result<Sensitivities> {
-    Specs::with_json(read).camera(spec)
+    specs().camera(spec)
 }
 
 /// The illuminant that `spec` names: as [`crate::spectrum::illuminant`], or a rawtoaces file.
@@ -57,7 +65,7 @@ pub fn camera(spec: &str) -> Result<Sensitivities> {
 /// # Errors
 /// As [`camera`].
 pub fn illuminant(spec: &str) -> Result<Spectrum> {
-    Specs::with_json(read).illuminant(spec)
+    specs().illuminant(spec)
 }
 
 /// The reflectances that `spec` names: as [`crate::spectrum::reflectances`], or a rawtoaces file.
@@ -65,12 +73,13 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
 /// # Errors
 /// As [`camera`].
 pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
-    Specs::with_json(read).reflectances(spec)
+    specs().reflectances(spec)
 }
 
 /// The spectra of a rawtoaces file.
-fn read(path: &str) -> Result<Table> {
-    let SpectraFile { spectral_data: SpectralData { index, data } } = json_file::read(path, EXAMPLE)?;
+fn read(path: &str, text: &str) -> Result<Table> {
+    let SpectraFile { spectral_data: SpectralData { units, index, data } } =
+        json_file::parse(path, text.as_bytes(), EXAMPLE)?;
     let refused = |problem: String| {
         let remedy = "give each wavelength, in nm, one number per spectrum".to_owned();
         Error::Spectrum { name: path.to_owned(), problem, remedy }
@@ -93,5 +102,6 @@ fn read(path: &str) -> Result<Table> {
     let spectrum = |(k, name): (usize, &String)| {
         Spectrum::new(name, wavelengths_nm.clone(), rows.iter().map(|(_, row)| row[k]).collect())
     };
-    Table::new(index.main.iter().enumerate().map(spectrum).collect::<Result<_>>()?)
+    Ok(Table::new(index.main.iter().enumerate().map(spectrum).collect::<Result<_>>()?)?
+        .called(&units.unwrap_or_default()))
 }

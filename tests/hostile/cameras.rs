@@ -113,6 +113,10 @@ END
         {{ cat head; printf '400,-1,0.1,1,0.1,1,0.1\n700,1,0.1,1,0.1,1,0.1\n'; }} > negative.csv
         {{ cat head; printf '400,0,0.1,1,0.1,1,0.1\n700,0,0.1,1,0.1,1,0.1\n'; }} > dark.csv
         cp head empty.csv
+        named() {{ printf 'nm,%s\n400,1,2,3,4\n700,1,2,3,4\n' "$1"; }}
+        named R,G,B,red > twice.csv
+        named R,G,g,B > greens.csv
+        named B,IR,UV,W > some.csv
         "#
     );
     assert_refused(
@@ -131,6 +135,13 @@ END
             case("vforward scene.json --reflectance 0.5 --camera negative.csv", 1, &["-1 is below 0"]),
             case("vforward scene.json --reflectance 0.5 --camera dark.csv", 1, &["zero at every wavelength"]),
             case("vforward scene.json --reflectance 0.5 --camera empty.csv", 1, &["empty.csv"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --camera twice.csv",
+                1,
+                &["R, red are of one colour"],
+            ),
+            case("vforward scene.json --reflectance 0.5 --camera greens.csv", 1, &["G, g are of one colour"]),
+            case("vforward scene.json --reflectance 0.5 --camera some.csv", 1, &["B, IR, UV, W do not name"]),
         ],
     );
 }

@@ -19,6 +19,9 @@ fn cgats_tables() {
         table '' 'SPEC_450 SPEC_700' '0.1 0.2' > narrow.sp
         table '' 'SAMPLE_ID SPEC_400 SPEC_700' 'a 0.1 0.2' > member.sp
         printf 'SPECT\nBEGIN_DATA_FORMAT\nSPEC_400 SPEC_700\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2\n' > cut.sp
+        table 'MEAS_TYPE "TRANSMISSIVE"' 'SPEC_400 SPEC_700' '0.1 0.2' > film.sp
+        { cat device.ti3; printf 'BEGIN_DATA_FORMAT\nSPEC_400 SPEC_700\nEND_DATA_FORMAT\nBEGIN_DATA\n1\nEND_DATA\n'; } > second.ti3
+        { cat member.sp; cat member.sp; } > twice.sp
         printf '"' > quote.sp
         head -c 300 /bin/sh > binary.sp
         : > empty.ti3
@@ -39,6 +42,9 @@ END
             case("sh forward narrow.sp", 1, &["450..700 nm", "400..700 nm"]),
             case("sh forward member.sp:b", 1, &["no column 'b'", "a"]),
             case("sh forward cut.sp", 1, &["cut.sp:6", "END_DATA is missing"]),
+            case("sh forward film.sp", 1, &["film.sp", "transmittances, not reflectances"]),
+            case("sh forward second.ti3", 1, &["second.ti3:13", "1 values", "2 columns"]),
+            case("sh forward twice.sp", 1, &["twice.sp:16", "two samples are called 'a'"]),
             case("sh forward quote.sp", 1, &["quote.sp:1", "not a CGATS table"]),
             case("sh forward binary.sp", 1, &["binary.sp"]),
             case("sh forward empty.ti3", 1, &["empty.ti3:1", "not a CGATS table"]),
@@ -69,7 +75,18 @@ fn tm_27_files() {
         file '' "$(head -c 3000000 /dev/zero | sed 's/\x0/<a\/>/g')" > many.spdx
         echo '<html><body/></html>' > page.spdx
         echo 'nm,r' > table.spdx
-        { printf '\376\377'; file '' "$(at 400 0.1)$(at 700 0.2)" | sed 's/./\x0&/g'; } > utf16.spdx
+        { printf '\377\376'; file '' "$(at 400 0.1)" | sed 's/./&\x0/g'; } > utf16.spdx
+        { printf '<IESTM2714 '; seq -f 'a%.0f="1"' 200000 | tr '\n' ' '; printf '/>'; } > attributes.spdx
+        of() { file '' "<SpectralQuantity>$1</SpectralQuantity>$(at 400 0.1)$(at 700 0.2)" > "$2"; }
+        of absorptance absorptance.spdx
+        of transmittance transmittance.spdx
+        of T-Factor factor.spdx
+        of irradiance light.spdx
+        of reflectance paint.spdx
+        units() { printf '{"spectral_data": {"units": "%s", "index": {"main": ["x"]}, "data": {"main": {"400": [0.1], "700": [0.2]}}}}' "$1" > "$2"; }
+        units absorptance absorptance.json
+        units transmittance transmittance.json
+        units reflectance paint.json
         : > empty.spdx
         truncate -s 70M long.spdx
         cat > forward <<'END'
@@ -91,7 +108,24 @@ END
             case("sh forward many.spdx", 1, &["many.spdx:1", "nodes"]),
             case("sh forward page.spdx", 1, &["<html>", "IESTM2714"]),
             case("sh forward table.spdx", 1, &["table.spdx:1", "not XML"]),
-            case("sh forward utf16.spdx", 1, &["utf16.spdx:1", "not XML"]),
+            case("sh forward utf16.spdx", 1, &["utf16.spdx:1", "1 elements <SpectralData>"]),
+            case("sh forward attributes.spdx", 1, &["attributes.spdx:1", "more than 100 attributes"]),
+            case("sh forward absorptance.spdx", 1, &["absorptance.spdx", "absorptances, not reflectances"]),
+            case("sh forward transmittance.spdx", 1, &["transmittances, not reflectances"]),
+            case("sh forward factor.spdx", 1, &["transmittances, not reflectances"]),
+            case("sh forward light.spdx", 1, &["light.spdx", "the power of a light, not reflectances"]),
+            case("sh forward absorptance.json", 1, &["absorptance.json", "absorptances, not reflectances"]),
+            case("sh forward transmittance.json", 1, &["transmittances, not reflectances"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --illuminant paint.spdx",
+                1,
+                &["paint.spdx", "reflectances, not the power of a light"],
+            ),
+            case(
+                "vforward scene.json --reflectance 0.5 --camera paint.json",
+                1,
+                &["paint.json", "reflectances, not sensitivities of a camera"],
+            ),
             case("sh forward empty.spdx", 1, &["empty.spdx:1", "not XML"]),
             case("sh forward long.spdx", 1, &["long.spdx:1", "larger than 64 MiB"]),
         ],

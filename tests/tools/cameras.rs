@@ -185,3 +185,86 @@ fn charts_that_make_no_camera() {
         assert!(!folder.path().join("mine.csv").exists());
     }
 }
+
+const BLUE_FIRST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/spectra/camera_blue_first.csv");
+
+/// The same curves in columns in another order and called otherwise, as CSV and as rawtoaces' JSON: the camera is the same.
+#[test]
+fn channels_are_found_by_name_in_any_order() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!(
+        r##"
+        cut -d, -f 1,4,3,2 {BLUE_FIRST} | awk -F, -v OFS=, '{{ print $1, $4, $3, $2 }}' > rgb.csv
+        head -n 1 rgb.csv | grep -qx 'wavelength,R,G,B'
+        awk -F, -v OFS=, 'NR == 1 {{ print "nm,green,BLUE,Red" }} NR > 1 {{ print $1, $3, $4, $2 }}' rgb.csv > words.csv
+        awk -F, -v OFS=, 'NR == 1 {{ print "nm,B,B_sd,IR,Canon G,R_std,R,Canon G uncertainty" }}
+            NR > 1 {{ print $1, $4, 1, 2, $3, 3, $2, 4 }}' rgb.csv > beside.csv
+        awk -F, -v OFS=, -v OFMT=%.17g 'NR == 1 {{ print "nm,R,G1,G2,B" }} NR > 1 {{ print $1, $2, 0, 2 * $3, $4 }}' rgb.csv > greens.csv
+        awk -F, 'BEGIN {{ printf "{{\"spectral_data\": {{\"index\": {{\"main\": [\"B\", \"R\", \"G\"]}}, \"data\": {{\"main\": {{" }}
+            NR > 1 {{ printf "%s\"%s\": [%s, %s, %s]", (NR > 2 ? ", " : ""), $1, $4, $2, $3 }} END {{ print "}}}}}}}}" }}' rgb.csv > aces.json
+        vkernel --facets 1x1 -o scene.json
+        for file in rgb.csv {BLUE_FIRST} words.csv beside.csv greens.csv aces.json; do
+            vforward scene.json --reflectance cc24:orange --camera $file --save facet_rgb=found.npy -o found.ndjson
+            echo "$(cksum < found.npy)" >> sums
+        done
+        test "$(sort -u sums | wc -l)" = 1 || {{ cat sums; exit 1; }}"##
+    ));
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    let said: Vec<&str> = run.stderr.lines().filter_map(|line| line.split(": ").nth(2)).collect();
+    assert_eq!(
+        said,
+        [
+            "channels B, G, R put in the order R, G, B",
+            "channels green, BLUE, Red put in the order R, G, B",
+            "standard deviations left out, channels R, G and B taken by name, IR left out",
+            "G is the mean of G1 and G2",
+            "channels B, R, G put in the order R, G, B",
+        ],
+        "{}",
+        run.stderr
+    );
+}
+
+/// Columns whose names say no colour are taken as they stand, which is said; so is that all were scaled to one peak.
+#[test]
+fn what_a_cameras_file_leaves_open_is_said() {
+    let folder = Workdir::new();
+    let run = folder.sh(r"
+        vkernel --facets 1x1 -o scene.json
+        printf 'nm,c1,c2,c3\n400,0,0.1,0.9\n550,0.1,1,0.1\n700,0.8,0,0\n' > places.csv
+        printf 'nm,R,G,B\n400,0,0.1,1\n550,0.1,1,0.1\n700,1,0,0\n' > scaled.csv
+        printf 'nm,R,G,B\n400,0,0.1,0.9\n550,0.1,1,0.1\n700,0.8,0,0\n' > good.csv
+        for camera in places.csv scaled.csv good.csv nikon-d5100 arri-d21 sigma-sd-merrill; do
+            vforward scene.json --reflectance 0.5 --camera $camera -o $camera.ndjson
+        done");
+    assert_eq!(
+        run.stderr.lines().collect::<Vec<_>>(),
+        [
+            "vforward: places.csv: channels c1, c2, c3 taken for R, G, B by their places, as no name says a colour",
+            "vforward: scaled.csv: all channels have the same peak, as no camera's do: scaled one by one, they have lost their ratios",
+        ]
+    );
+}
+
+/// A photograph through such a camera is not called good.
+#[test]
+fn channels_scaled_one_by_one_are_a_doubt() {
+    let folder = Workdir::new();
+    let run = folder.sh(&format!(
+        r##"
+        vkernel --angle-deg 50 -o scene.json
+        awk -F, -v OFS=, 'NR == 1 {{ print "nm,R,G,B" }} NR > 1 {{ print $1, $4, $3, $2 }}' {BLUE_FIRST} > camera.csv
+        vforward scene.json --reflectance cc24:orange --camera camera.csv --illuminant D65 --render orange.exr > both.json
+        tail -n 1 both.json > corners.json
+        awk -F, -v OFS=, 'NR == 1 {{ print }} NR > 1 {{ print $1, $2 / 0.8, $3, $4 / 0.9 }}' camera.csv > scaled.csv
+        for camera in camera.csv scaled.csv; do
+            vextract orange.exr --scene scene.json --camera $camera --illuminant D65 --regions corners.json | vestimate -o $camera.ndjson
+        done"##
+    ));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let says = |camera: &str| {
+        let text = std::fs::read_to_string(folder.path().join(format!("{camera}.ndjson"))).unwrap();
+        text.contains("they have lost their ratios")
+    };
+    assert!(says("scaled.csv") && !says("camera.csv"), "{}", run.stderr);
+}

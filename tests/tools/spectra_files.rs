@@ -1,5 +1,5 @@
-//! Files of spectra against others who read and write them: colour-science and Argyll CMS. Where one of them is missing its tests pass
-//! without a check, and `tests/run` says so.
+//! Files of spectra: what other programs write, in all their encodings and layouts, and colour-science and Argyll CMS, who read and write
+//! them. Where one of those two is missing its tests pass without a check, and `tests/run` says so.
 
 use crate::common::Workdir;
 
@@ -126,6 +126,181 @@ END
 
 const RESOURCES: &str =
     r#"import colour, os; print(os.path.join(os.path.dirname(colour.__file__), "io", "tests", "resources"))"#;
+
+/// One table in every format and in every encoding that `iconv` of the GNU C library makes: the reflectances are the same.
+#[test]
+fn encodings_and_line_ends_change_nothing() {
+    check(
+        "command -v iconv",
+        r#"
+        printf 'nm,r\303\251d\n380,0.05\n550,0.1\n780,0.7\n' > plain.csv
+        printf 'CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID NM_380 NM_550 NM_780\nEND_DATA_FORMAT\nBEGIN_DATA\nx 0.05 0.1 0.7\nEND_DATA\n' > plain.txt
+        cp plain.txt plain.sp
+        printf '<?xml version="1.0"?>\n<IESTM2714><SpectralDistribution><SpectralQuantity>reflectance</SpectralQuantity>\n' > plain.spdx
+        for pair in 380:0.05 550:0.1 780:0.7; do
+            echo "<SpectralData wavelength=\"${pair%:*}\">${pair#*:}</SpectralData>" >> plain.spdx
+        done
+        echo '</SpectralDistribution></IESTM2714>' >> plain.spdx
+        printf '{"spectral_data": {"units": "reflectance", "index": {"main": ["x"]},\n"data": {"main": {"380": [0.05], "550": [0.1], "780": [0.7]}}}}\n' > plain.json
+        vkernel --facets 1x1 -o scene
+        vforward scene --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
+        for ending in csv txt sp spdx json; do
+            mark=$(printf '\357\273\277')
+            tr '\n' '\r' < plain.$ending > cr.$ending
+            sed 's/$/\r/' plain.$ending > crlf.$ending
+            { printf %s "$mark"; cat plain.$ending; } > mark.$ending
+            { printf %s "$mark"; cat plain.$ending; } | iconv -f UTF-8 -t UTF-16LE > utf16le_mark.$ending
+            { printf %s "$mark"; cat plain.$ending; } | iconv -f UTF-8 -t UTF-16BE > utf16be_mark.$ending
+            iconv -f UTF-8 -t UTF-16LE plain.$ending > utf16le.$ending
+            sed 's/$/\r/' plain.$ending | iconv -f UTF-8 -t UTF-16BE > utf16be.$ending
+            for file in *.$ending; do
+                vforward scene --reflectance $file --save truth.reflectance=found.npy -o found.ndjson
+                cmp wanted.npy found.npy || { echo $file; exit 1; }
+            done
+        done
+        vforward scene --reflectance utf16le.csv | grep -q '"id":"utf16le"'"#,
+    );
+}
+
+/// What pandas (`to_csv`), R (`write.csv`) and spreadsheets put around a table: the reflectances are those of the plain table.
+#[test]
+fn layouts_of_spreadsheets_and_data_frames_are_read() {
+    check(
+        "true",
+        r#"
+        printf 'nm,a,b\n380,0.05,0.2\n550,0.1,0.2\n780,0.7,0.2\n' > plain.csv
+        printf 'sep=;\nnm;a;b\n380;0,05;0,2\n550;0,1;0,2\n780;0,7;0,2\n' > sep.csv
+        printf '"sep=|"\r\nnm|a|b\r\n380|0.05|0.2\r\n550|0.1|0.2\r\n780|0.7|0.2\r\n' > bars.csv
+        printf ',a,b\n380,0.05,0.2\n550,0.1,0.2\n780,0.7,0.2\n' > index.csv
+        printf ',nm,a,b\n0,380,0.05,0.2\n1,550,0.1,0.2\n2,780,0.7,0.2\n' > pandas.csv
+        printf '"","wavelength","a","b"\n"1",380,0.05,0.2\n"2",550,0.1,0.2\n"3",780,0.7,0.2\n' > r.csv
+        printf '#,x,a,b\n1,380,0.05,0.2\n2,550,0.1,0.2\n3,780,0.7,0.2\n' > numbered.csv
+        printf ',Wavelength [nm],a,b\n380,380,0.05,0.2\n381,550,0.1,0.2\n382,780,0.7,0.2\n' > sliced.csv
+        printf 'wavelength,a,b\nnm,%%,\n380,5,0.2\n550,10,0.2\n780,70,0.2\n' > units.csv
+        printf 'wavelength,a,b\num,-,-\n0.38,0.05,0.2\n0.55,0.1,0.2\n0.78,0.7,0.2\n' > micrometres.csv
+        printf 'Wavelength (\303\205),a,b\n3800,0.05,0.2\n5500,0.1,0.2\n7800,0.7,0.2\n' > angstrom.csv
+        printf 'nm,a,A std,b,b (uncertainty),a sd\n380,0.05,9,0.2,9,9\n550,0.1,9,0.2,9,9\n780,0.7,9,0.2,9,9\n' | sed 's/A std/a std/' > deviations.csv
+        vkernel --facets 1x1 -o scene.json
+        vforward scene.json --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
+        for file in sep bars index pandas r numbered sliced units micrometres angstrom deviations; do
+            vforward scene.json --reflectance $file.csv --save truth.reflectance=found.npy -o found.ndjson 2>said
+            cmp wanted.npy found.npy || { echo $file; exit 1; }
+            case $file in
+                pandas|r|numbered|sliced) grep -q 'row numbers left out' said;;
+                units) grep -q 'percent read as fractions' said;;
+                angstrom) grep -q 'ngstr.*m read as nm' said;;
+                deviations) grep -q 'standard deviations left out' said;;
+                index|bars) test ! -s said;;
+            esac
+        done"#,
+    );
+}
+
+/// The values are those that the program which made the files wrote them from.
+#[test]
+fn percent_and_line_ends_are_those_of_the_files() {
+    check(
+        "true",
+        &format!(
+            r#"
+        at() {{ sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p' $1 | tr ',' '\n' | sed -n '1p;4p;7p' | tr '\n' ' '; }}
+        vkernel --facets 1x1 -o scene.json
+        vforward scene.json --wavelengths-nm 400:700:50 --reflectance {DATA}/dark_percent_numbered.csv -o dark.ndjson 2>said
+        grep -q 'percent read as fractions' said
+        vforward scene.json --wavelengths-nm 400:700:50 --reflectance {DATA}/cgats_carriage_returns.txt -o cgats.ndjson
+        test "$(at dark.ndjson | awk '{{ printf "%.4f %.4f %.4f", $1, $2, $3 }}')" = "0.0020 0.0034 0.0080"
+        test "$(at cgats.ndjson | awk '{{ printf "%.4f %.4f %.4f", $1, $2, $3 }}')" = "0.1004 0.2157 0.5959""#
+        ),
+    );
+}
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/spectra");
+
+/// `--percent` for files that do not say it, and which values they have then.
+#[test]
+fn percent_is_what_the_flag_says_where_the_file_does_not() {
+    check(
+        "true",
+        r#"
+        printf 'nm,r\n400,1\n700,1.5\n' > between.csv
+        printf 'nm,r\n400,0.25\n700,0.5\n' > small.csv
+        printf 'nm,grey 50%%\n400,0.25\n700,0.5\n' > sign.csv
+        printf 'CGATS.17\nSPECTRAL_NORM 1\nBEGIN_DATA_FORMAT\nNM_400 NM_700\nEND_DATA_FORMAT\nBEGIN_DATA\n0.25 0.5\nEND_DATA\n' > norm.txt
+        vkernel --facets 1x1 -o scene.json
+        ends() { vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$@" 2>said | sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'; }
+        test "$(ends between.csv --percent)" = 0.01,0.015
+        grep -q 'between.csv: percent read as fractions' said
+        test "$(ends small.csv)" = 0.25,0.5
+        test "$(ends small.csv --percent)" = 0.0025,0.005
+        test "$(ends sign.csv --percent)" = 0.0025,0.005
+        test "$(ends sign.csv --percent=no)" = 0.25,0.5
+        test ! -s said
+        test "$(ends norm.txt --percent)" = 0.25,0.5
+        test "$(ends 0.5 --percent)" = 0.5,0.5"#,
+    );
+}
+
+/// A file whose first table has the colours and whose second has the spectra, and one with spectra in both.
+#[test]
+fn spectra_may_be_in_a_second_table() {
+    check(
+        "true",
+        r#"
+        table() { printf 'BEGIN_DATA_FORMAT\n%s\nEND_DATA_FORMAT\nBEGIN_DATA\n%b\nEND_DATA\n' "$1" "$2"; }
+        { echo CGATS.17; table 'SAMPLE_ID RGB_R RGB_G' 'a 1 2\nb 3 4'; echo 'SPECTRAL_NORM 100'
+          table 'SAMPLE_ID NM_400 NM_700' 'a 25 50\nb 75 12.5'; } > second.txt
+        { echo CGATS.17; table 'SAMPLE_ID NM_400 NM_700' 'a 0.25 0.5'; table 'SAMPLE_ID NM_400 NM_500 NM_700' 'b 0.75 0.5 0.125'
+          echo '# end'; } > both.txt
+        vkernel --facets 1x1 -o scene.json
+        ends() { vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$1" | sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'; }
+        test "$(ends second.txt)" = "$(printf '0.25,0.5\n0.75,0.125')"
+        test "$(ends both.txt)" = "$(printf '0.25,0.5\n0.75,0.125')""#,
+    );
+}
+
+/// `colour.sd_blackbody`, colour-science 0.4.7, whose constants are those of 2018 as well.
+#[test]
+fn black_bodies_are_those_of_colour_science() {
+    check(
+        COLOUR_SCIENCE,
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        for kelvin in 1500 2856 5500 12000; do
+            vforward scene.json --reflectance 0.5 --illuminant ${kelvin}K -o $kelvin.ndjson
+        done
+        cat > compare.py <<'END'
+import colour, json, numpy
+for kelvin in 1500, 2856, 5500, 12000:
+    scene = json.loads(open(f"{kelvin}.ndjson").readline())
+    theirs = colour.sd_blackbody(kelvin, colour.SpectralShape(400, 700, 5)).values
+    ours = numpy.array(scene["illuminants"][0]["power"])
+    assert scene["illuminants"][0]["name"] == f"{kelvin}K"
+    assert numpy.allclose(ours / ours[32], theirs / theirs[32], rtol=1e-5), (kelvin, ours / ours[32] * theirs[32] / theirs)
+END
+        python3 compare.py"#,
+    );
+}
+
+/// Names that a spreadsheet would run, that turn the writing or that look like a unit: none is in what is written, and all come back.
+#[test]
+fn written_tables_are_safe_to_open() {
+    check(
+        "true",
+        r#"
+        escape=$(printf '\033') turned=$(printf '\342\200\256')
+        printf 'nm,"=HYPERLINK(""x"")",+1,-2,@sum,%s[2J,%sder\n400,0.1,0.2,0.3,0.4,0.5,0.6\n700,0.1,0.2,0.3,0.4,0.5,0.6\n' "$escape" "$turned" > evil.csv
+        vkernel --facets 2x2 | vforward --reflectance evil.csv |
+            sed 's/"id":"evil:/"id":"/' | vestimate --spectra written.csv -o estimates.ndjson
+        if grep -q "$escape\|$turned" written.csv; then exit 1; fi
+        if head -n 1 written.csv | tr ',' '\n' | grep -q '^"*[-=+@]'; then exit 1; fi
+        vkernel --facets 1x1 | vforward --reflectance written.csv 2>/dev/null | sed -n 's/.*"id":"written:\(.*\)","facet_rgb".*/\1/p' > again
+        grep -qxF '=HYPERLINK(_x_)' again
+        grep -qxF -e +1 again
+        grep -qxF -e -2 again
+        grep -qxF '@sum' again
+        test "$(wc -l < again)" = 6"#,
+    );
+}
 
 /// XYZ that Argyll computes from the file, D50 and the 2° observer; it sums bands of 5 nm with tables of its own.
 #[test]

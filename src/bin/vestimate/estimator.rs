@@ -17,8 +17,9 @@ use vfold::{Error, Result};
 
 use super::Args;
 use super::context::{Context, SceneMethod};
+use super::doubts::doubts_of_taking;
 use super::flat::FlatEstimator;
-use super::photographed::{Given, doubts_of_taking};
+use super::photographed::Given;
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 

@@ -1,6 +1,7 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
 mod context;
+mod doubts;
 mod drawing;
 mod estimator;
 mod flat;

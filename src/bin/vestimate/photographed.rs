@@ -1,26 +1,20 @@
 //! Which model of a photograph is believed: the fold as it was told, the same with another angle, or a real sheet.
 
-use nalgebra::DMatrix;
 use vfold::cli;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
-use vfold::estimate::noise::Noise;
 use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::shading::Shading;
-use vfold::estimate::unknowns::{ANGLE, SceneModel};
-use vfold::estimate::verdict::{
-    Doubt, EXPLAINED, Level, beyond_chance, is_loose, other_exposure, unusual_exposure, unusual_findings,
-};
+use vfold::estimate::unknowns::ANGLE;
+use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose, other_exposure};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
-use vfold::forward::FacetValues;
-use vfold::image::Processing;
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
 
 use super::context::{Believed, Context};
+use super::doubts::doubts_of_taking;
 use super::estimator::{CUTOFF, Estimator};
 use super::said::Deviations;
 
@@ -141,32 +135,6 @@ impl Estimator<'_> {
         }
     }
 
-    /// What the facets of a photograph show to speak against its estimate.
-    pub fn doubts_of_facets(
-        &self,
-        context: &Context,
-        sample: &Sample,
-        (rgb, noise): (&FacetValues, &Noise),
-        estimate: &Estimate,
-    ) -> Result<Vec<Doubt>> {
-        let is_stated = self.exposure_of(sample)?.known().is_some();
-        let is_by_chart = sample.fields.has("calibration");
-        let mut doubts = unusual_findings(estimate);
-        if !is_by_chart {
-            doubts.extend(unusual_exposure(estimate, is_stated));
-        }
-        if let Some(record) = &context.record {
-            let model = &context.told.model;
-            let sd = noise.deviations(model.facets(), rgb)?;
-            let ideal = ideal_facets(model, &estimate.reflectance);
-            let grid = FoldSetting::of(record)?.fold().facets();
-            let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
-            let shading = Shading::new(grid, rgb, &sd);
-            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(&ideal, is_loose)));
-        }
-        Ok(doubts)
-    }
-
     /// What a photograph that is estimated with others is made of.
     ///
     /// # Errors
@@ -193,57 +161,4 @@ impl Estimator<'_> {
         let exposure = self.exposure_of(sample)?.known();
         PhotographedFold::of(&FoldSetting::of(record)?).parts(sample, measured, exposure)
     }
-}
-
-/// The facets of an ideal fold, or another surface, of this reflectance, all that is unknown of the scene being as expected.
-fn ideal_facets(model: &SceneModel, reflectance: &[f64]) -> DMatrix<f64> {
-    let expected: Vec<f64> = model.unknowns().iter().map(|one| one.at(0.0).0).collect();
-    model.with_values(&expected).facet_rgb(reflectance)
-}
-
-/// What speaks against an estimate from how the photograph was taken.
-pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
-    let developed = sample.is_developed()?.then(|| Doubt {
-        level: Level::Wrong,
-        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
-            .to_owned(),
-        remedy:
-            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
-                .to_owned(),
-    });
-    let processed = sample.processing()?.map(|processing| Doubt {
-        level: Level::Wrong,
-        because: match processing {
-            Processing::Curve => "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's",
-            Processing::Matrix => "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files",
-        }
-        .to_owned(),
-        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
-    });
-    let black = sample.unsubtracted_black()?.map(|part| {
-        let percent = 100.0 * part;
-        Doubt::new(
-            format!(
-                "the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"
-            ),
-            "give vextract --black-level auto, or the camera's black level",
-        )
-    });
-    let open_sides = sample.open_sides()?;
-    let open = (!open_sides.is_empty()).then(|| {
-        Doubt::new(
-            format!(
-                "no edge of the sheet lies along {}: it goes on beyond the corners, or does not reach them",
-                open_sides.join(", ")
-            ),
-            "mark the corners of the whole panels, as vextract --overlay shows them",
-        )
-    });
-    let stand_in = record.camera()?.stands_in.map(|one| {
-        Doubt::new(
-            format!("nobody measured the curves of {}: another camera's stand in for them", one.camera),
-            "make them of a photograph of a colour chart (vextract --save-camera)",
-        )
-    });
-    Ok(developed.into_iter().chain(processed).chain(black).chain(open).chain(stand_in).collect())
 }

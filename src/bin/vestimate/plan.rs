@@ -2,7 +2,7 @@
 
 use clap::Args;
 use rayon::prelude::*;
-use vfold::cli::{Common, OpticsArgs};
+use vfold::cli::{self, Common, OpticsArgs};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::error::ModelError;
@@ -37,10 +37,10 @@ pub struct PlanArgs {
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
     /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]
-    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
-    #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
+    #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
     pub sky_illuminant: Option<String>,
 }
 

@@ -45,7 +45,7 @@ struct Args {
     #[arg(long, value_name = "SPEC")]
     truth: Option<String>,
     /// Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others
-    #[arg(long, value_name = "SPEC", default_value = "D65")]
+    #[arg(long, value_name = "SPEC", default_value = "D65", value_parser = cli::light)]
     illuminant: Vec<String>,
     /// Standard observer of the colour difference, degrees
     #[arg(long, value_name = "2|10", default_value = "10", value_parser = observer)]

@@ -1,14 +1,14 @@
 //! CGATS.17 tables with spectra: one row per sample, one column per wavelength.
 //!
 //! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and what i1Profiler (`SPECTRAL_NM400`), ColorPort and
-//! ProfileMaker (`nm400`) export. Other columns are passed over. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
+//! ProfileMaker (`nm400`) export. Other columns are passed over, and tables without spectra, of which a file may have several. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::{Place, Spectrum, Table};
+use super::{Place, Quantity, Said, Scale, Spectrum, Table};
 use crate::error::Result;
-use crate::spectrum::WavelengthGrid;
+use crate::spectrum::grid::check_rising;
 
 pub(super) const BEGIN_FORMAT: &str = "BEGIN_DATA_FORMAT";
 /// What may stand before the wavelength in a column's name, in capitals; the longest first.
@@ -24,33 +24,60 @@ const ROUNDED_NM: f64 = 0.51;
 /// [`crate::Error::Table`] with the line that is wrong.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let mut lines = text.lines().zip(1..).map(|(text, line)| (tokens(text), Place { path, line }));
-    let header = Header::read(&mut lines, path)?;
-    let columns = Columns::new(&header)?;
-    let mut spectra = Vec::new();
-    let mut end = header.at;
-    for (row, at) in &mut lines {
+    let (mut spectra, mut said, mut without_spectra) = (Vec::new(), Vec::new(), None);
+    while let Some(header) = Header::read(&mut lines, path) {
+        let (rows, end) = rows(&mut lines, &header)?;
+        let Some(columns) = Columns::new(&header)? else {
+            without_spectra.get_or_insert(header.at);
+            continue;
+        };
+        header.agrees("NUMBER_OF_SETS", rows.len(), "rows of data")?;
+        for (row, at) in rows {
+            spectra.push(columns.spectrum(&header, &row, spectra.len() + 1, at)?);
+        }
+        said.resize(spectra.len(), header.said());
+        let mut names = HashSet::new();
+        if let Some(twice) = spectra.iter().find(|one: &&Spectrum| !names.insert(one.name())) {
+            return Err(
+                end.fails(format!("two samples are called '{}'", twice.name()), "name every sample once")
+            );
+        }
+        if spectra.is_empty() {
+            return Err(
+                end.fails("no samples between BEGIN_DATA and END_DATA", "export them with their spectra")
+            );
+        }
+    }
+    match (spectra.is_empty(), without_spectra) {
+        (false, _) => Ok(Table { said, ..Table::new(spectra)? }),
+        (true, Some(at)) => {
+            Err(at.fails("no columns of spectra, such as SPEC_400", "export them with the samples"))
+        }
+        (true, None) => {
+            let at = Place { path, line: 1 };
+            Err(at.fails("no BEGIN_DATA: not a CGATS table", "export the spectra as CGATS or CSV"))
+        }
+    }
+}
+
+/// The words of a line, and where it is.
+type Line<'a> = (Vec<String>, Place<'a>);
+
+/// The rows up to `END_DATA`, and where that is.
+fn rows<'a>(
+    lines: &mut impl Iterator<Item = Line<'a>>,
+    header: &Header<'a>,
+) -> Result<(Vec<Line<'a>>, Place<'a>)> {
+    let (mut rows, mut end) = (Vec::new(), header.at);
+    for (row, at) in lines {
         end = at;
         match row.first().map(String::as_str) {
             None => {}
-            Some("END_DATA") => return finished(&header, spectra, at),
-            Some(_) => spectra.push(columns.spectrum(&header, &row, spectra.len() + 1, at)?),
+            Some("END_DATA") => return Ok((rows, at)),
+            Some(_) => rows.push((row, at)),
         }
     }
     Err(end.fails("END_DATA is missing: the file was cut", "export it again"))
-}
-
-fn finished(header: &Header, spectra: Vec<Spectrum>, at: Place) -> Result<Table> {
-    header.agrees("NUMBER_OF_SETS", spectra.len(), "rows of data")?;
-    if spectra.is_empty() {
-        return Err(at.fails("no samples between BEGIN_DATA and END_DATA", "export them with their spectra"));
-    }
-    let mut lines = HashMap::new();
-    if let Some(twice) = spectra.iter().find(|one| lines.insert(one.name(), ()).is_some()) {
-        return Err(at.fails(format!("two samples are called '{}'", twice.name()), "name every sample once"));
-    }
-    // what is divided by its norm is in fractions
-    let percent = header.keywords.contains_key("SPECTRAL_NORM").then(|| vec![false; spectra.len()]);
-    Ok(Table { percent, ..Table::new(spectra)? })
 }
 
 /// What stands before the data.
@@ -64,14 +91,15 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    fn read(lines: &mut impl Iterator<Item = (Vec<String>, Place<'a>)>, path: &'a str) -> Result<Self> {
+    /// That of the next table, if another one follows.
+    fn read(lines: &mut impl Iterator<Item = Line<'a>>, path: &'a str) -> Option<Self> {
         let mut header = Self { keywords: HashMap::new(), fields: Vec::new(), at: Place { path, line: 1 } };
         let mut in_format = false;
         for (words, at) in lines {
             header.at = at;
             match words.first().map(String::as_str) {
                 None => {}
-                Some("BEGIN_DATA") => return Ok(header),
+                Some("BEGIN_DATA") => return Some(header),
                 Some(BEGIN_FORMAT) => in_format = true,
                 Some("END_DATA_FORMAT") => in_format = false,
                 Some(_) if in_format => header.fields.extend(words.iter().map(|word| word.to_uppercase())),
@@ -81,7 +109,14 @@ impl<'a> Header<'a> {
                 }
             }
         }
-        Err(header.at.fails("no BEGIN_DATA: not a CGATS table", "export the spectra as CGATS or CSV"))
+        None
+    }
+
+    /// What it says of all spectra: what is divided by its norm is in fractions.
+    fn said(&self) -> Said {
+        let scale = if self.keywords.contains_key("SPECTRAL_NORM") { Scale::Fraction } else { Scale::Unsaid };
+        let quantity = self.keywords.get("MEAS_TYPE").and_then(|(name, _)| Quantity::called(name));
+        Said { scale, quantity }
     }
 
     /// A keyword's number, if it is there.
@@ -110,18 +145,17 @@ struct Columns {
 }
 
 impl Columns {
-    fn new(header: &Header) -> Result<Self> {
-        header.agrees("NUMBER_OF_FIELDS", header.fields.len(), "columns")?;
+    /// None if there are none of spectra.
+    fn new(header: &Header) -> Result<Option<Self>> {
         let named =
             header.fields.iter().enumerate().filter_map(|(at, field)| Some((at, wavelength_nm(field)?)));
         let (values, named_nm): (Vec<_>, Vec<_>) = named.unzip();
         if values.is_empty() {
-            return Err(header
-                .at
-                .fails("no columns of spectra, such as SPEC_400", "export them with the samples"));
+            return Ok(None);
         }
+        header.agrees("NUMBER_OF_FIELDS", header.fields.len(), "columns")?;
         let nm = spectral_nm(header, &named_nm)?.unwrap_or(named_nm);
-        let grid = WavelengthGrid::new(nm)
+        check_rising(&nm)
             .map_err(|e| header.at.fails(e.to_string(), "give the columns in the order of wavelengths"))?;
         let (norm, at) = header.number("SPECTRAL_NORM")?.unwrap_or((1.0, header.at));
         if norm <= 0.0 {
@@ -131,7 +165,7 @@ impl Columns {
             ));
         }
         let name = NAMES.iter().find_map(|name| header.fields.iter().position(|field| field == name));
-        Ok(Self { name, values, wavelengths_nm: grid.wavelengths_nm().into(), norm })
+        Ok(Some(Self { name, values, wavelengths_nm: nm.into(), norm }))
     }
 
     /// The spectrum of a row; `number` counts rows from 1.
@@ -174,7 +208,7 @@ fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
 /// The words of a line: separated by blanks unless quoted; `#` begins a comment.
 fn tokens(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quoted) = (Vec::new(), None::<String>, false);
-    for letter in line.trim_start_matches('\u{feff}').chars() {
+    for letter in line.chars() {
         match letter {
             '"' => {
                 quoted = !quoted;
@@ -226,8 +260,9 @@ mod tests {
             [("SPEC_", "SPECTRAL_NORM \"100\""), ("SPECTRAL_NM", ""), ("nm", ""), ("SPECTRAL_NM_", "")]
         {
             let format = format!("SAMPLE_ID\tSAMPLE_NAME RGB_R {prefix}400 {prefix}700");
-            let text = with(scale, &format, "# a comment\n1\t\"dark red\" 255 20 40\r\nA2 x 0 50 60");
-            let spectra = parse("x.ti3", &text).unwrap().in_fractions("x.ti3").unwrap().spectra("x.ti3");
+            let text = with(scale, &format, "# a comment\n1\t\"dark red\" 255 20 40\nA2 x 0 50 60");
+            let spectra =
+                parse("x.ti3", &text).unwrap().in_fractions("x.ti3", None).unwrap().spectra("x.ti3");
             assert_eq!([spectra[0].name(), spectra[1].name()], ["1", "A2"]);
             assert_eq!(spectra[1].values(), [0.5, 0.6], "{prefix}");
             assert_eq!(spectra[0].note().is_some(), scale.is_empty(), "what the norm says needs no note");

@@ -1,60 +1,93 @@
 //! Tables of spectra in CSV: a header row, the wavelength in nm first, then one column per spectrum.
 //!
-//! Any grid will do, in nm or micrometres; cells are separated by commas, semicolons or tabs. A column `red_sd` beside `red` is its
-//! standard deviation and left out. A byte order mark, CRLF, quoted cells and blank lines at the end are accepted.
+//! Any grid will do, in nm, micrometres or ångström; cells are separated by commas, semicolons or tabs, or as a first line `sep=;` says. A
+//! column `red_sd` beside `red` is its standard deviation and left out, as are row numbers before the wavelengths. The first column needs no
+//! name, and a row of units may follow the names. Quoted cells and blank lines at the end are accepted.
 
 use std::collections::HashSet;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::{MAX_SPECTRA, Place, Spectrum, Table, units};
+use super::{MAX_SPECTRA, Place, Said, Scale, Spectrum, Table, finite, units};
 use crate::error::Result;
 
 /// Ending of the column beside `red` that has the standard deviation of `red`.
 pub(super) const SD_ENDING: &str = "_sd";
+/// Last words of such columns, in lower case.
+const DEVIATIONS: [&str; 7] = ["sd", "std", "stdev", "stddev", "stderr", "sigma", "uncertainty"];
 
 /// What may separate cells. A comma stands last: in the others' tables it is a decimal comma.
 const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
 
-/// The spectra of a CSV text, named after their columns; `path` is for the errors.
+/// With these a spreadsheet begins a formula.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+/// What a spreadsheet has before a text that it should take for nothing else.
+const LITERAL: char = '\'';
+
+/// The spectra of a CSV text whose lines end in `\n`, named after their columns; `path` is for the errors.
 ///
 /// # Errors
 /// [`crate::Error::Table`] with the line and column that is wrong.
 pub(in crate::spectrum) fn parse(path: &str, text: &str) -> Result<Table> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text).trim_end();
-    let text = text.replace("\r\n", "\n").replace('\r', "\n");
-    let separator = separator(&text);
-    let mut rows = rows(path, &text, separator);
+    let text = text.trim_end();
+    let (first_line, separator, text) = match declared_separator(text) {
+        Some((separator, below)) => (2, separator, below),
+        None => (1, separator(text), text),
+    };
+    let mut rows = rows(Place { path, line: first_line }, text, separator).peekable();
     let (header, at) =
-        rows.next().transpose()?.unwrap_or((StringRecord::from(vec![""]), Place { path, line: 1 }));
+        rows.next().transpose()?.unwrap_or((StringRecord::from(vec![""]), Place { path, line: first_line }));
     let names = column_names(&header, &at)?;
+    let units = rows.next_if(|row| row.as_ref().is_ok_and(|(row, _)| is_of_units(row)));
+    let unit = |column: usize| match &units {
+        Some(Ok((row, _))) => cells(row).nth(column).unwrap_or(""),
+        _ => "",
+    };
     let mut columns = vec![Vec::new(); names.len()];
     let mut marks = DecimalMarks { comma_allowed: separator != b',', found: None };
     for row in rows {
         let (row, at) = row?;
         read_row(&row, &names, &mut marks, &mut columns, &at)?;
     }
-    let at = Place { path, line: 1 };
     if columns[0].len() < 2 {
         let problem = format!("{} rows of numbers below the header", columns[0].len());
         return Err(at.fails(problem, "a spectrum needs at least two wavelengths"));
     }
-    let (wavelengths_nm, note) = units::to_nm(at, names[0], &columns[0], 2)?;
+    let first = wavelength_column(&names, &columns);
+    let header = format!("{} {}", names[first], unit(first));
+    let first_row = at.line + 1 + usize::from(units.is_some());
+    let (wavelengths_nm, note) = units::to_nm(at, header.trim(), &columns[first], first_row)?;
     let wavelengths_nm: std::sync::Arc<[f64]> = wavelengths_nm.into();
-    let mut named: Vec<_> = names.iter().zip(columns).skip(1).collect();
-    let (count, known) = (named.len(), names[1..].iter().copied().collect());
-    named.retain(|(name, _)| !is_deviation(name, &known));
+    let mut named: Vec<_> = names.iter().zip(columns).enumerate().skip(first + 1).collect();
+    let (count, known) = (named.len(), names[first + 1..].iter().map(|cell| name(cell)).collect());
+    named.retain(|(_, (cell, _))| !is_deviation(name(cell), &known));
+    let numbered = (first > 0).then_some("row numbers left out");
     let left_out = (named.len() < count).then_some("standard deviations left out");
     let commas = (marks.found == Some(',')).then_some("commas read as decimal points");
-    let percent: Vec<bool> = named.iter().map(|(name, _)| units::says_percent(name)).collect();
-    let spectrum =
-        |(name, values): (&&str, _)| Spectrum::from_table((*name).to_owned(), wavelengths_nm.clone(), values);
+    let said = named.iter().map(|(column, (cell, _))| Said {
+        scale: match units::scale(unit(*column)) {
+            Scale::Unsaid if name(cell) == **cell => units::scale(cell),
+            unit => unit,
+        },
+        ..Said::default()
+    });
+    let said = said.collect();
+    let spectrum = |(_, (cell, values)): (usize, (&&str, _))| {
+        Spectrum::from_table(name(cell).to_owned(), wavelengths_nm.clone(), values)
+    };
     let table = Table::new(named.into_iter().map(spectrum).collect())?;
-    Ok(Table {
-        percent: percent.contains(&true).then_some(percent),
-        notes: [note, commas, left_out].into_iter().flatten().collect(),
-        ..table
-    })
+    let notes = [note, commas, numbered, left_out];
+    Ok(Table { said, notes: notes.into_iter().flatten().map(str::to_owned).collect(), ..table })
+}
+
+/// The separator that a first line such as `sep=;` says, as spreadsheets have it, and the lines below.
+fn declared_separator(text: &str) -> Option<(u8, &str)> {
+    let (first, below) = text.split_once('\n')?;
+    let first = first.trim_matches('"').to_ascii_lowercase();
+    match first.strip_prefix("sep=")?.as_bytes() {
+        [separator] => Some((*separator, below)),
+        _ => None,
+    }
 }
 
 /// The first separator that divides the header and the row below it into equally many cells, two or more; if there is none, the
@@ -75,19 +108,17 @@ fn records(text: &str, separator: u8) -> impl Iterator<Item = csv::Result<String
     builder.from_reader(text.as_bytes()).into_records()
 }
 
-/// The rows of a text without carriage returns, each with its line.
+/// The rows of a text, each with its line, of which the first is `start`.
 fn rows<'a>(
-    path: &'a str,
+    start: Place<'a>,
     text: &'a str,
     separator: u8,
 ) -> impl Iterator<Item = Result<(StringRecord, Place<'a>)>> {
-    let mut line = 1;
+    let mut at = start;
     records(text, separator).map(move |record| {
-        let record = record
-            .map_err(|error| Place { path, line }.fails(error.to_string(), "save it as CSV in UTF-8"))?;
+        let record = record.map_err(|error| at.fails(error.to_string(), "save it as CSV in UTF-8"))?;
         let position = record.position();
-        line = position.map_or(line, |position| position.line() as usize);
-        let at = Place { path, line };
+        at.line = position.map_or(at.line, |position| start.line - 1 + position.line() as usize);
         // the reader passes over blank lines, of which the first is where the record seems to begin
         if position.is_some_and(|position| text[position.byte() as usize..].starts_with('\n')) {
             return Err(at.fails("a blank line", "delete it"));
@@ -101,9 +132,57 @@ fn rows<'a>(
     })
 }
 
-/// Whether a column has the standard deviation of another one.
+/// Whether a column has the standard deviation of another one, or of the only other one.
 fn is_deviation(name: &str, known: &HashSet<&str>) -> bool {
-    name.strip_suffix(SD_ENDING).is_some_and(|of| known.contains(of))
+    deviation_of(name).is_some_and(|of| known.contains(of) || of.is_empty() && known.len() == 2)
+}
+
+/// The name of that whose standard deviation a column of this name may have: `red` of `red_sd`, `Red std`, `red (uncertainty)`.
+pub(super) fn deviation_of(name: &str) -> Option<&str> {
+    let name = name.trim_end_matches([')', ']']);
+    let is_end = |letter: char| !letter.is_alphanumeric();
+    let (of, word) = name.rsplit_once(is_end).unwrap_or(("", name));
+    DEVIATIONS.contains(&word.to_lowercase().as_str()).then(|| of.trim_end_matches(['(', '[', '_', '-', ' ']))
+}
+
+/// A name as a cell that neither a spreadsheet takes for a formula nor [`parse`] for a unit.
+pub(super) fn literal(name: &str) -> String {
+    if is_misread(name) { format!("{LITERAL}{name}") } else { name.to_owned() }
+}
+
+/// The name in a cell that [`literal`] may have made.
+fn name(cell: &str) -> &str {
+    cell.strip_prefix(LITERAL).filter(|name| is_misread(name)).unwrap_or(cell)
+}
+
+/// Whether a name begins as a formula does, or says a unit; marks before it do not count.
+fn is_misread(name: &str) -> bool {
+    let name = name.trim_start_matches(LITERAL);
+    name.starts_with(FORMULA) || units::scale(name) != Scale::Unsaid
+}
+
+/// Whether a row has the units of the columns above it: that of wavelengths, and no number.
+fn is_of_units(row: &StringRecord) -> bool {
+    cells(row).any(units::is_of_wavelengths) && cells(row).all(|cell| finite(cell).is_none())
+}
+
+/// The column of wavelengths: the first one, or that behind row numbers or a column without a name.
+fn wavelength_column(names: &[&str], columns: &[Vec<f64>]) -> usize {
+    if units::is_of_wavelengths(names[0]) {
+        return 0;
+    }
+    let counts_from = |start: f64| {
+        let rises = |(row, number): (usize, &f64)| (number - start - row as f64).abs() < f64::EPSILON;
+        columns[0].iter().enumerate().all(rises)
+    };
+    let is_numbered = counts_from(0.0) || counts_from(1.0);
+    let called = names.iter().skip(1).position(|name| units::is_of_wavelengths(name)).map(|at| at + 1);
+    match called {
+        Some(at) if is_numbered || names[0].is_empty() => at,
+        // not just any numbers: those of a spectrum are smaller
+        None if is_numbered && names.len() > 2 && columns[1].iter().all(|nm| *nm >= 100.0) => 1,
+        _ => 0,
+    }
 }
 
 /// The cells of a row; quotes after a space are still there.
@@ -124,7 +203,9 @@ fn column_names<'a>(header: &'a StringRecord, at: &Place) -> Result<Vec<&'a str>
     }
     let mut seen = HashSet::new();
     for (cell, column) in cells(header).zip(1..) {
-        if cell.is_empty() || !seen.insert(cell) {
+        // the first column's name is that of the wavelengths, which may have none
+        let is_nameless = cell.is_empty() && column > 1;
+        if is_nameless || !seen.insert(cell) {
             let problem = format!("column {column} has no name of its own ('{cell}')");
             return Err(at.fails(problem, "name every column once"));
         }
@@ -186,7 +267,7 @@ mod tests {
 
     #[test]
     fn reads_what_spreadsheets_write() {
-        let text = "\u{feff}\"wavelength\", \"R\",G\r\n400.5,1,2e-1\r\n 500 , .5,3\r\n\r\n\n";
+        let text = "\"wavelength\", \"R\",G\n400.5,1,2e-1\n 500 , .5,3\n\n\n";
         let spectra = parse("x.csv", text).unwrap().spectra;
         let names: Vec<_> = spectra.iter().map(Spectrum::name).collect();
         assert_eq!(names, ["R", "G"]);
@@ -200,13 +281,15 @@ mod tests {
         for text in [
             "nm,R,G\n400,0.5,1\n500.5,2,3",
             "nm;R;G\n400;0,5;1\n500,5;2;3",
-            "nm\tR\tG\r400\t0.5\t1\r500.5\t2\t3\r",
+            "nm\tR\tG\n400\t0.5\t1\n500.5\t2\t3\n",
+            "sep=|\nnm|R|G\n400|0.5|1\n500.5|2|3\n",
+            "\"SEP=;\"\nnm;R;G\n400;0.5;1\n500.5;2;3\n",
         ] {
             let table = parse("x.csv", text).unwrap();
             assert_eq!(table.spectra[0].wavelengths_nm(), [400.0, 500.5], "{text}");
             assert_eq!(table.spectra[0].values(), [0.5, 2.0], "{text}");
             assert_eq!(table.spectra[1].values(), [1.0, 3.0], "{text}");
-            assert_eq!(table.notes.contains(&"commas read as decimal points"), text.contains("0,5"));
+            assert_eq!(table.notes.iter().any(|note| note.contains("commas")), text.contains("0,5"));
         }
     }
 
@@ -222,8 +305,7 @@ mod tests {
     fn headers_say_units_and_deviations() {
         let table = parse("x.csv", "wavelength [um],R [%],R [%]_sd,G\n0.4,10,1,2\n0.57,20,1,4\n").unwrap();
         assert_eq!(table.notes, ["micrometres read as nm", "standard deviations left out"]);
-        assert_eq!(table.percent, Some(vec![true, false]));
-        let fractions = table.in_fractions("x.csv").unwrap();
+        let fractions = table.in_fractions("x.csv", None).unwrap();
         let spectra = fractions.spectra("x.csv");
         assert_eq!((spectra[0].values(), spectra[1].values()), (&[0.1, 0.2][..], &[2.0, 4.0][..]));
         let note = "x.csv: micrometres read as nm, standard deviations left out, percent read as fractions";

@@ -4,6 +4,8 @@
 
 mod cgats;
 mod csv;
+mod encoding;
+mod quantity;
 mod tm27;
 mod units;
 mod write;
@@ -17,7 +19,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::Spectrum;
+use super::channels::in_order;
+use super::names::What;
 use crate::error::{Error, Result};
+use crate::message::printable;
+use encoding::Text;
+use quantity::Quantity;
+use units::Scale;
 
 /// Endings of the files that are read.
 pub(super) const ENDINGS: [&str; 6] = ["csv", "sp", "ti3", "txt", "spdx", "json"];
@@ -28,21 +36,29 @@ const MAX_SPECTRA: usize = 10_000;
 /// Sums and products of numbers up to this one stay finite.
 const LARGEST: f64 = 1e30;
 
-/// Reads a JSON file of spectra.
-pub type JsonReader = fn(path: &str) -> Result<Table>;
+/// Reads the spectra of a JSON text; the path is for the errors.
+pub type JsonReader = fn(path: &str, text: &str) -> Result<Table>;
 
 /// The spectra of a file.
 #[derive(Debug)]
 pub struct Table {
     spectra: Vec<Spectrum>,
-    /// Which of them are in percent if they are reflectances; none if the file does not say.
-    percent: Option<Vec<bool>>,
+    /// What the file says of each.
+    said: Vec<Said>,
     /// What was converted.
-    notes: Vec<&'static str>,
+    notes: Vec<String>,
+}
+
+/// What a file says of a spectrum.
+#[derive(Clone, Copy, Debug, Default)]
+struct Said {
+    /// In what it is written if it is a reflectance.
+    scale: Scale,
+    quantity: Option<Quantity>,
 }
 
 impl Table {
-    /// A table of spectra in nm, which does not say whether reflectances would be in percent.
+    /// A table of spectra in nm, of which the file says nothing else.
     ///
     /// # Errors
     /// [`Error::Spectrum`] if a number is larger than any measured one.
@@ -54,19 +70,55 @@ impl Table {
                 return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
             }
         }
-        Ok(Self { spectra, percent: None, notes: Vec::new() })
+        Ok(Self { said: vec![Said::default(); spectra.len()], spectra, notes: Vec::new() })
     }
 
-    /// The same table with the spectra as reflectances in fractions.
-    pub(super) fn in_fractions(mut self, path: &str) -> Result<Self> {
-        let percent = units::percent(path, &self.spectra, self.percent.as_deref())?;
+    /// The same table of spectra that the file calls this: `reflectance`, `irradiance`.
+    #[must_use]
+    pub fn called(mut self, quantity: &str) -> Self {
+        self.said.iter_mut().for_each(|said| said.quantity = Quantity::called(quantity));
+        self
+    }
+
+    /// Checks that the file says nothing else of its spectra, or of one of them, than that they are `what`.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] with what they are.
+    pub(super) fn check_quantity(&self, path: &str, what: What, member: Option<&str>) -> Result<()> {
+        let mut named = self.spectra.iter().zip(&self.said);
+        let other = named.find_map(|(spectrum, said)| {
+            let is_meant = member.is_none_or(|member| spectrum.name() == member);
+            said.quantity.filter(|quantity| is_meant && !quantity.suits(what))
+        });
+        match other {
+            Some(quantity) => {
+                let problem = format!("the file says it holds {}, not {}", quantity.name(), wanted(what));
+                let remedy = "export it again with the right quantity, or name another file".to_owned();
+                Err(Error::Spectrum { name: path.to_owned(), problem, remedy })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the file does not say it are in
+    /// percent, if that is known.
+    pub(super) fn in_fractions(mut self, path: &str, percent: Option<bool>) -> Result<Self> {
+        let scales: Vec<_> = self.said.iter().map(|said| said.scale).collect();
+        let percent = units::percent(path, &self.spectra, &scales, percent)?;
         for (spectrum, _) in self.spectra.iter_mut().zip(&percent).filter(|(_, percent)| **percent) {
             spectrum.values.iter_mut().for_each(|value| *value /= 100.0);
         }
         if percent.contains(&true) {
-            self.notes.push("percent read as fractions");
+            self.notes.push("percent read as fractions".to_owned());
         }
         Ok(self)
+    }
+
+    /// The same table with the spectra as channels of a camera, in their order.
+    pub(super) fn as_channels(mut self, path: &str) -> Result<Self> {
+        let (spectra, notes) = in_order(path, &self.spectra)?;
+        self.notes.extend(notes);
+        Ok(Self { spectra, ..self })
     }
 
     /// The spectra, each with a note of what was converted.
@@ -76,31 +128,40 @@ impl Table {
     }
 }
 
+fn wanted(what: What) -> &'static str {
+    match what {
+        What::Cameras => "sensitivities of a camera",
+        What::Illuminants => "the power of a light",
+        What::Reflectances => "reflectances",
+    }
+}
+
 /// Reads the spectra of a file: CSV, CGATS, IES TM-27 or, by `json`, JSON.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Table`] with the line that is wrong, or as `json`.
 pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
-    if has_ending(path, &["json"]) {
-        return json(path);
-    }
-    let bytes = read_bytes(path)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let table = if has_ending(path, &["spdx"]) || text.trim_start_matches('\u{feff}').starts_with('<') {
+    let Text { text, is_unicode } = Text::decode(path, &read_bytes(path)?)?;
+    let not_unicode = || Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8");
+    let mut table = if has_ending(path, &["json"]) {
+        json(path, &text)
+    } else if has_ending(path, &["spdx"]) || text.starts_with('<') {
         tm27::parse(path, &text)
     } else if has_ending(path, &["sp", "ti3"]) || text.lines().any(|line| line.trim() == cgats::BEGIN_FORMAT)
     {
         // names may be in any encoding, numbers are in all of them the same
         cgats::parse(path, &text)
-    } else if std::str::from_utf8(&bytes).is_ok() {
+    } else if is_unicode {
         csv::parse(path, &text)
     } else {
-        Err(Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8"))
+        Err(not_unicode())
     }?;
     if table.spectra.len() > MAX_SPECTRA {
         let problem = format!("{} spectra, more than {MAX_SPECTRA}", table.spectra.len());
         return Err(Place { path, line: 1 }.fails(problem, "split it into smaller tables"));
     }
+    let shown = |spectrum: Spectrum| spectrum.renamed(|name| printable(name).into_owned());
+    table.spectra = table.spectra.into_iter().map(shown).collect();
     Ok(table)
 }
 
@@ -136,21 +197,22 @@ impl Place<'_> {
 
     /// A finite number.
     fn number(&self, column: &str, text: &str) -> Result<f64> {
-        match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => {
-                let problem = format!("column '{column}': '{text}' is not a number");
-                Err(self.fails(problem, "write a finite number with '.' for decimals"))
-            }
-        }
+        finite(text).ok_or_else(|| {
+            let problem = format!("column '{column}': '{text}' is not a number");
+            self.fails(problem, "write a finite number with '.' for decimals")
+        })
     }
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 /// Says that JSON is not read here.
 ///
 /// # Errors
 /// Always.
-pub(super) fn no_json(path: &str) -> Result<Table> {
+pub(super) fn no_json(path: &str, _text: &str) -> Result<Table> {
     Err(Place { path, line: 1 }.fails("JSON is not read here", "write the spectra as CSV"))
 }
 

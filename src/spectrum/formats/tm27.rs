@@ -8,14 +8,17 @@ use std::fmt::Write;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::{Place, Spectrum, Table, units};
+use super::{Place, Quantity, Said, Spectrum, Table, finite, units};
 use crate::error::Result;
 use crate::markup::escaped;
+use crate::message::printable;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
 /// Elements within elements: the standard has three, and a parser that calls itself must not run out of stack.
 const MAX_DEPTH: usize = 64;
+/// Attributes of an element: the standard has two, and the parser compares each with all others.
+const MAX_ATTRIBUTES: usize = 100;
 
 /// The spectrum of a TM-27 text; several are called by their number.
 ///
@@ -23,10 +26,8 @@ const MAX_DEPTH: usize = 64;
 /// [`crate::Error::Table`] with the line that is wrong.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let at = |line| Place { path, line };
-    if let Some(line) = too_deep(text) {
-        return Err(
-            at(line).fails(format!("elements within more than {MAX_DEPTH} others"), "export the file again")
-        );
+    if let Some((line, problem)) = overgrown(text) {
+        return Err(at(line).fails(problem, "export the file again"));
     }
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| {
@@ -39,48 +40,52 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         return Err(place(root).fails(problem, "export the spectrum as IES TM-27"));
     }
     let blocks: Vec<Node> = children(root, "SpectralDistribution").collect();
-    let (mut spectra, mut notes) = (Vec::new(), Vec::new());
+    let (mut spectra, mut said) = (Vec::new(), Vec::new());
     for (n, block) in blocks.iter().enumerate() {
         let name = if blocks.len() == 1 { "spectrum".to_owned() } else { (n + 1).to_string() };
-        let (spectrum, note) = distribution(name, *block, place)?;
-        spectra.push(spectrum);
-        notes.extend(note.filter(|note| !notes.contains(note)));
+        spectra.push(distribution(name, *block, place)?);
+        let quantity = children(*block, "SpectralQuantity").next().and_then(|node| node.text());
+        said.push(Said { quantity: quantity.and_then(Quantity::called), ..Said::default() });
     }
     if spectra.is_empty() {
         return Err(place(root).fails("no <SpectralDistribution>", "export the spectrum again"));
     }
-    Ok(Table { notes, ..Table::new(spectra)? })
+    Ok(Table { said, ..Table::new(spectra)? })
 }
 
-/// One spectrum, and what was converted.
-fn distribution<'a>(
-    name: String,
-    block: Node,
-    place: impl Fn(Node) -> Place<'a>,
-) -> Result<(Spectrum, Option<&'static str>)> {
+fn distribution<'a>(name: String, block: Node, place: impl Fn(Node) -> Place<'a>) -> Result<Spectrum> {
     let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
     for data in children(block, "SpectralData") {
-        let at = place(data);
-        wavelengths.push(at.number("wavelength", data.attribute("wavelength").unwrap_or("").trim())?);
-        values.push(at.number("SpectralData", data.text().unwrap_or("").trim())?);
+        // where an element is takes as long as to read the text up to it, so that only errors ask
+        let number = |name: &str, text: Option<&str>| {
+            let text = text.unwrap_or("").trim();
+            finite(text).map_or_else(|| place(data).number(name, text), Ok)
+        };
+        wavelengths.push(number("wavelength", data.attribute("wavelength"))?);
+        values.push(number("SpectralData", data.text())?);
     }
+    let at = place(block);
     if values.len() < 2 {
         let problem = format!("{} elements <SpectralData>", values.len());
-        return Err(place(block).fails(problem, "a spectrum needs at least two wavelengths"));
+        return Err(at.fails(problem, "a spectrum needs at least two wavelengths"));
     }
-    let (wavelengths_nm, note) = units::to_nm(place(block), "nm", &wavelengths, place(block).line)?;
-    Ok((Spectrum::from_table(name, wavelengths_nm.into(), values), note))
+    let (wavelengths_nm, _) = units::to_nm(at, "nm", &wavelengths, at.line)?;
+    Ok(Spectrum::from_table(name, wavelengths_nm.into(), values))
 }
 
 fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     node.children().filter(move |child| child.tag_name().name() == name)
 }
 
-/// The line, if any, on which elements lie within too many others.
-fn too_deep(text: &str) -> Option<usize> {
+/// The line, if any, on which elements lie within too many others, or have too many attributes; and which of them.
+fn overgrown(text: &str) -> Option<(usize, String)> {
     let mut depth = 0_usize;
     let opens = |tag: &str| {
         !tag.starts_with(['/', '!', '?']) && !tag.split('>').next().is_some_and(|tag| tag.ends_with('/'))
+    };
+    // a value is in quotes behind a sign of equality, and holds no '<'
+    let attributes = |tag: &str| {
+        tag.split('=').skip(1).filter(|behind| behind.trim_start().starts_with(['"', '\''])).count()
     };
     let mut line = 1;
     for (n, tag) in text.split('<').enumerate() {
@@ -91,7 +96,10 @@ fn too_deep(text: &str) -> Option<usize> {
             _ => {}
         }
         if depth > MAX_DEPTH {
-            return Some(line);
+            return Some((line, format!("elements within more than {MAX_DEPTH} others")));
+        }
+        if attributes(tag) > MAX_ATTRIBUTES {
+            return Some((line, format!("an element with more than {MAX_ATTRIBUTES} attributes")));
         }
         line += tag.matches('\n').count();
     }
@@ -117,7 +125,7 @@ pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectanc
          \x20   <SpectralQuantity>reflectance</SpectralQuantity>\n\
          {data}\x20 </SpectralDistribution>\n\
          </IESTM2714>\n",
-        escaped(name)
+        escaped(&printable(name))
     )
 }
 
@@ -182,6 +190,10 @@ mod tests {
             ),
             (file(&"<a>".repeat(1_000_000)), "within more than 64 others"),
             (file(&"<a/>".repeat(1_100_000)), "not XML that is read here"),
+            (
+                file(&format!("<a {}/>", "b='1' ".repeat(200_000))),
+                "x.spdx:3: an element with more than 100 attributes",
+            ),
         ] {
             let message = parse("x.spdx", &text).unwrap_err().to_string();
             assert!(message.contains(want), "{want}: {}", &message[..message.len().min(300)]);

@@ -1,16 +1,19 @@
-//! Units of files that may not say theirs: nm or micrometres, fractions or percent.
+//! Units of files that may not say theirs: nm, micrometres or ångström, fractions or percent.
 
 use super::{Place, Spectrum};
 use crate::error::Result;
+use crate::spectrum::kinds::bad;
+use crate::spectrum::names::words;
 
 /// The units in which wavelengths are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Unit {
     Nanometres,
     Micrometres,
+    Angstroms,
 }
 
-/// Wavelengths as a file has them, the first in line `first_line`, in nm; and a note if they were micrometres.
+/// Wavelengths as a file has them, the first in line `first_line`, in nm; and a note if they were in another unit.
 ///
 /// `header` may name the unit; if not, it is known by the size of the numbers.
 ///
@@ -22,6 +25,10 @@ pub(super) fn to_nm(
     wavelengths: &[f64],
     first_line: usize,
 ) -> Result<(Vec<f64>, Option<&'static str>)> {
+    if is_other_axis(header) {
+        let problem = format!("column '{header}' does not hold wavelengths");
+        return Err(at.fails(problem, "give wavelengths in nm"));
+    }
     let found = unit(header).unwrap_or(match wavelengths.first() {
         Some(first) if looks_small(*first) => Unit::Micrometres,
         _ => Unit::Nanometres,
@@ -36,10 +43,19 @@ pub(super) fn to_nm(
         }
         wavelengths_nm.push(nm);
     }
-    Ok((wavelengths_nm, (found == Unit::Micrometres).then_some("micrometres read as nm")))
+    Ok((wavelengths_nm, found.note()))
 }
 
 impl Unit {
+    /// What is done to wavelengths in it.
+    fn note(self) -> Option<&'static str> {
+        match self {
+            Self::Nanometres => None,
+            Self::Micrometres => Some("micrometres read as nm"),
+            Self::Angstroms => Some("\u{e5}ngstr\u{f6}m read as nm"),
+        }
+    }
+
     /// A wavelength in nm.
     fn nm(self, value: f64, at: Place) -> Result<f64> {
         let (nm, name, remedy) = match self {
@@ -53,6 +69,11 @@ impl Unit {
                 (value * 1e9).round() / 1e6,
                 "micrometres",
                 "give micrometres, such as 0.4 to 0.7, or head them nm",
+            ),
+            Self::Angstroms => (
+                value / 10.0,
+                "\u{e5}ngstr\u{f6}m",
+                "give \u{e5}ngstr\u{f6}m, such as 4000 to 7000, or head them nm",
             ),
         };
         if (100.0..=3000.0).contains(&nm) {
@@ -69,51 +90,99 @@ fn looks_small(value: f64) -> bool {
 }
 
 fn unit(header: &str) -> Option<Unit> {
-    let header = header.to_lowercase();
-    header.split(|letter: char| !letter.is_alphanumeric()).find_map(|word| match word {
+    words(header).find_map(|word| match word.as_str() {
         "nm" | "nanometre" | "nanometres" | "nanometer" | "nanometers" => Some(Unit::Nanometres),
         // U+00B5, micro sign, and U+03BC, Greek mu
         "um" | "\u{b5}m" | "\u{3bc}m" | "micron" | "microns" => Some(Unit::Micrometres),
         "micrometre" | "micrometres" | "micrometer" | "micrometers" => Some(Unit::Micrometres),
+        // U+00E5; U+212B, the sign, is the same in lower case
+        "\u{e5}" | "\u{e5}ngstr\u{f6}m" | "angstrom" | "angstroms" | "angstroem" => Some(Unit::Angstroms),
         _ => None,
     })
 }
 
-/// Whether the name of a column says percent: `R [%]`, `reflectance_percent`; `50% grey` is a name.
-pub(super) fn says_percent(column: &str) -> bool {
-    let sign = column
-        .split_once('%')
-        .is_some_and(|(before, _)| !before.trim_end().ends_with(|c: char| c.is_ascii_digit()));
-    let lower = column.to_lowercase();
-    sign || lower
-        .split(|letter: char| !letter.is_alphanumeric())
-        .any(|word| word == "percent" || word == "pct")
+/// Whether the name of a column says that it holds wavelengths.
+pub(super) fn is_of_wavelengths(column: &str) -> bool {
+    const NAMES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "\u{3bb}", "wavelen"];
+    unit(column).is_some() || words(column).any(|word| NAMES.contains(&word.as_str()))
 }
 
-/// Largest number that is a fraction badly scaled rather than percent.
+/// Whether the name of a column says that it holds what else spectra are plotted over: frequency, photon energy, wavenumber.
+fn is_other_axis(column: &str) -> bool {
+    const NAMES: [&str; 8] = ["thz", "ghz", "hz", "ev", "frequency", "energy", "wavenumber", "wavenumbers"];
+    let per_cm = column.to_lowercase().replace([' ', '^'], "");
+    let is_wavenumber = ["cm-1", "1/cm", "cm\u{207b}\u{b9}"].iter().any(|unit| per_cm.contains(unit));
+    is_wavenumber || words(column).any(|word| NAMES.contains(&word.as_str()))
+}
+
+/// In what reflectances are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Scale {
+    /// Nobody says: numbers tell, if they can.
+    #[default]
+    Unsaid,
+    Fraction,
+    Percent,
+    /// The name has a percent sign that may be part of it.
+    Unclear,
+}
+
+/// What the name of a column says: `R [%]`, `Sample1 %` and `reflectance_percent` are in percent, `50% grey` is a name, and `grey 50%` may
+/// be either.
+pub(super) fn scale(column: &str) -> Scale {
+    if words(column).any(|word| word == "percent" || word == "pct") {
+        return Scale::Percent;
+    }
+    let Some((before, after)) = column.split_once('%') else { return Scale::Unsaid };
+    let number = before.trim_end();
+    let is_number = number.rsplit(char::is_whitespace).next().is_some_and(|word| word.parse::<f64>().is_ok());
+    match after.chars().any(char::is_alphanumeric) {
+        _ if !is_number => Scale::Percent,
+        true => Scale::Unsaid,
+        // `Sample 1 %` is numbered
+        false if number != before => Scale::Percent,
+        false => Scale::Unclear,
+    }
+}
+
+/// Largest number that may be a fraction badly scaled rather than percent.
 const FRACTION_MAX: f64 = 2.0;
 /// Largest number that can be a reflectance in percent, fluorescence included.
 const PERCENT_MAX: f64 = 200.0;
 
-/// Which of the reflectances of a file are in percent: what it `said`, else all of them if one has a value above 2.
+/// Which of the reflectances of a file are in percent: what the file says of each, else what is `given` for all, else all of them if one
+/// has a value above 2.
 ///
 /// # Errors
-/// [`crate::Error::Table`] if percent were said and no value is above 1: fractions are more likely then.
-pub(super) fn percent(path: &str, spectra: &[Spectrum], said: Option<&[bool]>) -> Result<Vec<bool>> {
-    let peak = |spectra: &[&Spectrum]| {
-        spectra.iter().flat_map(|spectrum| spectrum.values()).copied().fold(f64::NEG_INFINITY, f64::max)
+/// [`crate::Error::Spectrum`] if that leaves it open.
+pub(super) fn percent(
+    path: &str,
+    spectra: &[Spectrum],
+    scales: &[Scale],
+    given: Option<bool>,
+) -> Result<Vec<bool>> {
+    let is_open = |scale: &Scale| matches!(scale, Scale::Unsaid | Scale::Unclear);
+    let open = || spectra.iter().zip(scales).filter(|(_, scale)| is_open(scale));
+    let peak = open().flat_map(|(spectrum, _)| spectrum.values()).copied().fold(f64::NEG_INFINITY, f64::max);
+    let is_percent = match given {
+        Some(given) => given,
+        // where some say percent the others are fractions
+        None if scales.contains(&Scale::Percent) => false,
+        None => peak > FRACTION_MAX && peak <= PERCENT_MAX,
     };
-    let Some(said) = said else {
-        let peak = peak(&spectra.iter().collect::<Vec<_>>());
-        return Ok(vec![peak > FRACTION_MAX && peak <= PERCENT_MAX; spectra.len()]);
-    };
-    let percent: Vec<_> = spectra.iter().zip(said).filter(|(_, said)| **said).map(|(one, _)| one).collect();
-    if !percent.is_empty() && peak(&percent) <= 1.0 {
-        let problem = format!("column '{}' says percent, but no value is above 1", percent[0].name());
-        let remedy = "take the word out of the header, or write fractions without it";
-        return Err(Place { path, line: 1 }.fails(problem, remedy));
+    if given.is_none() && !is_percent {
+        if let Some((spectrum, _)) = open().find(|(_, scale)| **scale == Scale::Unclear) {
+            let problem = format!("the name '{}' may say percent, or be just a name", spectrum.name());
+            return Err(bad(path, problem, "give --percent, or --percent=no if the values are fractions"));
+        }
+        if peak > 1.0 && peak <= FRACTION_MAX {
+            let problem = format!("reflectance {peak} is outside 0..1, unless it is percent of a dark sheet");
+            let remedy =
+                "give --percent if so, else leave out fluorescent samples or rescale wrongly scaled ones";
+            return Err(bad(path, problem, remedy));
+        }
     }
-    Ok(said.to_vec())
+    Ok(scales.iter().map(|scale| *scale == Scale::Percent || is_open(scale) && is_percent).collect())
 }
 
 #[cfg(test)]
@@ -140,12 +209,37 @@ mod tests {
     }
 
     #[test]
-    fn percent_is_a_word_but_no_part_of_a_name() {
-        for column in ["R [%]", "%R", "reflectance_percent", "Reflectance (Percent)", "r pct"] {
-            assert!(says_percent(column), "{column}");
+    fn other_axes_are_no_wavelengths() {
+        let (nm, note) = to_nm(AT, "Wavelength (\u{212b})", &[3800.0, 5700.0], 2).unwrap();
+        assert_eq!((nm, note), (vec![380.0, 570.0], Some("\u{e5}ngstr\u{f6}m read as nm")));
+        for header in
+            ["Frequency (THz)", "Photon energy [eV]", "wavenumber", "cm-1", "1/\u{3bb} (cm\u{207b}\u{b9})"]
+        {
+            let message = to_nm(AT, header, &[430.0, 790.0], 2).unwrap_err().to_string();
+            assert!(message.contains("does not hold wavelengths"), "{message}");
         }
-        for column in ["50% grey", "50 % grey", "percentile", "red"] {
-            assert!(!says_percent(column), "{column}");
+    }
+
+    #[test]
+    fn percent_is_a_word_but_no_part_of_a_name() {
+        for (column, want) in [
+            ("R [%]", Scale::Percent),
+            ("%R", Scale::Percent),
+            ("%", Scale::Percent),
+            ("reflectance_percent", Scale::Percent),
+            ("Reflectance (Percent)", Scale::Percent),
+            ("r pct", Scale::Percent),
+            ("Sample1 %", Scale::Percent),
+            ("Sample 1 %", Scale::Percent),
+            ("Sample1%", Scale::Percent),
+            ("1 [%]", Scale::Percent),
+            ("50% grey", Scale::Unsaid),
+            ("50 % grey", Scale::Unsaid),
+            ("percentile", Scale::Unsaid),
+            ("red", Scale::Unsaid),
+            ("grey 50%", Scale::Unclear),
+        ] {
+            assert_eq!(scale(column), want, "{column}");
         }
     }
 }

@@ -5,10 +5,11 @@ use std::iter;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::csv::SD_ENDING;
-use super::{cgats, has_ending, tm27, units};
+use super::csv::{SD_ENDING, deviation_of, literal};
+use super::{cgats, has_ending, tm27};
 use crate::error::{Error, Result};
 use crate::files::Saved;
+use crate::message::printable;
 
 /// A reflectance as it was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,7 @@ pub struct Measured {
 }
 
 /// Writes reflectances as the file's ending says, whole or not at all: `.csv`, one column per sample and beside it that of its standard
-/// deviation (`red`, `red_sd`); CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
+/// deviation (`red`, `red_sd`), before names that a spreadsheet would take for a formula a `'`; CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
 ///
 /// # Errors
 /// [`Error::Usage`] if the ending is another or `.spdx` should hold several; [`Error::Spectrum`] if there is none, or if wavelengths differ
@@ -100,16 +101,16 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample or its standard deviation has, that say no unit, and without control characters and those `unfit` for
-/// the format.
+/// Names that no other sample or its standard deviation has, with control characters escaped and without those `unfit` for the format.
 fn names(samples: &[Measured], unfit: &str) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut unique = |sample: &Measured| {
-        let plain = sample.name.replace(|letter: char| letter.is_control() || unfit.contains(letter), "_");
-        let plain = if units::says_percent(&plain) { plain.replace('%', "_") } else { plain };
+        let plain = printable(&sample.name).replace(|letter: char| unfit.contains(letter), "_");
         let numbered = (2..).map(|n| format!("{plain} ({n})"));
         let both = |name: &String| [name.clone(), format!("{name}{SD_ENDING}")];
-        let is_free = |name: &String| both(name).iter().all(|name| !taken.contains(name));
+        let is_free = |name: &String| {
+            deviation_of(name).is_none() && both(name).iter().all(|name| !taken.contains(name))
+        };
         let name = iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
         taken.extend(both(&name));
         name
@@ -121,7 +122,8 @@ fn csv(path: &Path, samples: &[Measured]) -> Result<Vec<u8>> {
     let (nm, names) = (common_nm(path, samples)?, names(samples, "\""));
     let sd_name = |name: &String| format!("{name}{SD_ENDING}");
     let heads = names.iter().zip(samples).flat_map(|(name, sample)| {
-        iter::once(name.clone()).chain(sample.reflectance_sd.as_ref().map(|_| sd_name(name)))
+        let sd_name = sample.reflectance_sd.as_ref().map(|_| sd_name(name));
+        iter::once(literal(name)).chain(sd_name.map(|name| literal(&name)))
     });
     let columns =
         samples.iter().flat_map(|sample| iter::once(&sample.reflectance).chain(&sample.reflectance_sd));
@@ -203,8 +205,9 @@ mod tests {
         let samples = ["a,\"b\"", "c", "c", "c (2)", "c_sd", "d [%]", "50% e"].map(|name| sample(name, nm));
         assert_eq!(
             names(&samples, ",\""),
-            ["a__b_", "c", "c (2)", "c (2) (2)", "c_sd (2)", "d [_]", "50% e"]
+            ["a__b_", "c", "c (2)", "c (2) (2)", "c_sd (2)", "d [%]", "50% e"]
         );
+        assert_eq!(names(&[sample("\u{1b}]0;f\u{202e}", nm)], ""), ["\\u{1b}]0;f\\u{202e}"]);
     }
 
     #[test]
@@ -214,6 +217,26 @@ mod tests {
         let text = std::fs::read_to_string(file.path()).unwrap();
         assert!(text.starts_with("wavelength_nm,\"red, matte\"\n400,0.1\n500,0.333"), "{text}");
         assert_eq!(parse_csv("x.csv", &text).unwrap().spectra[0].name(), "red, matte");
+    }
+
+    /// OWASP, "CSV Injection": cells that begin with these are formulas.
+    #[test]
+    fn no_name_is_a_formula_or_a_unit() {
+        let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+        let named = ["=1+2", "+3", "-4", "@sum", "'=5", "''6", "R [%]", "percent", "'50%", "'quoted"];
+        let samples = named.map(|name| {
+            let reflectance_sd = Some(vec![0.01; 3]);
+            Measured { reflectance_sd, ..sample(name, [400.0, 500.0, 600.0]) }
+        });
+        write(file.path(), &samples).unwrap();
+        let text = std::fs::read_to_string(file.path()).unwrap();
+        let header = text.lines().next().unwrap();
+        assert!(header.split(',').all(|cell| !cell.starts_with(['=', '+', '-', '@'])), "{header}");
+        let table = parse_csv("x.csv", &text).unwrap().in_fractions("x.csv", None).unwrap();
+        for (spectrum, sample) in table.spectra.iter().zip(&samples) {
+            assert_eq!((spectrum.name(), spectrum.values()), (&*sample.name, &sample.reflectance[..]));
+        }
+        assert_eq!(table.spectra.len(), samples.len());
     }
 
     /// `date -u -d @SECONDS +%FT%TZ`, GNU coreutils.

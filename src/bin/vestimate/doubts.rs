@@ -1,0 +1,134 @@
+//! What speaks against the estimate of a photograph: how it was taken, and what its facets show.
+
+use nalgebra::DMatrix;
+use vfold::Result;
+use vfold::estimate::Estimate;
+use vfold::estimate::noise::Noise;
+use vfold::estimate::shading::Shading;
+use vfold::estimate::unknowns::SceneModel;
+use vfold::estimate::verdict::{Doubt, Level, unusual_exposure, unusual_findings};
+use vfold::forward::FacetValues;
+use vfold::image::Processing;
+use vfold::scene::FoldSetting;
+use vfold::spectrum::have_one_peak;
+use vfold::spectrum::library::{What, is_built_in};
+use vfold::stream::{CameraRecord, Sample, Scene};
+
+use super::context::Context;
+use super::estimator::Estimator;
+
+/// What speaks against an estimate from how the photograph was taken.
+pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
+    let camera = record.camera()?;
+    let all = [
+        developed(sample)?,
+        processed(sample)?,
+        black(sample)?,
+        open_sides(sample)?,
+        scaled(&camera),
+        stand_in(&camera),
+    ];
+    Ok(all.into_iter().flatten().collect())
+}
+
+fn developed(sample: &Sample) -> Result<Option<Doubt>> {
+    Ok(sample.is_developed()?.then(|| Doubt {
+        level: Level::Wrong,
+        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
+            .to_owned(),
+        remedy:
+            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
+                .to_owned(),
+    }))
+}
+
+fn processed(sample: &Sample) -> Result<Option<Doubt>> {
+    let because = |processing| match processing {
+        Processing::Curve => {
+            "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's"
+        }
+        Processing::Matrix => {
+            "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files"
+        }
+    };
+    Ok(sample.processing()?.map(|processing| Doubt {
+        level: Level::Wrong,
+        because: because(processing).to_owned(),
+        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
+    }))
+}
+
+fn black(sample: &Sample) -> Result<Option<Doubt>> {
+    Ok(sample.unsubtracted_black()?.map(|part| {
+        let percent = 100.0 * part;
+        Doubt::new(
+            format!("the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"),
+            "give vextract --black-level auto, or the camera's black level",
+        )
+    }))
+}
+
+fn open_sides(sample: &Sample) -> Result<Option<Doubt>> {
+    let sides = sample.open_sides()?.join(", ");
+    Ok((!sides.is_empty()).then(|| {
+        Doubt::new(
+            format!("no edge of the sheet lies along {sides}: it goes on beyond the corners, or does not reach them"),
+            "mark the corners of the whole panels, as vextract --overlay shows them",
+        )
+    }))
+}
+
+/// Two built-in cameras were published so.
+fn scaled(camera: &CameraRecord) -> Option<Doubt> {
+    let is_own = !is_built_in(What::Cameras, &camera.name);
+    let has_one_peak = is_own && have_one_peak(camera.sensitivities.iter().map(Vec::as_slice));
+    has_one_peak.then(|| {
+        Doubt::new(
+            format!("all channels of the camera {} have the same peak: scaled one by one, they have lost their ratios", camera.name),
+            "give curves on one scale, or make them of a photograph of a colour chart (vextract --save-camera)",
+        )
+    })
+}
+
+fn stand_in(camera: &CameraRecord) -> Option<Doubt> {
+    camera.stands_in.as_ref().map(|one| {
+        Doubt::new(
+            format!("nobody measured the curves of {}: another camera's stand in for them", one.camera),
+            "make them of a photograph of a colour chart (vextract --save-camera)",
+        )
+    })
+}
+
+impl Estimator<'_> {
+    /// What the facets of a photograph show to speak against its estimate.
+    pub fn doubts_of_facets(
+        &self,
+        context: &Context,
+        sample: &Sample,
+        (rgb, noise): (&FacetValues, &Noise),
+        estimate: &Estimate,
+    ) -> Result<Vec<Doubt>> {
+        let is_stated = self.exposure_of(sample)?.known().is_some();
+        let is_by_chart = sample.fields.has("calibration");
+        let mut doubts = unusual_findings(estimate);
+        if !is_by_chart {
+            doubts.extend(unusual_exposure(estimate, is_stated));
+        }
+        if let Some(record) = &context.record {
+            let model = &context.told.model;
+            let sd = noise.deviations(model.facets(), rgb)?;
+            let ideal = ideal_facets(model, &estimate.reflectance);
+            let grid = FoldSetting::of(record)?.fold().facets();
+            let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
+            let shading = Shading::new(grid, rgb, &sd);
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(&ideal, is_loose)));
+        }
+        Ok(doubts)
+    }
+}
+
+/// The facets of an ideal fold, or another surface, of this reflectance, all that is unknown of the scene being as expected.
+fn ideal_facets(model: &SceneModel, reflectance: &[f64]) -> DMatrix<f64> {
+    let expected: Vec<f64> = model.unknowns().iter().map(|one| one.at(0.0).0).collect();
+    model.with_values(&expected).facet_rgb(reflectance)
+}

@@ -1,0 +1,32 @@
+//! Light of a black body, such as the filament of a lamp: Planck's law.
+
+use super::Spectrum;
+use super::grid::WavelengthGrid;
+use super::kinds::bad;
+use crate::error::Result;
+
+/// Second radiation constant hc/k, nm K (CODATA 2018, exact).
+const C2_NM_K: f64 = 1.438_776_877e7;
+/// Temperatures of what shines, K.
+const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 1000.0..=25000.0;
+
+/// The temperature that a name such as `2856K` says, K.
+pub(super) fn temperature_k(name: &str) -> Option<f64> {
+    name.strip_suffix(['K', 'k'])?.trim().parse().ok().filter(|kelvin: &f64| kelvin.is_finite())
+}
+
+/// Relative power of a black body of `temperature_k`, 100 at 560 nm, on 300..830 nm by 1.
+///
+/// # Errors
+/// [`crate::Error::Spectrum`] outside 1000..25000 K.
+pub(super) fn black_body(temperature_k: f64) -> Result<Spectrum> {
+    let name = format!("{temperature_k}K");
+    if !TEMPERATURES_K.contains(&temperature_k) {
+        let problem = "black bodies are given for 1000..25000 K";
+        return Err(bad(&name, problem, "choose a temperature within it"));
+    }
+    let power = |nm: f64| nm.powi(-5) / (C2_NM_K / (nm * temperature_k)).exp_m1();
+    let grid = WavelengthGrid::uniform(300.0, 830.0, 1.0)?;
+    let values = grid.wavelengths_nm().iter().map(|nm| 100.0 * power(*nm) / power(560.0)).collect();
+    Ok(Spectrum::from_table(name, grid.wavelengths_nm().into(), values))
+}
