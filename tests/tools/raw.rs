@@ -269,7 +269,7 @@ fn what_cannot_be_understood_is_refused() {
         (dng().with(33422, 1, &[0, 1, 1]), ""),
         (dng().with(33422, 1, &[3, 1, 4, 5]), "not red, green and blue"),
         (dng().with(33422, 1, &[1, 1, 1, 1]), "not red, green and blue"),
-        (dng().with(50713, SHORT, &[9, 9]), ""),
+        (dng().with(50713, SHORT, &[2, 2]).with(50714, LONG, &[1, 2, 3]), "BlackLevel"),
         (dng().with(50829, LONG, &[0, 0, 800, 800]), ""),
         (dng().with(50829, LONG, &[4, 4, 4, 4]), "outside the sensor"),
         (dng().with(50719, LONG, &[6, 6]).with(50720, LONG, &[6, 6]), ""),

@@ -1,6 +1,7 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
 mod dng;
+mod layout;
 mod levels;
 mod opcodes;
 mod sensor;
@@ -52,7 +53,7 @@ pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
     }
     let dng = Tiff::new(&bytes).map_or(Ok(None), |tiff| Dng::read(path, tiff))?;
     if let Some(dng) = &dng {
-        dng.show(&mut bytes);
+        dng.shown.to(&mut bytes);
     }
     let Decoded { image, exif } = decode(path, bytes)?;
     let camera = camera_notes(&image, &exif);
@@ -114,6 +115,11 @@ fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> {
         return Err(damaged(path, format!("the picture is {w} x {h} px of {samples} numbers")));
     }
     room::ask(bytes, &path.display().to_string(), TOO_LARGE)
+}
+
+/// What only a DNG can be.
+fn unread(path: &Path, what: &str) -> Error {
+    Error::picture(path, format!("this vfold does not read DNG {what}"), ELSEWHERE)
 }
 
 fn damaged(path: &Path, problem: impl Display) -> Error {
