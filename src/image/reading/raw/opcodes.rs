@@ -221,9 +221,10 @@ fn bad_sites(of: &mut Parameters, active: Rect) -> Option<Vec<[Range<usize>; 2]>
     }
     for _ in 0..rectangles {
         let [top, left, bottom, right] = [of.size()?, of.size()?, of.size()?, of.size()?];
-        sites.push([top..bottom, left..right]);
+        sites.push([top..bottom.max(top), left..right.max(left)]);
     }
-    let count: usize = sites.iter().map(|[rows, columns]| rows.len().saturating_mul(columns.len())).sum();
+    let count = sites.iter().map(|[rows, columns]| rows.len().saturating_mul(columns.len()));
+    let count = count.fold(0, usize::saturating_add);
     (count <= active.d.w * active.d.h).then_some(sites)
 }
 
@@ -479,9 +480,9 @@ mod tests {
             vec![(9, 0, map.concat())]
         };
         let mosaic = Mosaic::new("RGGB").unwrap();
-        let corner = |light: &Array3<f32>| [light[[0, 0, 0]], light[[0, 1, 0]], light[[1, 1, 0]]];
-        assert_eq!(corner(&light(3, &one_gain(1), Some(&mosaic))), [0.5, 1.5, 0.5]);
-        assert_eq!(corner(&light(2, &one_gain(0), Some(&mosaic))), [1.5; 3]);
-        assert_eq!(corner(&light(2, &one_gain(1), Some(&mosaic))), [0.5; 3]);
+        let corner = |light: &Array3<f32>| (light[[0, 0, 0]], light[[0, 1, 0]], light[[1, 1, 0]]);
+        assert_eq!(corner(&light(3, &one_gain(1), Some(&mosaic))), (0.5, 1.5, 0.5));
+        assert_eq!(corner(&light(2, &one_gain(0), Some(&mosaic))), (1.5, 1.5, 1.5));
+        assert_eq!(corner(&light(2, &one_gain(1), Some(&mosaic))), (0.5, 0.5, 0.5));
     }
 }
