@@ -467,6 +467,17 @@ mod tests {
         assert_eq!((light[[2, 6, 0]], light[[2, 5, 0]], light[[4, 5, 0]]), (0.5, 1.5, 2.0));
     }
 
+    /// The axis in the middle, light twice as bright in the farthest corner, by the distance's square.
+    #[test]
+    fn vignetting_grows_from_the_axis() {
+        let doubles = [1.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5].into_iter().flat_map(f64::to_be_bytes);
+        let light = light(3, &[(3, 1, doubles.collect())], None);
+        // half a pixel from the axis both ways, and 3.5 and 2.5 px; the corner is 5 px off
+        for (site, factor) in [([1, 2, 0], 1.02), ([4, 6, 0], 1.74)] {
+            assert!((light[site] - 0.5 * factor).abs() < 1e-6, "{site:?}: {}", light[site]);
+        }
+    }
+
     /// After demosaicing a site's plane is its colour.
     #[test]
     fn planes_are_colours_after_demosaicing() {
