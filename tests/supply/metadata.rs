@@ -1,4 +1,4 @@
-//! What Cargo knows of the crates in `Cargo.lock`, default features, for the machine of the Debian package.
+//! What Cargo knows of the crates in `Cargo.lock`, `raw` among its features, for the machine of the Debian package.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -8,7 +8,7 @@ use serde_json::Value;
 /// `cargo metadata`; it needs no network, since whoever runs this has built it.
 pub fn metadata() -> Value {
     let run = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--locked", "--offline"])
+        .args(["metadata", "--format-version", "1", "--locked", "--offline", "--features", "raw"])
         .args(["--filter-platform", "x86_64-unknown-linux-gnu"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()

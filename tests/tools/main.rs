@@ -30,6 +30,8 @@ mod python;
 mod raw;
 #[cfg(feature = "raw")]
 mod raw_files;
+#[cfg(feature = "raw")]
+mod raw_layouts;
 #[path = "../common/ready.rs"]
 mod ready;
 mod real_sheets;

@@ -205,9 +205,8 @@ fn every_site_has_its_own_black_level() {
         (info.black_level.as_slice(), info.white_level.as_slice()),
         (&[200.0, 350.0, 100.0][..], &[1100.0; 3][..])
     );
-    // (500 - 300)/800 and (500 - 400)/700 are the greens' light
-    let green = |left_and_right: f64, above_and_below: f64| f64::midpoint(left_and_right, above_and_below);
-    assert_light(&photograph, (3, 3), [100.0 / 900.0, green(0.25, 1.0 / 7.0), 0.8]);
+    // white is 700 above the highest black level; 500 - 300 and 500 - 400 are the greens' light
+    assert_light(&photograph, (3, 3), [100.0, f64::midpoint(200.0, 100.0), 800.0].map(|light| light / 700.0));
 }
 
 #[test]
@@ -259,7 +258,7 @@ fn refusal(dng: &Dng) -> String {
 fn what_cannot_be_understood_is_refused() {
     let dng = || Dng::new(8, even(8, 8));
     for (bad, says) in [
-        (dng().with(256, LONG, &[60000]).with(257, LONG, &[60000]), "50000 px"),
+        (dng().with(256, LONG, &[60000]).with(257, LONG, &[60000]), "more than 2 GiB"),
         (dng().with(256, LONG, &[49000]).with(257, LONG, &[10000]), ""),
         (dng().with(256, LONG, &[u32::MAX]).with(257, LONG, &[u32::MAX]), ""),
         (dng().with(256, LONG, &[0]), ""),
@@ -270,7 +269,7 @@ fn what_cannot_be_understood_is_refused() {
         (dng().with(33422, 1, &[0, 1, 1]), ""),
         (dng().with(33422, 1, &[3, 1, 4, 5]), "not red, green and blue"),
         (dng().with(33422, 1, &[1, 1, 1, 1]), "not red, green and blue"),
-        (dng().with(50713, SHORT, &[9, 9]), ""),
+        (dng().with(50713, SHORT, &[2, 2]).with(50714, LONG, &[1, 2, 3]), "BlackLevel"),
         (dng().with(50829, LONG, &[0, 0, 800, 800]), ""),
         (dng().with(50829, LONG, &[4, 4, 4, 4]), "outside the sensor"),
         (dng().with(50719, LONG, &[6, 6]).with(50720, LONG, &[6, 6]), ""),
@@ -283,23 +282,29 @@ fn what_cannot_be_understood_is_refused() {
     assert_eq!(open(flat.saved(&tempfile::tempdir().unwrap())).unwrap_err().exit_status(), 2);
 }
 
-/// Lossy DNG has its curve in a list of opcodes; shading of the lens, as phones write it, is left as it is.
+/// Lossy DNG has its curve in a list of opcodes, Adobe's converter the distortion of many lenses.
 #[test]
-fn numbers_that_are_light_only_after_opcodes_are_refused() {
-    let list = |opcode: u8| {
+fn opcodes_that_are_not_applied_are_refused_by_name() {
+    let list = |opcode: u8, is_optional: u8| {
         let bytes =
-            [&[0, 0, 0, 1, 0, 0, 0, opcode, 1, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4][..], &[0; 4]].concat();
-        bytes.into_iter().map(u32::from).collect::<Vec<_>>()
+            [&[0, 0, 0, 1, 0, 0, 0, opcode, 1, 3, 0, 0, 0, 0, 0, is_optional, 0, 0, 0, 4][..], &[0; 4]];
+        bytes.concat().into_iter().map(u32::from).collect::<Vec<_>>()
     };
-    for (tag, opcode, says) in
-        [(51009, 8, "MapPolynomial"), (51008, 7, "MapTable"), (51022, 12, "ScalePerRow")]
-    {
-        let message = refusal(&Dng::new(8, even(8, 8)).with(tag, 1, &list(opcode)));
-        assert!(message.contains(says) && message.contains("linear TIFF"), "{message}");
+    for (tag, opcode, is_optional, says) in [
+        (51009, 8, 0, "MapPolynomial in OpcodeList2"),
+        (51009, 8, 1, "MapPolynomial in OpcodeList2"),
+        (51008, 7, 0, "MapTable in OpcodeList1"),
+        (51022, 10, 0, "DeltaPerRow in OpcodeList3"),
+        (51022, 1, 0, "WarpRectilinear in OpcodeList3"),
+        (51022, 77, 0, "opcode 77 in OpcodeList3"),
+        (51009, 9, 1, "GainMap in OpcodeList2 makes no sense"),
+    ] {
+        let message = refusal(&Dng::new(8, even(8, 8)).with(tag, 1, &list(opcode, is_optional)));
+        assert!(message.contains(says), "{message}");
     }
     let folder = tempfile::tempdir().unwrap();
-    let shaded = Dng::new(8, even(8, 8)).with(51009, 1, &list(9));
-    assert_light(&open(shaded.saved(&folder)).unwrap(), (4, 4), [0.2, 0.4, 0.8]);
+    let distorted = Dng::new(8, even(8, 8)).with(51022, 1, &list(1, 1));
+    assert_light(&open(distorted.saved(&folder)).unwrap(), (4, 4), [0.2, 0.4, 0.8]);
 }
 
 #[test]

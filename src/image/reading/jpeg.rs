@@ -3,6 +3,17 @@
 /// A JPEG file's bytes.
 pub(super) struct Jpeg<'a>(pub &'a [u8]);
 
+/// What the header of a frame says.
+#[cfg_attr(not(feature = "raw"), allow(dead_code, reason = "the reader of RAW files looks at more of it"))]
+pub(super) struct Frame {
+    /// `0xc0` for baseline, `0xc3` for lossless.
+    pub marker: u8,
+    pub bits: u8,
+    pub height: usize,
+    pub width: usize,
+    pub components: u8,
+}
+
 const END: u8 = 0xd9;
 
 impl Jpeg<'_> {
@@ -13,10 +24,24 @@ impl Jpeg<'_> {
 
     /// How many components a pixel has: 1 grey, 3 colours, 4 inks; none before any frame.
     pub fn components(&self) -> Option<u8> {
+        self.frame().map(|frame| frame.components)
+    }
+
+    /// Its first frame's header.
+    pub fn frame(&self) -> Option<Frame> {
         let is_frame = |marker| matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc);
-        let (_, at) = self.markers().find(|(marker, _)| is_frame(*marker))?;
-        // after marker and length: depth, height, width
-        self.0.get(at + 9).copied()
+        let (marker, at) = self.markers().find(|(marker, _)| is_frame(*marker))?;
+        // after marker and length
+        let header: [u8; 6] = *self.0.get(at + 4..)?.first_chunk()?;
+        let [bits, height_high, height_low, width_high, width_low, components] = header;
+        let number = |high, low| usize::from(u16::from_be_bytes([high, low]));
+        Some(Frame {
+            marker,
+            bits,
+            height: number(height_high, height_low),
+            width: number(width_high, width_low),
+            components,
+        })
     }
 
     /// Its markers, and where they are.

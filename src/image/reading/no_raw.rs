@@ -8,6 +8,6 @@ use crate::{Error, Result};
 
 /// Says how RAW files are read.
 pub(super) fn open(path: &Path, _options: &ReadOptions) -> Result<Photograph> {
-    let remedy = "build vfold with 'cargo install --path . --features raw', or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";
-    Err(Error::picture(path, "a RAW file, which this vfold was built without", remedy))
+    const REMEDY: &str = "in a clone of vfold run share/install, or cargo build --release --features raw; or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";
+    Err(Error::picture(path, "a camera's RAW file, which this vfold was built without", REMEDY))
 }

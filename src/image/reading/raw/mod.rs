@@ -1,29 +1,42 @@
 //! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
 
+mod dng;
+mod layout;
+mod levels;
 mod opcodes;
 mod sensor;
 mod taken;
 mod tiff_directories;
 
 use std::any::Any;
+use std::fmt::Display;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Once};
 
-use rawler::decoders::{FormatHint, RawDecodeParams};
+use rawler::decoders::RawDecodeParams;
 use rawler::exif::Exif;
 use rawler::formats::tiff::Rational;
+use rawler::imgop::Dim2;
 use rawler::imgop::xyz::Illuminant;
 use rawler::rawsource::RawSource;
 use rawler::{RawImage, RawImageData, RawlerError};
 
+use self::dng::Dng;
 use self::sensor::Sensor;
+use self::tiff_directories::Tiff;
 use super::decode::{DAMAGED, MAX_BYTES, TOO_LARGE, one_line};
 use crate::image::numbers::{ReadOptions, Transfer};
 use crate::image::photograph::{CameraNotes, Orientation, Photograph};
 use crate::room;
 use crate::{Error, Result};
+
+/// What to do with a file that only others read, or that needs what is not done here.
+const ELSEWHERE: &str =
+    "convert it to linear TIFF with a program that does, or take the camera's own RAW file";
+/// The same where a decoder does not say why it gave up.
+const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: copy it again, or convert it to linear TIFF";
 
 /// Reads a RAW file.
 ///
@@ -34,73 +47,83 @@ pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
         let problem = format!("{} is a RAW file, whose numbers are linear", path.display());
         return Err(Error::usage("--transfer", problem, "leave it out"));
     }
-    let bytes = std::fs::read(path).map_err(|source| Error::file(path.display(), source))?;
-    let Decoded { image, exif, is_dng, undone } = decode(path, bytes)?;
-    if let Some(opcode) = undone {
-        let problem =
-            format!("its numbers are light only after {opcode}, one of DNG's opcodes, which are not applied");
-        return Err(Error::picture(
-            path,
-            problem,
-            "convert it to linear TIFF with a program that does, or take the camera's own RAW file",
-        ));
+    let mut bytes = std::fs::read(path).map_err(|source| Error::file(path.display(), source))?;
+    if let Some(fault) = tiff_directories::fault(&bytes) {
+        return Err(damaged(path, one_line(&fault)));
     }
+    let dng = Tiff::new(&bytes).map_or(Ok(None), |tiff| Dng::read(path, tiff))?;
+    if let Some(dng) = &dng {
+        dng.shown.to(&mut bytes);
+    }
+    let Decoded { image, exif } = decode(path, bytes)?;
     let camera = camera_notes(&image, &exif);
-    Sensor::new(path, image, is_dng, options)?.photograph(path, camera)
+    match dng {
+        Some(dng) => Sensor::of_dng(path, image, dng, options)?.photograph(path, camera),
+        None => Sensor::of_camera(path, image, options)?.photograph(path, camera),
+    }
 }
 
 /// What a decoder made of a file.
 struct Decoded {
     image: RawImage,
     exif: Exif,
-    is_dng: bool,
-    /// What is still to be done to its numbers.
-    undone: Option<&'static str>,
 }
 
-/// Decodes a file. The decoders stop at some damaged files with a panic, which is reported like their other errors.
+/// Decodes a file. The decoders stop at some files with a panic, which is reported like their other errors.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
-    let failed = |message: &str| Error::picture(path, one_line(message), DAMAGED);
-    if let Some(fault) = tiff_directories::fault(&bytes) {
-        return Err(failed(&fault));
-    }
+    let failed = |message: &str| {
+        let problem = format!("its decoder failed on it: {}", one_line(message));
+        Error::picture(path, problem, UNREAD_OR_DAMAGED)
+    };
     let source = RawSource::new_from_shared_vec(Arc::new(bytes)).with_path(path);
     let decode = || -> std::result::Result<Decoded, RawlerError> {
         let (decoder, parameters) = (rawler::get_decoder(&source)?, RawDecodeParams::default());
         let image = decoder.raw_image(&source, &parameters, false)?;
         let exif = decoder.raw_metadata(&source, &parameters)?.exif;
-        let undone = opcodes::needed(decoder.as_ref());
-        Ok(Decoded { image, exif, is_dng: decoder.format_hint() == FormatHint::DNG, undone })
+        Ok(Decoded { image, exif })
     };
     let decoded = without_panic_messages(|| panic::catch_unwind(AssertUnwindSafe(decode)))
         .map_err(|payload| failed(panic_message(payload.as_ref())))?
         .map_err(|error| match error {
             RawlerError::Unsupported { what, model, make, mode } => {
-                let problem = one_line(&format!("{what}: {make} {model} {mode}"));
+                let problem =
+                    one_line(&format!("this vfold does not read it: {what}: {make} {model} {mode}"));
                 Error::picture(path, problem, "convert the file to DNG or linear TIFF")
             }
             RawlerError::DecoderFailed(message) => failed(&message),
         })?;
-    check_size(path, &decoded.image)?;
-    Ok(decoded)
-}
-
-fn check_size(path: &Path, image: &RawImage) -> Result<()> {
-    let RawImage { width, height, cpp, .. } = image;
-    let samples = match &image.data {
+    let RawImage { width, height, cpp, data, .. } = &decoded.image;
+    let samples = match data {
         RawImageData::Integer(data) => data.len(),
         RawImageData::Float(data) => data.len(),
     };
-    if samples as u64 * size_of::<f32>() as u64 > MAX_BYTES {
-        let problem = format!("{width} x {height} px would take more than 2 GiB");
-        return Err(Error::picture(path, problem, TOO_LARGE));
+    check_size(path, decoded.image.dim(), *cpp)?;
+    if samples != width * height * cpp {
+        return Err(damaged(path, format!("{samples} numbers do not fill {width} x {height} px")));
     }
-    room::ask(samples as u64 * size_of::<f32>() as u64, &path.display().to_string(), TOO_LARGE)?;
-    if samples == 0 || samples != width.saturating_mul(*height).saturating_mul(*cpp) {
-        let problem = format!("{samples} numbers do not fill {width} x {height} px");
-        return Err(Error::picture(path, problem, DAMAGED));
+    Ok(decoded)
+}
+
+/// Whether there is room for a sensor's numbers, and there are any.
+fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> {
+    let Dim2 { w, h } = size;
+    let bytes = w.saturating_mul(h).saturating_mul(samples).saturating_mul(size_of::<f32>()) as u64;
+    if bytes > MAX_BYTES {
+        return Err(Error::picture(path, format!("{w} x {h} px would take more than 2 GiB"), TOO_LARGE));
     }
-    Ok(())
+    if bytes == 0 {
+        return Err(damaged(path, format!("the picture is {w} x {h} px of {samples} numbers")));
+    }
+    room::ask(bytes, &path.display().to_string(), TOO_LARGE)
+}
+
+/// What only a DNG can be.
+fn unread(path: &Path, what: &str) -> Error {
+    Error::picture(path, format!("this vfold does not read DNG {what}"), ELSEWHERE)
+}
+
+fn damaged(path: &Path, problem: impl Display) -> Error {
+    Error::picture(path, problem, DAMAGED)
 }
 
 /// Panics are printed when they happen, also those that are caught: not while a file is decoded, on any thread.

@@ -6,37 +6,46 @@
 use std::path::Path;
 
 use ndarray::{Array3, Axis};
-use rawler::imgop::{Point, Rect};
+use rawler::imgop::{Dim2, Point, Rect};
 use rawler::rawimage::RawPhotometricInterpretation;
 use rawler::{RawImage, RawImageData};
 use rayon::prelude::*;
 
-use crate::image::numbers::{ReadOptions, Scale, Transfer};
+use super::dng::Dng;
+use super::levels::Levels;
+use super::opcodes::Opcodes;
+use crate::image::numbers::ReadOptions;
 use crate::image::photograph::{CameraNotes, Mosaic, Photograph, PhotographInfo, SensorInfo};
 use crate::{Error, Result};
 
 /// The numbers of a sensor and how they are to be understood.
 pub(super) struct Sensor {
-    image: RawImage,
+    numbers: RawImageData,
+    /// Columns of the whole sensor.
+    width: usize,
+    /// Numbers of a pixel.
+    samples: usize,
+    /// `16-bit` or `float`.
+    kind: String,
     area: Rect,
     /// The colour filters from the area's corner on; none if every site has all colours.
     mosaic: Option<Mosaic>,
-    /// One for each black level of the repeated pattern.
-    scales: Vec<Scale>,
-    /// Column and row of the whole sensor where that pattern begins.
-    pattern_origin: Point,
+    levels: Levels,
+    /// What stored numbers stand for, by number; empty if for themselves.
+    linearization: Vec<f64>,
+    opcodes: Opcodes,
 }
 
 /// What to do with a sensor that is not like others.
 const CONVERT: &str = "convert the file to linear TIFF";
 
 impl Sensor {
-    /// The sensor of a decoded file.
+    /// The sensor of a decoded file that is no DNG.
     ///
     /// # Errors
     /// [`Error::Picture`] if its pixels have neither one of the colours red, green and blue, nor all three, nor none, or
     /// the picture lies outside the sensor; [`Error::Usage`] if the white level is not above the black level.
-    pub fn new(path: &Path, image: RawImage, is_dng: bool, options: &ReadOptions) -> Result<Self> {
+    pub fn of_camera(path: &Path, image: RawImage, options: &ReadOptions) -> Result<Self> {
         let refused = |problem| Error::picture(path, problem, CONVERT);
         let area = area(&image).ok_or_else(|| refused("the picture lies outside the sensor"))?;
         let mosaic = match &image.photometric {
@@ -46,13 +55,37 @@ impl Sensor {
             }
             _ => None,
         };
-        let mosaic = mosaic.map(|mosaic| mosaic.starting_at(area.p.x, area.p.y));
-        if !matches!((&mosaic, image.cpp), (Some(_), 1) | (None, 1 | 3)) {
-            return Err(refused("its pixels have neither one number nor three"));
+        let levels =
+            Levels::of_camera(&image).ok_or_else(|| refused("its black or white level is not known"))?;
+        Self {
+            levels: levels.given(options)?,
+            width: image.width,
+            samples: image.cpp,
+            kind: format!("{}-bit", image.bps),
+            area,
+            mosaic: mosaic.map(|mosaic| mosaic.starting_at(area.p.x, area.p.y)),
+            numbers: image.data,
+            linearization: Vec::new(),
+            opcodes: Opcodes::default(),
         }
-        // in a DNG the levels begin where the sensor sees light
-        let pattern_origin = image.active_area.filter(|_| is_dng).map_or(Point::zero(), |area| area.p);
-        Ok(Self { scales: scales(&image, options)?, image, area, mosaic, pattern_origin })
+        .checked(path)
+    }
+
+    /// The sensor of a DNG, of which the decoder unpacked the numbers.
+    ///
+    /// # Errors
+    /// As [`Sensor::of_camera`].
+    pub fn of_dng(path: &Path, image: RawImage, dng: Dng, options: &ReadOptions) -> Result<Self> {
+        let Dng { samples, kind, area, mosaic, levels, linearization, opcodes, .. } = dng;
+        let (numbers, width, levels) = (image.data, image.width, levels.given(options)?);
+        Self { numbers, width, samples, kind, area, mosaic, levels, linearization, opcodes }.checked(path)
+    }
+
+    fn checked(self, path: &Path) -> Result<Self> {
+        if matches!((&self.mosaic, self.samples), (Some(_), 1) | (None, 1 | 3)) {
+            return Ok(self);
+        }
+        Err(Error::picture(path, "its pixels have neither one number nor three", CONVERT))
     }
 
     /// The photograph it took.
@@ -60,10 +93,11 @@ impl Sensor {
     /// # Errors
     /// [`Error::Picture`] if it is smaller than 3 x 3 px.
     pub fn photograph(self, path: &Path, camera: CameraNotes) -> Result<Photograph> {
-        let light = match &self.image.data {
+        let mut light = match &self.numbers {
             RawImageData::Integer(data) => self.light(data),
             RawImageData::Float(data) => self.light(data),
         };
+        self.opcodes.apply(&mut light, self.area.p, self.mosaic.as_ref());
         let info = self.info(camera);
         match &self.mosaic {
             None => Ok(Photograph::from_stored_light(light, info)),
@@ -72,61 +106,79 @@ impl Sensor {
         }
     }
 
-    /// Linear light of the area by row, column and channel, infinite where it is clipped.
+    /// Linear light of the area by row, column and channel, infinite where it is clipped, NaN where a site saw nothing.
     fn light<T: Copy + Into<f64> + Sync>(&self, data: &[T]) -> Array3<f32> {
-        let (cpp, Rect { p: corner, d: size }) = (self.image.cpp, self.area);
-        let mut light = Array3::zeros((size.h, size.w, cpp));
+        let Rect { p: corner, d: size } = self.area;
+        let mut light = Array3::zeros((size.h, size.w, self.samples));
+        let white_above_black: Vec<f64> = (0..self.samples)
+            .map(|sample| self.levels.white(sample) - self.levels.highest_black(sample))
+            .collect();
         light.outer_iter_mut().into_par_iter().enumerate().for_each(|(row, mut light)| {
             let y = corner.y + row;
-            let stored = &data[(y * self.image.width + corner.x) * cpp..][..light.len()];
-            for (((x, channel), light), stored) in light.indexed_iter_mut().zip(stored) {
-                *light = self.scale(corner.x + x, y, channel).linear((*stored).into()) as f32;
+            let stored = &data[(y * self.width + corner.x) * self.samples..][..light.len()];
+            for (((column, sample), light), stored) in light.indexed_iter_mut().zip(stored) {
+                let number = self.linear((*stored).into());
+                *light = if number >= self.levels.white(sample) {
+                    f32::INFINITY
+                } else {
+                    let above_black = number - self.levels.black(corner.x + column, y, sample);
+                    (above_black / white_above_black[sample]) as f32
+                };
             }
         });
         light
     }
 
-    /// The scale of a number at a column and row of the whole sensor.
+    /// What a stored number stands for; NaN if the site saw nothing.
     #[inline]
-    fn scale(&self, x: usize, y: usize, channel: usize) -> &Scale {
-        let (levels, origin) = (&self.image.blacklevel, self.pattern_origin);
-        let column = (x + levels.width - origin.x % levels.width) % levels.width;
-        let row = (y + levels.height - origin.y % levels.height) % levels.height;
-        &self.scales[(row * levels.width + column) * levels.cpp + channel]
+    fn linear(&self, stored: f64) -> f64 {
+        if !stored.is_finite() || self.opcodes.leaves_out(stored) {
+            return f64::NAN;
+        }
+        match &self.linearization[..] {
+            [] => stored,
+            // numbers beyond the table stand for its last
+            table => table[(stored as usize).min(table.len() - 1)],
+        }
     }
 
     fn info(&self, camera: CameraNotes) -> PhotographInfo {
         let Rect { p: corner, d: size } = self.area;
-        let colours = match self.image.cpp {
+        let colours = match self.samples {
             _ if self.mosaic.is_some() => "mosaic",
             1 => "grey",
             _ => "RGB",
         };
+        let [black_level, white_level] = self.levels();
         PhotographInfo {
-            black_level: self.levels(|scale| scale.black),
-            white_level: self.levels(|scale| scale.white),
+            black_level,
+            white_level,
             sensor: Some(SensorInfo {
                 mosaic: self.mosaic.as_ref().map(Mosaic::letters),
                 area: [corner.x, corner.y, size.w, size.h],
             }),
-            ..PhotographInfo::new(camera, (size.w, size.h), format!("RAW, {}-bit, {colours}", self.image.bps))
+            ..PhotographInfo::new(camera, (size.w, size.h), format!("RAW, {}, {colours}", self.kind))
         }
     }
 
-    /// The mean level of each channel.
-    fn levels(&self, level: fn(&Scale) -> f64) -> Vec<f64> {
-        let Some(mosaic) = &self.mosaic else {
-            return (0..self.image.cpp).map(|channel| level(self.scale(0, 0, channel))).collect();
-        };
-        let (width, height) =
-            (mosaic.side() * self.image.blacklevel.width, mosaic.side() * self.image.blacklevel.height);
-        let mut sums = [(0.0, 0.0); 3];
-        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            let (sum, count) = &mut sums[mosaic.colour(x, y)];
-            *sum += level(self.scale(self.area.p.x + x, self.area.p.y + y, 0));
-            *count += 1.0;
+    /// Of each channel the black level, in the mean over the area, and the white level.
+    fn levels(&self) -> [Vec<f64>; 2] {
+        let levels = &self.levels;
+        let side = self.mosaic.as_ref().map_or(1, Mosaic::side);
+        let repeated = levels.repeat().map(|(width, height)| Dim2::new(side * width, side * height));
+        let area = Rect::new(self.area.p, repeated.unwrap_or(self.area.d));
+        match &self.mosaic {
+            None => [
+                (0..self.samples).map(|sample| levels.mean_black(area, sample, |_, _| true)).collect(),
+                (0..self.samples).map(|sample| levels.white(sample)).collect(),
+            ],
+            Some(mosaic) => [
+                (0..3)
+                    .map(|colour| levels.mean_black(area, 0, |x, y| mosaic.colour(x, y) == colour))
+                    .collect(),
+                vec![levels.white(0); 3],
+            ],
         }
-        sums.map(|(sum, count)| sum / count).into()
     }
 }
 
@@ -136,19 +188,4 @@ fn area(image: &RawImage) -> Option<Rect> {
     let area = image.crop_area.or(image.active_area).unwrap_or(whole);
     let fits = area.p.x.checked_add(area.d.w)? <= whole.d.w && area.p.y.checked_add(area.d.h)? <= whole.d.h;
     (fits && !area.is_empty()).then_some(area)
-}
-
-/// A scale for each black level of the repeated pattern; levels of the command line hold for all.
-fn scales(image: &RawImage, options: &ReadOptions) -> Result<Vec<Scale>> {
-    let white = |channel: usize| image.whitelevel.0.get(channel).or(image.whitelevel.0.first());
-    let scale = |(k, black): (usize, f32)| {
-        let levels = ReadOptions {
-            transfer: Transfer::Linear,
-            black_level: options.black_level.or(Some(black.into())),
-            white_level: options.white_level.or(white(k % image.cpp).copied().map(f64::from)),
-            development: None,
-        };
-        Scale::new(&levels, 16)
-    };
-    image.blacklevel.as_vec().into_iter().enumerate().map(scale).collect()
 }

@@ -1,4 +1,4 @@
-//! The directories of TIFF files, with which most RAW files begin: whether a decoder can read them.
+//! The directories of TIFF files, with which most RAW files begin: what they say, and whether a decoder can read them.
 //!
 //! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than there is gives no error to
 //! catch: the program ends. A decoder that follows directories in a circle never ends.
@@ -6,47 +6,25 @@
 /// Entries that lead to further directories: `SubIFDs`, EXIF and GPS.
 const POINTERS: [u16; 3] = [330, 34665, 34853];
 /// Bytes of a value, by type from 1 on.
-const SIZES: [u64; 12] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8];
+const SIZES: [u64; 13] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4];
 /// A camera writes a dozen directories,
 const DIRECTORIES_MAX: usize = 64;
 /// and entries that lead out of the file are rare.
 const ASTRAY_MAX: usize = 4;
 const ENTRY_BYTES: usize = 12;
 
-/// Why no decoder should see this file; none if it may, or is no TIFF.
-pub(super) fn fault(file: &[u8]) -> Option<String> {
-    if !(file.starts_with(b"II") || file.starts_with(b"MM")) {
-        return None;
-    }
-    let tiff = Tiff { file, is_little: file.starts_with(b"II") };
-    let mut waiting = vec![tiff.u32(4)?];
-    let mut seen = 0;
-    while let Some(directory) = waiting.pop() {
-        seen += 1;
-        if seen > DIRECTORIES_MAX {
-            return Some(format!("more than {DIRECTORIES_MAX} directories"));
-        }
-        let mut astray = 0;
-        for entry in tiff.entries(directory as usize) {
-            if entry.bytes() > file.len() as u64 {
-                return Some(format!("tag {} claims more than the file has", entry.tag));
-            }
-            astray += usize::from(!tiff.has(&entry));
-            if POINTERS.contains(&entry.tag) {
-                waiting.extend(tiff.longs(&entry));
-            }
-        }
-        if astray > ASTRAY_MAX {
-            return Some("a directory leads out of the file".to_owned());
-        }
-        waiting.extend(tiff.next(directory as usize));
-    }
-    None
-}
-
-struct Tiff<'a> {
+/// A TIFF file, whatever its mark.
+#[derive(Clone, Copy)]
+pub(super) struct Tiff<'a> {
     file: &'a [u8],
     is_little: bool,
+}
+
+/// One of its directories.
+#[derive(Clone, Copy)]
+pub(super) struct Directory<'a> {
+    tiff: Tiff<'a>,
+    at: usize,
 }
 
 struct Entry {
@@ -57,54 +35,180 @@ struct Entry {
     values: usize,
 }
 
-impl Entry {
-    fn bytes(&self) -> u64 {
-        let size = SIZES.get(usize::from(self.kind).wrapping_sub(1)).unwrap_or(&1);
-        size * u64::from(self.count)
+/// Why no decoder should see this file; none if it may, or is no TIFF.
+pub(super) fn fault(file: &[u8]) -> Option<String> {
+    let directories = Tiff::new(file)?.directories();
+    if directories.len() > DIRECTORIES_MAX {
+        return Some(format!("more than {DIRECTORIES_MAX} directories"));
     }
+    directories.iter().find_map(Directory::fault)
 }
 
-impl Tiff<'_> {
-    fn u16(&self, at: usize) -> Option<u16> {
+impl<'a> Tiff<'a> {
+    /// None if the file is none.
+    pub fn new(file: &'a [u8]) -> Option<Self> {
+        let is_little = file.starts_with(b"II");
+        (is_little || file.starts_with(b"MM")).then_some(Self { file, is_little })
+    }
+
+    /// Its directories, the first one first; one more than may be if they have no end.
+    pub fn directories(self) -> Vec<Directory<'a>> {
+        let mut found = Vec::new();
+        let mut waiting: Vec<u32> = self.u32(4).into_iter().collect();
+        while let Some(at) = waiting.pop() {
+            let directory = Directory { tiff: self, at: at as usize };
+            found.push(directory);
+            if found.len() > DIRECTORIES_MAX {
+                break;
+            }
+            for entry in directory.entries().filter(|entry| POINTERS.contains(&entry.tag)) {
+                waiting.extend(self.longs(&entry));
+            }
+            waiting.extend(directory.next());
+        }
+        found
+    }
+
+    /// The whole file.
+    pub fn file(self) -> &'a [u8] {
+        self.file
+    }
+
+    /// Two bytes as the file orders them.
+    pub fn short(self, value: u16) -> [u8; 2] {
+        if self.is_little { value.to_le_bytes() } else { value.to_be_bytes() }
+    }
+
+    /// Four bytes as the file orders them.
+    pub fn long(self, value: u32) -> [u8; 4] {
+        if self.is_little { value.to_le_bytes() } else { value.to_be_bytes() }
+    }
+
+    fn u16(self, at: usize) -> Option<u16> {
         let bytes = *self.file.get(at..)?.first_chunk()?;
         Some(if self.is_little { u16::from_le_bytes(bytes) } else { u16::from_be_bytes(bytes) })
     }
 
-    fn u32(&self, at: usize) -> Option<u32> {
+    fn u32(self, at: usize) -> Option<u32> {
         let bytes = *self.file.get(at..)?.first_chunk()?;
         Some(if self.is_little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
     }
 
-    fn entries(&self, directory: usize) -> impl Iterator<Item = Entry> {
-        let count = self.u16(directory).unwrap_or(0);
-        (0..usize::from(count)).map_while(move |n| {
-            let at = directory + 2 + ENTRY_BYTES * n;
+    fn u64(self, at: usize) -> Option<u64> {
+        let bytes = *self.file.get(at..)?.first_chunk()?;
+        Some(if self.is_little { u64::from_le_bytes(bytes) } else { u64::from_be_bytes(bytes) })
+    }
+
+    /// The number of a type at a place.
+    fn number(self, kind: u16, at: usize) -> Option<f64> {
+        let signed = |at| self.u32(at).map(u32::cast_signed);
+        Some(match kind {
+            1 | 7 => (*self.file.get(at)?).into(),
+            3 => self.u16(at)?.into(),
+            4 | 13 => self.u32(at)?.into(),
+            5 => f64::from(self.u32(at)?) / f64::from(self.u32(at + 4)?),
+            6 => self.file.get(at)?.cast_signed().into(),
+            8 => self.u16(at)?.cast_signed().into(),
+            9 => signed(at)?.into(),
+            10 => f64::from(signed(at)?) / f64::from(signed(at + 4)?),
+            11 => f32::from_bits(self.u32(at)?).into(),
+            12 => f64::from_bits(self.u64(at)?),
+            _ => return None,
+        })
+    }
+
+    /// The numbers of an entry of LONG.
+    fn longs(self, entry: &Entry) -> impl Iterator<Item = u32> {
+        let first = if entry.count > 1 { self.u32(entry.values) } else { Some(entry.values as u32) };
+        let place = move |n: usize| Some(first? as usize + 4 * n);
+        (0..entry.count as usize).take(DIRECTORIES_MAX + 1).map_while(move |n| self.u32(place(n)?))
+    }
+}
+
+impl Entry {
+    fn size(&self) -> u64 {
+        *SIZES.get(usize::from(self.kind).wrapping_sub(1)).unwrap_or(&1)
+    }
+
+    fn bytes(&self) -> u64 {
+        self.size() * u64::from(self.count)
+    }
+}
+
+impl<'a> Directory<'a> {
+    /// The numbers of a tag; none if it is not there, has none, or they are not in the file.
+    pub fn numbers(&self, tag: u16) -> Option<Vec<f64>> {
+        let entry = self.entry(tag).filter(|entry| self.has(entry) && entry.count > 0)?;
+        let first = self.first(&entry)?;
+        let at = |n: u32| first.checked_add(n as usize * entry.size() as usize);
+        (0..entry.count).map(|n| self.tiff.number(entry.kind, at(n)?)).collect()
+    }
+
+    /// The first number of a tag.
+    pub fn number(&self, tag: u16) -> Option<f64> {
+        self.numbers(tag)?.first().copied()
+    }
+
+    /// The bytes of a tag's values.
+    pub fn bytes(&self, tag: u16) -> Option<&'a [u8]> {
+        let entry = self.entry(tag)?;
+        let first = self.first(&entry)?;
+        self.tiff.file.get(first..first.checked_add(entry.bytes() as usize)?)
+    }
+
+    /// Whether it has a tag.
+    pub fn has_tag(&self, tag: u16) -> bool {
+        self.entry(tag).is_some()
+    }
+
+    /// A tag's entry as it is stored.
+    pub fn stored(&self, tag: u16) -> Option<[u8; ENTRY_BYTES]> {
+        let entry = self.entry(tag)?;
+        self.tiff.file.get(entry.values - 8..)?.first_chunk().copied()
+    }
+
+    /// Why no decoder should see it.
+    fn fault(&self) -> Option<String> {
+        let size = self.tiff.file.len() as u64;
+        if let Some(entry) = self.entries().find(|entry| entry.bytes() > size) {
+            return Some(format!("tag {} claims more than the file has", entry.tag));
+        }
+        let astray = self.entries().filter(|entry| !self.has(entry)).count();
+        (astray > ASTRAY_MAX).then(|| "a directory leads out of the file".to_owned())
+    }
+
+    fn entry(&self, tag: u16) -> Option<Entry> {
+        self.entries().find(|entry| entry.tag == tag)
+    }
+
+    fn entries(&self) -> impl Iterator<Item = Entry> + use<'a> {
+        let Self { tiff, at } = *self;
+        (0..usize::from(tiff.u16(at).unwrap_or(0))).map_while(move |n| {
+            let at = at + 2 + ENTRY_BYTES * n;
             Some(Entry {
-                tag: self.u16(at)?,
-                kind: self.u16(at + 2)?,
-                count: self.u32(at + 4)?,
+                tag: tiff.u16(at)?,
+                kind: tiff.u16(at + 2)?,
+                count: tiff.u32(at + 4)?,
                 values: at + 8,
             })
         })
     }
 
-    /// Whether the values of an entry are in the file.
-    fn has(&self, entry: &Entry) -> bool {
-        let place = self.u32(entry.values).filter(|_| entry.bytes() > 4);
-        place.is_none_or(|place| u64::from(place) + entry.bytes() <= self.file.len() as u64)
+    /// Where the values of an entry begin: short ones stand in the entry.
+    fn first(&self, entry: &Entry) -> Option<usize> {
+        if entry.bytes() > 4 { self.tiff.u32(entry.values).map(|at| at as usize) } else { Some(entry.values) }
     }
 
-    /// The numbers of an entry of LONG.
-    fn longs(&self, entry: &Entry) -> impl Iterator<Item = u32> {
-        let first = if entry.count > 1 { self.u32(entry.values) } else { Some(entry.values as u32) };
-        let place = move |n: usize| Some(first? as usize + 4 * n);
-        (0..entry.count as usize).take(DIRECTORIES_MAX + 1).map_while(move |n| self.u32(place(n)?))
+    /// Whether the values of an entry are in the file.
+    fn has(&self, entry: &Entry) -> bool {
+        let place = self.tiff.u32(entry.values).filter(|_| entry.bytes() > 4);
+        place.is_none_or(|place| u64::from(place) + entry.bytes() <= self.tiff.file.len() as u64)
     }
 
     /// The directory after this one.
-    fn next(&self, directory: usize) -> Option<u32> {
-        let count = usize::from(self.u16(directory)?);
-        self.u32(directory + 2 + ENTRY_BYTES * count).filter(|next| *next != 0)
+    fn next(&self) -> Option<u32> {
+        let count = usize::from(self.tiff.u16(self.at)?);
+        self.tiff.u32(self.at + 2 + ENTRY_BYTES * count).filter(|next| *next != 0)
     }
 }
 

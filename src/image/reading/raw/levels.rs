@@ -1,0 +1,189 @@
+//! Black and white levels of a sensor.
+//!
+//! Every site may have a black level of its own. What white is above black is one for all sites of a sample, the white level above the highest
+//! black one, so that equal numbers above black are equal light.
+//!
+//! # Source
+//! Adobe, *Digital Negative Specification* 1.7, chapter 5.
+
+use std::path::Path;
+
+use ndarray::{Array3, Axis};
+use rawler::RawImage;
+use rawler::imgop::{Point, Rect};
+
+use super::damaged;
+use super::tiff_directories::Directory;
+use crate::Result;
+use crate::image::numbers::{ReadOptions, Scale, Transfer};
+
+const BLACK_REPEAT: u16 = 50713;
+const BLACK: u16 = 50714;
+const BLACK_DELTA_H: u16 = 50715;
+const BLACK_DELTA_V: u16 = 50716;
+const WHITE: u16 = 50717;
+
+/// More levels than any pattern has.
+const MAX_LEVELS: usize = 1 << 12;
+
+/// Black and white levels of a sensor, in stored numbers after their linearization.
+pub(super) struct Levels {
+    /// By row, column and sample of a pattern that is repeated.
+    black: Array3<f64>,
+    /// Column and row of the sensor where the pattern and the deltas begin.
+    origin: Point,
+    /// What is added in each column; empty if nothing is.
+    by_column: Vec<f64>,
+    /// The same in each row.
+    by_row: Vec<f64>,
+    /// By sample.
+    white: Vec<f64>,
+}
+
+impl Levels {
+    /// Those that a DNG has, from its active area's corner on.
+    ///
+    /// # Errors
+    /// [`crate::Error::Picture`] if there are more or fewer than its sites and samples need.
+    pub fn of_dng(
+        path: &Path,
+        directory: &Directory,
+        active: Rect,
+        samples: usize,
+        full_scale: f64,
+    ) -> Result<Self> {
+        let numbers = |tag: u16, name: &str| match directory.numbers(tag) {
+            Some(numbers) if numbers.iter().all(|number| number.is_finite()) => Ok(numbers),
+            None if !directory.has_tag(tag) => Ok(Vec::new()),
+            _ => Err(damaged(path, format!("its {name} has no numbers"))),
+        };
+        let deltas = |tag: u16, name: &str, size: usize, of: &str| match numbers(tag, name)? {
+            deltas if deltas.is_empty() || deltas.len() == size => Ok(deltas),
+            deltas => {
+                let problem = format!("its {name} has {} numbers for {size} {of}", deltas.len());
+                Err(damaged(path, problem))
+            }
+        };
+        // a Pentax writes one number, which means nothing
+        let (rows, columns) = match numbers(BLACK_REPEAT, "BlackLevelRepeatDim")?[..] {
+            [rows, columns] => (rows as usize, columns as usize),
+            _ => (1, 1),
+        };
+        let black = spread(numbers(BLACK, "BlackLevel")?, rows.saturating_mul(columns), samples, 0.0)
+            .and_then(|levels| Array3::from_shape_vec((rows, columns, samples), levels).ok())
+            .filter(|levels| !levels.is_empty());
+        let pattern = || format!("its BlackLevel does not fit a pattern of {rows} x {columns} sites");
+        Ok(Self {
+            black: black.ok_or_else(|| damaged(path, pattern()))?,
+            origin: active.p,
+            by_column: deltas(BLACK_DELTA_H, "BlackLevelDeltaH", active.d.w, "columns")?,
+            by_row: deltas(BLACK_DELTA_V, "BlackLevelDeltaV", active.d.h, "rows")?,
+            white: spread(numbers(WHITE, "WhiteLevel")?, 1, samples, full_scale)
+                .ok_or_else(|| damaged(path, format!("its WhiteLevel does not fit {samples} samples")))?,
+        })
+    }
+
+    /// Those that a decoder knows of a camera; none if they fill no pattern.
+    pub fn of_camera(image: &RawImage) -> Option<Self> {
+        let (levels, whites) = (&image.blacklevel, &image.whitelevel.0);
+        let black = levels.as_vec().into_iter().map(f64::from).collect();
+        let black = Array3::from_shape_vec((levels.height, levels.width, levels.cpp), black).ok();
+        let white = |sample: usize| whites.get(sample).or(whites.first()).copied().map(f64::from);
+        Some(Self {
+            black: black.filter(|levels| !levels.is_empty())?,
+            origin: Point::zero(),
+            by_column: Vec::new(),
+            by_row: Vec::new(),
+            white: (0..image.cpp).map(white).collect::<Option<_>>()?,
+        })
+    }
+
+    /// The same with those of the command line, which hold for all sites, in their place.
+    ///
+    /// # Errors
+    /// [`crate::Error::Usage`] if a white level is not above the highest black level.
+    pub fn given(mut self, options: &ReadOptions) -> Result<Self> {
+        if let Some(black) = options.black_level {
+            let samples = self.white.len();
+            let black = Array3::from_elem((1, 1, samples), black);
+            self = Self { black, by_column: Vec::new(), by_row: Vec::new(), ..self };
+        }
+        if let Some(white) = options.white_level {
+            self.white.fill(white);
+        }
+        for (sample, white) in self.white.iter().enumerate() {
+            let levels = ReadOptions {
+                transfer: Transfer::Linear,
+                black_level: Some(self.highest_black(sample)),
+                white_level: Some(*white),
+                ..*options
+            };
+            Scale::new(&levels, 16)?;
+        }
+        Ok(self)
+    }
+
+    /// The black level of a sample at a column and row of the whole sensor.
+    #[inline]
+    pub fn black(&self, x: usize, y: usize, sample: usize) -> f64 {
+        let (rows, columns, samples) = self.black.dim();
+        // before the origin the pattern goes on
+        let column = (x + columns - self.origin.x % columns) % columns;
+        let row = (y + rows - self.origin.y % rows) % rows;
+        let delta = |deltas: &[f64], at: usize, origin: usize| {
+            at.checked_sub(origin).and_then(|at| deltas.get(at)).copied().unwrap_or(0.0)
+        };
+        self.black[[row, column, sample.min(samples - 1)]]
+            + delta(&self.by_column, x, self.origin.x)
+            + delta(&self.by_row, y, self.origin.y)
+    }
+
+    /// The white level of a sample.
+    pub fn white(&self, sample: usize) -> f64 {
+        self.white[sample]
+    }
+
+    /// The highest black level of a sample at any site.
+    pub fn highest_black(&self, sample: usize) -> f64 {
+        let (rows, columns, samples) = self.black.dim();
+        let highest = |deltas: &[f64], phase: usize, repeat: usize| {
+            deltas.iter().skip(phase).step_by(repeat).copied().reduce(f64::max).unwrap_or(0.0)
+        };
+        let levels = self.black.index_axis(Axis(2), sample.min(samples - 1));
+        let at = |((row, column), level): ((usize, usize), &f64)| {
+            level + highest(&self.by_column, column, columns) + highest(&self.by_row, row, rows)
+        };
+        levels.indexed_iter().map(at).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The black level of a sample in the mean over a rectangle of the whole sensor's sites that `counts` picks.
+    pub fn mean_black(&self, area: Rect, sample: usize, counts: impl Fn(usize, usize) -> bool) -> f64 {
+        let sites = (0..area.d.h).flat_map(|row| (0..area.d.w).map(move |column| (column, row)));
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (column, row) in sites.filter(|(column, row)| counts(*column, *row)) {
+            sum += self.black(area.p.x + column, area.p.y + row, sample);
+            count += 1.0;
+        }
+        sum / count
+    }
+
+    /// Columns and rows after which black levels repeat; none if they do not.
+    pub fn repeat(&self) -> Option<(usize, usize)> {
+        let (rows, columns, _) = self.black.dim();
+        (self.by_column.is_empty() && self.by_row.is_empty()).then_some((columns, rows))
+    }
+}
+
+/// A number for each sample of each site, from one for all, for each sample, for each site, or for each of both.
+fn spread(numbers: Vec<f64>, sites: usize, samples: usize, default: f64) -> Option<Vec<f64>> {
+    let all = sites.checked_mul(samples).filter(|all| *all <= MAX_LEVELS)?;
+    match numbers.len() {
+        0 => Some(vec![default; all]),
+        1 => Some(vec![numbers[0]; all]),
+        count if count == all => Some(numbers),
+        count if count == sites => {
+            Some(numbers.into_iter().flat_map(|number| std::iter::repeat_n(number, samples)).collect())
+        }
+        _ => None,
+    }
+}
