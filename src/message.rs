@@ -1,8 +1,10 @@
 //! Messages for people, each on a line of its own.
 
+use std::borrow::Cow;
+
 use crate::error::cut;
 
-/// A message as one line that a terminal shows as it is: control characters, which names in files may hold, are escaped, and
+/// A message as one line that a terminal shows as it is: what [`printable`] escapes, which names in files may hold, is escaped, and
 /// what is longer than any message is cut in the middle.
 ///
 /// # Example
@@ -12,9 +14,33 @@ use crate::error::cut;
 /// ```
 #[must_use]
 pub fn one_line(message: &str) -> String {
-    let shown = |letter: char| match letter.is_control() {
+    printable(&cut(message, 2000)).into_owned()
+}
+
+/// A text that a terminal or a spreadsheet shows letter by letter, from left to right and on one line: control characters (C0, C1, DEL),
+/// line separators and marks of writing direction (Unicode Standard Annex #9) as visible escapes.
+///
+/// # Example
+/// ```
+/// use vfold::message::printable;
+/// assert_eq!(printable("\u{1b}[2J red\n\u{202e}der"), "\\u{1b}[2J red\\n\\u{202e}der");
+/// assert_eq!(printable("Grün, 緑, \u{5e9}"), "Grün, 緑, \u{5e9}");
+/// ```
+#[must_use]
+pub fn printable(text: &str) -> Cow<'_, str> {
+    if !text.contains(misleads) {
+        return text.into();
+    }
+    let shown = |letter: char| match misleads(letter) {
         true => letter.escape_default().collect(),
         false => letter.to_string(),
     };
-    cut(message, 2000).chars().map(shown).collect()
+    text.chars().map(shown).collect()
+}
+
+/// Whether a letter is none, but acts on those around it.
+fn misleads(letter: char) -> bool {
+    let turns = matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}');
+    let isolates = ('\u{2066}'..='\u{2069}').contains(&letter);
+    turns || isolates || letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}')
 }
