@@ -19,6 +19,7 @@ pub use surplus::refuse;
 
 use crate::error::{Error, Result};
 pub use crate::message::one_line;
+use crate::message::printable;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
@@ -190,7 +191,8 @@ fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
         ListWhat::Illuminants => What::Illuminants,
         ListWhat::Reflectances => What::Reflectances,
     };
-    list(what)?.into_iter().try_for_each(|(name, about)| out.text(&format!("{name:<20} {about}")))
+    let line = |(name, about): (String, String)| format!("{:<20} {}", printable(&name), printable(&about));
+    list(what)?.into_iter().try_for_each(|entry| out.text(&line(entry)))
 }
 
 fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> {
