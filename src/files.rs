@@ -166,8 +166,7 @@ fn beside(path: &Path) -> io::Result<Target> {
     // Temporary files are private by default; a result is for whom the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The error names the temporary file, which nobody asked for: its kind says what is wrong.
-    builder.tempfile_in(folder(path)).map(Target::Named).map_err(|e| e.kind().into())
+    builder.tempfile_in(folder(path)).map(Target::Named)
 }
 
 fn temporary() -> tempfile::Builder<'static, 'static> {
