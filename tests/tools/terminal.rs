@@ -166,7 +166,7 @@ jq -c 'if .id == "cc24:red" then .id = "r\u001b]0;title\u0007\u001b[2J\u009b31m\
 vestimate escapes.ndjson -v --plot - > estimates.ndjson 2> said
 vestimate escapes.ndjson --exposure 1000 > /dev/null 2>> said || :
 vscore estimates.ndjson --plot - --table > table 2>> said
-jq -c 'if .kind == "scene" then .geometry.name = "[2J‮" else . end' estimates.ndjson |
+jq -c 'if .kind == "scene" then .geometry.name = "\u001b[2J\u202e" else . end' estimates.ndjson |
     vscore --by geometry.name --table >> table 2>> said
 mkdir own; printf 'nm,a\n400,0.5\n700,0.5\n' > "own/$(printf 'w\033[2J\342\200\256e').csv"
 VFOLD_DATA=own vkernel --list reflectances > list
