@@ -8,6 +8,7 @@ mod spectra;
 mod stream_page;
 mod surplus;
 
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -19,6 +20,7 @@ pub use surplus::refuse;
 
 use crate::error::{Error, Result};
 pub use crate::message::one_line;
+use crate::message::printable;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
@@ -171,17 +173,17 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
 
 /// Address space that a thread's stack takes, bytes.
 const STACK: u64 = 2 << 20;
+/// What any run takes besides: with less it would end without a word, somewhere.
+const LEAST_ROOM: u64 = 32 << 20;
 
 /// Starts so many threads, or one for each core.
 fn start_threads(count: Option<u16>) -> Result<()> {
-    let count = count.unwrap_or(0);
+    let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
+    let count = count.map_or_else(all, usize::from);
     // threads that run already end the program where the stack of a later one leaves them no room
-    room::ask(
-        STACK * u64::from(count),
-        "so many threads",
-        "take fewer with --threads, or allow more memory",
-    )?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.into());
+    let room = LEAST_ROOM + STACK * count as u64;
+    room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
     pool.build_global().map_err(|error| {
         Error::Numeric(format!(
             "the system gives no threads ({error}); take fewer with --threads, or allow more memory"
@@ -195,7 +197,8 @@ fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
         ListWhat::Illuminants => What::Illuminants,
         ListWhat::Reflectances => What::Reflectances,
     };
-    list(what)?.into_iter().try_for_each(|(name, about)| out.text(&format!("{name:<20} {about}")))
+    let line = |(name, about): (String, String)| format!("{:<20} {}", printable(&name), printable(&about));
+    list(what)?.into_iter().try_for_each(|entry| out.text(&line(entry)))
 }
 
 fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> {

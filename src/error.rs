@@ -270,7 +270,7 @@ impl Error {
     }
 }
 
-/// What the operating system says, without its number.
+/// What the operating system says, without its number, and without the temporary file that stands behind that, which nobody asked for.
 fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error ").next().unwrap_or(&text).to_owned()

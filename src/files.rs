@@ -110,6 +110,24 @@ impl Write for Saved {
     }
 }
 
+/// Whether `{}` in the name of a file stands for another name.
+#[must_use]
+pub fn is_pattern(path: &Path) -> bool {
+    path.to_str().is_some_and(|text| text.contains("{}"))
+}
+
+/// The file that a pattern stands for, `name` in the place of each `{}`.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+/// assert_eq!(vfold::files::named(Path::new("overlay-{}.png"), "photo"), Path::new("overlay-photo.png"));
+/// ```
+#[must_use]
+pub fn named(pattern: &Path, name: &str) -> PathBuf {
+    pattern.to_str().map_or_else(|| pattern.to_owned(), |text| text.replace("{}", name).into())
+}
+
 /// The right to a file's name, for as long as the file is written: of two outputs that took one name, one would be lost.
 pub(crate) struct Claim(PathBuf);
 
@@ -148,8 +166,7 @@ fn beside(path: &Path) -> io::Result<Target> {
     // Temporary files are private by default; a result is for whom the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The error names the temporary file, which nobody asked for: its kind says what is wrong.
-    builder.tempfile_in(folder(path)).map(Target::Named).map_err(|e| e.kind().into())
+    builder.tempfile_in(folder(path)).map(Target::Named)
 }
 
 fn temporary() -> tempfile::Builder<'static, 'static> {

@@ -41,7 +41,7 @@
 //! sheet                -> kernel
 //! kernel               -> response, solve, geometry, room
 //! response             -> solve
-//! plot                 -> image, geometry, files, markup
+//! plot                 -> image, geometry, files, markup, message
 //! image                -> colorimetry, files, room
 //! score, camera        -> colorimetry
 //! camera, colorimetry  -> spectrum

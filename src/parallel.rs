@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// An item of which the result is known, or is to be worked out.
 pub enum Item<I, O> {
@@ -22,7 +22,7 @@ pub enum Item<I, O> {
 /// work or wait for those before them, which bounds memory.
 ///
 /// # Errors
-/// That of `done`, after which no item is drawn but the one that is waited for.
+/// [`Error::Numeric`] if there is no thread to be had; that of `done`, after which no item is drawn but the one that is waited for.
 ///
 /// # Example
 /// ```
@@ -58,7 +58,10 @@ pub fn in_order<I: Send, O: Send>(
                 }
             });
         };
-        threads.spawn(draw);
+        let drawing = thread::Builder::new().spawn_scoped(threads, draw);
+        drawing.map_err(|error| {
+            Error::Numeric(format!("the system gives no thread ({error}); allow more memory or processes"))
+        })?;
         // A place stays empty if its work panicked: the scope passes that on.
         results.into_iter().map_while(|place| place.recv().ok()).flatten().try_for_each(&mut done)
     })
@@ -70,7 +73,6 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::Error;
 
     #[test]
     fn results_keep_their_order_and_few_are_ahead() {

@@ -1,5 +1,7 @@
 //! The V-shaped fold: two rectangular panels that share a crease.
 
+use std::ops::RangeInclusive;
+
 use crate::error::{Error, Result};
 
 /// Most facets on one panel.
@@ -81,7 +83,7 @@ impl Fold {
     /// facets of equal size.
     ///
     /// # Errors
-    /// Angle outside the range, sides not positive or further apart than 1 : 1000, no facet, or more than 262144 a panel.
+    /// Angle outside the range, sides not positive, beyond 1e±100 or further apart than 1 : 1000, no facet, or more than 262144 a panel.
     ///
     /// # Example
     /// ```
@@ -205,8 +207,11 @@ impl Fold {
     }
 }
 
+/// Sides of panels, whatever their unit: areas of so large and so small ones are numbers like any others.
+const SIDES: RangeInclusive<f64> = 1e-100..=1e100;
+
 fn possible(a: f64, b: f64) -> bool {
-    a > 0.0 && b > 0.0 && (a / b).ln().abs() <= 1000_f64.ln() + 1e-9
+    SIDES.contains(&a) && SIDES.contains(&b) && (a / b).ln().abs() <= 1000_f64.ln() + 1e-9
 }
 
 fn check_facets(FacetGrid { rows, cols }: FacetGrid) -> Result<()> {

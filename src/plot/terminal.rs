@@ -8,6 +8,7 @@ use std::io::{self, Write};
 use console::{Style, Term};
 
 use super::spectra::Curve;
+use crate::message::printable;
 use canvas::{Canvas, Cell, ROWS};
 
 /// Lines between labels of the reflectance.
@@ -104,7 +105,7 @@ fn text(curve: &Curve, columns: usize, look: &Look) -> String {
 impl Look {
     fn title(&self, curve: &Curve) -> String {
         let Glyphs { band, truth, sample, .. } = self.glyphs;
-        let mut title = format!("{}   {} estimate", curve.name, self.blue().apply_to(sample));
+        let mut title = format!("{}   {} estimate", printable(&curve.name), self.blue().apply_to(sample));
         if curve.reflectance_sd.is_some() {
             title += &format!("  {} two standard deviations", self.dim().apply_to(format!("{band}{band}")));
         }

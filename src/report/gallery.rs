@@ -8,7 +8,7 @@ use crate::plot::batch::Batch;
 use crate::plot::sheet::Sheet;
 use crate::scene::sheet;
 use crate::score::{Score, Summary, Worst};
-use crate::stream::{Sample, Scene};
+use crate::stream::{Sample, Scene, Scenes};
 
 /// Most failures that are listed.
 const FAILURES_MAX: usize = 24;
@@ -27,7 +27,7 @@ pub struct Shown {
 /// Samples to show: all of a few, the worst by the first score of many. Memory holds as many as are shown.
 pub struct Gallery {
     samples: Worst<Shown>,
-    scene: Option<Arc<Scene>>,
+    scenes: Scenes<Arc<Scene>>,
     failures: Vec<(String, String)>,
     failed: usize,
 }
@@ -36,12 +36,12 @@ impl Gallery {
     /// An empty one for up to `most` samples.
     #[must_use]
     pub fn new(most: usize) -> Self {
-        Self { samples: Worst::new(most), scene: None, failures: Vec::new(), failed: 0 }
+        Self { samples: Worst::new(most), scenes: Scenes::default(), failures: Vec::new(), failed: 0 }
     }
 
-    /// The samples that follow are of this scene.
+    /// Takes a scene of samples that follow.
     pub fn enter(&mut self, scene: &Scene) {
-        self.scene = Some(Arc::new(scene.clone()));
+        self.scenes.enter(scene, Arc::new(scene.clone()));
     }
 
     /// Takes a sample.
@@ -49,6 +49,7 @@ impl Gallery {
     /// # Errors
     /// [`crate::Error::Field`] if its scores are not scores.
     pub fn add(&mut self, sample: &Sample) -> Result<()> {
+        let scene = self.scenes.of(sample);
         if let Some(error) = sample.error()? {
             self.failed += 1;
             if self.failures.len() < FAILURES_MAX {
@@ -56,7 +57,7 @@ impl Gallery {
             }
             return Ok(());
         }
-        let Some(scene) = &self.scene else { return Ok(()) };
+        let Ok(Some(scene)) = scene else { return Ok(()) };
         let badness = first_score(sample)?.map_or(f64::NEG_INFINITY, |score| score.badness());
         self.samples.add(badness, || Shown { scene: Arc::clone(scene), sample: sample.clone() });
         Ok(())

@@ -31,20 +31,21 @@ pub struct View<'a> {
     pub illuminant: &'a Spectrum,
     /// Observer of their colours.
     pub observer: Observer,
-    /// Pictures of what was measured, `{}` standing for the sample's name; else those that the history tells of.
-    pub overlay: Option<PathBuf>,
+    /// Pictures of what was measured: each has its sample's name, or `{}` in the place of it; one alone may be called anything.
+    pub overlays: &'a [PathBuf],
 }
 
 /// Writes the page of a gallery, and of the scores of all samples.
 ///
 /// # Errors
-/// [`crate::Error::File`] if it cannot be written, or an overlay that was asked for cannot be read; [`crate::Error::Field`] if a
-/// record is not what the tools write.
+/// [`crate::Error::File`] if it cannot be written, or an overlay cannot be read; [`crate::Error::Usage`] for an overlay of no sample;
+/// [`crate::Error::Field`] if a record is not what the tools write.
 pub fn write(path: &Path, gallery: &Gallery, summary: &Summary, view: &View) -> Result<()> {
+    overlay::check(gallery, view)?;
     let mut sections = Vec::new();
     sections.extend(batch::section(gallery, summary)?);
     for (number, shown) in gallery.in_order().enumerate() {
-        sections.push(sample::section(number, shown, view)?);
+        sections.push(sample::section(number, shown, gallery, view)?);
     }
     sections.extend(scene::sections(gallery)?);
     Saved::write(path, page::page(gallery, sections).as_bytes())

@@ -1,26 +1,70 @@
-//! The picture of what was measured, as `vextract --overlay` wrote it.
+//! The picture of what was measured, as `vextract --overlay` drew it.
+//!
+//! Which pictures are read is up to the command line alone: a stream may be anybody's, and says no more than which of them is whose.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::html::Html;
-use super::{Shown, View};
-use crate::error::Result;
+use super::{Gallery, SECTIONS_MAX, View};
+use crate::error::{Error, Result};
+use crate::files::{is_pattern, named};
 use crate::image::thumbnail;
 use crate::plot::data_uri;
 
 /// Longest side in a report, px: facets can be told apart.
 const LONGEST_PX: u32 = 1100;
 
-/// The picture of a sample; none if there is none.
+/// Refuses a picture that is none of a sample's.
 ///
 /// # Errors
-/// As [`thumbnail`], if the picture was asked for; one that the history tells of may have gone.
-pub(super) fn figure(shown: &Shown, view: &View) -> Result<Option<Html>> {
-    let id = shown.sample.id();
-    match &view.overlay {
-        Some(pattern) => picture(&named(pattern, &id), &id).map(Some),
-        None => Ok(recorded(shown)?.and_then(|pattern| picture(&named(&pattern, &id), &id).ok())),
+/// [`Error::Usage`] if a picture has no sample's name, while it can only be told by that whose it is.
+pub(super) fn check(gallery: &Gallery, view: &View) -> Result<()> {
+    let (failures, failed) = gallery.failures();
+    let are_all_known = gallery.seen() <= SECTIONS_MAX && failed <= failures.len();
+    let of_a_sample = |path: &&PathBuf| {
+        let shown = gallery.in_order().map(|shown| shown.sample.id());
+        is_pattern(path) || shown.chain(failures.iter().map(|(id, _)| id.clone())).any(|id| is_of(path, &id))
+    };
+    match view.overlays.iter().find(|path| !of_a_sample(path)) {
+        Some(path) if are_all_known && !is_the_only(gallery, view) => Err(Error::usage(
+            "--overlay",
+            format!("no sample is called as {} is", path.display()),
+            "give pictures the names of their samples, or write {} for these, as in overlay-{}.png",
+        )),
+        _ => Ok(()),
     }
+}
+
+/// Whether there is one picture, and one sample that it can be of.
+fn is_the_only(gallery: &Gallery, view: &View) -> bool {
+    gallery.seen() == 1 && view.overlays.len() == 1
+}
+
+/// The picture of the sample of this name; none if none was named.
+///
+/// # Errors
+/// [`Error::Field`] if its name would lead elsewhere; as [`thumbnail`].
+pub(super) fn figure(id: &str, gallery: &Gallery, view: &View) -> Result<Option<Html>> {
+    let exact = |path: &&PathBuf| !is_pattern(path) && (is_the_only(gallery, view) || is_of(path, id));
+    let found =
+        view.overlays.iter().find(exact).or_else(|| view.overlays.iter().find(|path| is_pattern(path)));
+    let Some(path) = found else { return Ok(None) };
+    if is_pattern(path) && !is_name(id) {
+        let problem = format!("'{id}' in the name of --overlay leads to another folder; name its picture");
+        return Err(Error::field("id", problem));
+    }
+    picture(&named(path, id), id).map(Some)
+}
+
+/// Whether a picture has the name of a sample.
+fn is_of(path: &Path, id: &str) -> bool {
+    path.file_stem().is_some_and(|stem| stem == id)
+}
+
+/// Whether a text is the name of a file, and no way to one.
+fn is_name(id: &str) -> bool {
+    let mut parts = Path::new(id).components();
+    matches!((parts.next(), parts.next()), (Some(Component::Normal(name)), None) if name == id)
 }
 
 fn picture(path: &Path, id: &str) -> Result<Html> {
@@ -34,21 +78,4 @@ fn picture(path: &Path, id: &str) -> Result<Html> {
     let attributes = attributes.each_ref().map(|(name, value)| (*name, value.as_str()));
     let caption = "What was measured: panels and facets, and red the pixels that were left out.";
     Ok(Html::figure(Html::empty("img", &attributes), caption))
-}
-
-/// Where vextract was told to draw it.
-fn recorded(shown: &Shown) -> Result<Option<PathBuf>> {
-    let history = shown.scene.fields.history()?;
-    let extract = history.iter().rev().find(|line| line.tool == "vextract");
-    Ok(extract.and_then(|line| {
-        let mut arguments = line.arguments.iter();
-        arguments.find_map(|argument| argument.strip_prefix("--overlay=")).map(PathBuf::from).or_else(|| {
-            let flag = line.arguments.iter().position(|argument| argument == "--overlay")?;
-            line.arguments.get(flag + 1).map(PathBuf::from)
-        })
-    }))
-}
-
-fn named(pattern: &Path, id: &str) -> PathBuf {
-    PathBuf::from(pattern.to_string_lossy().replace("{}", id))
 }

@@ -2,7 +2,7 @@
 
 use super::html::Html;
 use super::words::{digits, with_sd, words};
-use super::{Shown, View, overlay};
+use super::{Gallery, Shown, View, overlay};
 use crate::colorimetry::Observer;
 use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
@@ -15,14 +15,14 @@ const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const TOLD_OF_ESTIMATE: [&str; 5] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd"];
 
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
-pub(super) fn section(number: usize, shown: &Shown, view: &View) -> Result<Html> {
+pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
     let mut parts = vec![Html::element("h2", &[], sample.id())];
     let estimate = sample.estimate()?;
     parts.extend(estimate.iter().flat_map(judged));
     let sheet = shown.sheet(view)?;
     parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
-    parts.extend(overlay::figure(shown, view)?);
+    parts.extend(overlay::figure(&sample.id(), gallery, view)?);
     parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(findings));
     parts.extend(estimate.as_ref().and_then(fitted));

@@ -217,7 +217,7 @@ fn inner<'a>(value: &'a RawValue, part: &str) -> Option<&'a RawValue> {
 }
 
 /// What is wrong with JSON, without the place: that in a field tells nobody where to look.
-fn problem(error: &serde_json::Error) -> String {
+pub(super) fn problem(error: &serde_json::Error) -> String {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let said = error.to_string();
     said.strip_suffix(&place).unwrap_or(&said).to_owned()

@@ -42,7 +42,8 @@ impl Fields {
     /// # Errors
     /// [`crate::Error::Field`] if `history` is not an array.
     pub fn add_history(&mut self, tool: &str) -> Result<()> {
-        let arguments = that_matter(std::env::args().skip(1));
+        let arguments =
+            that_matter(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned()));
         let version = env!("CARGO_PKG_VERSION").to_owned();
         self.push("history", HistoryRecord { tool: tool.to_owned(), version, arguments })
     }

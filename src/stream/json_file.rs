@@ -6,6 +6,7 @@ use std::io::Read;
 
 use serde::de::DeserializeOwned;
 
+use super::forms::{other_form, without_mark};
 use crate::error::{Error, Result};
 
 /// A list of regions for a hundred thousand photographs is smaller.
@@ -44,7 +45,10 @@ fn bytes(path: &str, example: &str) -> Result<Vec<u8>> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }
-    Ok(bytes)
+    if let Some((form, remedy)) = other_form(&bytes) {
+        return Err(Error::Record { path: path.to_owned(), line: 1, problem: form, remedy });
+    }
+    Ok(without_mark(&bytes).to_vec())
 }
 
 fn fault(path: &str, line: usize, problem: impl Display, example: &str) -> Error {

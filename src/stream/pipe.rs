@@ -3,7 +3,7 @@
 use std::iter;
 use std::sync::Arc;
 
-use super::{Kept, Reader, Record, Sample, Scene};
+use super::{Kept, Reader, Record, Sample, Scene, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
@@ -11,11 +11,11 @@ use crate::parallel::{Item, in_order};
 pub(super) const AHEAD: usize = 16;
 
 /// A record takes the place of as many as its line has of these bytes.
-const PLACE_BYTES: usize = 1 << 20;
+pub(super) const PLACE_BYTES: usize = 1 << 20;
 
 /// What a tool does to the records that pass through it.
 pub trait Transform {
-    /// What samples need of the scene above them.
+    /// What samples need of their scene.
     type Context: Send + Sync;
     /// What is made of a sample beside its record.
     type Aside: Send;
@@ -55,9 +55,9 @@ pub fn pipe<T: Transform + Sync>(
     mut kept: Kept,
     mut done: impl FnMut(Record, Option<T::Aside>) -> Result<()>,
 ) -> Result<()> {
-    let mut context = None;
+    let mut contexts = Scenes::default();
     let steps = iter::from_fn(|| {
-        let step = step(reader, transform, &mut kept, &mut context);
+        let step = step(reader, transform, &mut kept, &mut contexts);
         let step = step.unwrap_or_else(|error| Some(Item::Known(Err(error))))?;
         let further = iter::repeat_with(|| Item::Place).take(reader.line_bytes() / PLACE_BYTES);
         Some(iter::once(step).chain(further))
@@ -74,39 +74,54 @@ fn step<T: Transform>(
     reader: &mut Reader,
     transform: &T,
     kept: &mut Kept,
-    context: &mut Option<Arc<T::Context>>,
+    contexts: &mut Scenes<Arc<T::Context>>,
 ) -> Result<Option<Step<T>>> {
     let Some(record) = reader.read()? else { return Ok(None) };
-    if let Record::Sample(sample) = record {
-        let Some(context) = context else {
-            return Err(reader.no_scene());
-        };
-        return Ok(Some(match kept.sample(|kept| transform.is_made(&sample, kept))? {
-            Some(kept) => Item::Known(Ok((Record::Sample(kept), None))),
-            None => Item::ToDo((Arc::clone(context), sample)),
+    if let Record::Sample(mut sample) = record {
+        let context = context_of(reader, contexts, &mut sample)?;
+        let kept = kept.sample(|kept| transform.is_made(&sample, kept))?;
+        return Ok(Some(match (context, kept) {
+            (None, _) => Item::Known(Ok((Record::Sample(sample), None))),
+            (Some(_), Some(kept)) => Item::Known(Ok((Record::Sample(kept), None))),
+            (Some(context), None) => Item::ToDo((context, sample)),
         }));
     }
     kept.pass()?;
     if let Record::Scene(mut scene) = record {
-        *context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
+        let context = transform.scene(&mut scene).map_err(|e| reader.at(e))?;
+        contexts.enter(&scene, Arc::new(context));
         return Ok(Some(Item::Known(Ok((Record::Scene(scene), None)))));
     }
     Ok(Some(Item::Known(Ok((record, None)))))
 }
 
-/// The sample as the tool leaves it; one that carries an error is left as it is.
+/// What a sample needs of its scene; none of one that has an `error`, as one gets whose scene is not there.
+pub(super) fn context_of<C>(
+    reader: &Reader,
+    contexts: &mut Scenes<Arc<C>>,
+    sample: &mut Sample,
+) -> Result<Option<Arc<C>>> {
+    let context = contexts.of(sample).map(|context| context.map(Arc::clone));
+    let context = match sample.error() {
+        Ok(Some(_)) => return Ok(None),
+        Ok(None) => context,
+        Err(error) => Err(error),
+    };
+    match context {
+        Ok(Some(context)) => Ok(Some(context)),
+        Ok(None) => Err(reader.no_scene()),
+        Err(error) => sample.set_error(&error).map(|()| None),
+    }
+}
+
+/// The sample as the tool leaves it.
 pub(super) fn transformed<T: Transform>(
     transform: &T,
     context: &T::Context,
     mut sample: Sample,
 ) -> Result<Made<T::Aside>> {
-    let outcome = match sample.error() {
-        Ok(Some(_)) => Ok(None),
-        Ok(None) => transform.sample(context, &mut sample).map(Some),
-        Err(error) => Err(error),
-    };
-    let aside = match outcome {
-        Ok(aside) => aside,
+    let aside = match transform.sample(context, &mut sample) {
+        Ok(aside) => Some(aside),
         Err(error) => {
             sample.set_error(&error)?;
             None

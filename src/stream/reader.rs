@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 
+use super::fields::problem;
+use super::forms::{other_form, without_mark};
 use super::{Fields, Sample, Scene};
 use crate::error::{Error, Result};
 use crate::room;
@@ -12,6 +14,8 @@ const LINE_MAX: u64 = 1 << 30;
 
 /// What is not the beginning of a record after so many bytes is not read to its end.
 const BEGINNING: u64 = 1 << 16;
+
+const ONE_RECORD: &str = "each line must be one record";
 
 const NO_ROOM: &str =
     "no room for a line this long; take fewer facets or wavelengths, or allow more memory (ulimit -v)";
@@ -35,6 +39,10 @@ pub struct Reader {
     line_bytes: usize,
     /// Comes before what is read.
     first: Option<Scene>,
+    /// The name of the scene above.
+    scene: String,
+    /// The line of the scene above, if that could not be read.
+    lost_scene: Option<usize>,
     /// Whether no record at all is no fault.
     may_be_empty: bool,
 }
@@ -54,7 +62,16 @@ impl Reader {
 
     /// Reads from `source`, which errors call `path`; there may be nothing in it.
     pub(super) fn new(source: Box<dyn BufRead + Send>, path: &str) -> Self {
-        Self { source, path: path.to_owned(), line: 0, line_bytes: 0, first: None, may_be_empty: true }
+        Self {
+            source,
+            path: path.to_owned(),
+            line: 0,
+            line_bytes: 0,
+            first: None,
+            scene: String::new(),
+            lost_scene: None,
+            may_be_empty: true,
+        }
     }
 
     /// Nothing but a scene.
@@ -69,10 +86,12 @@ impl Reader {
         Self { first: Some(scene), ..self }
     }
 
-    /// The next record, none at the end.
+    /// The next record, none at the end. A line that holds none, unless it is the first or the last and cut, is a sample that carries an
+    /// error; so is every sample of a scene that cannot be read.
     ///
     /// # Errors
-    /// [`Error::Record`] for a line that is not a record, with file and line, and for a stream that ends before its first.
+    /// [`Error::Record`] with file and line for a stream that begins with no record, ends before its first or within one, or has a line that
+    /// is too long; [`Error::Located`] for a scene that is not this version's.
     pub fn read(&mut self) -> Result<Option<Record>> {
         if let Some(scene) = self.first.take() {
             return Ok(Some(Record::Scene(scene)));
@@ -88,7 +107,8 @@ impl Reader {
                 self.wrong("no record: the stream is empty", "give it what the tool before it writes")
             );
         }
-        if is_record(&bytes) && !bytes.ends_with(b"\n") {
+        let is_whole = bytes.ends_with(b"\n");
+        if is_record(&bytes) && !is_whole {
             return Err(match bytes.len() as u64 {
                 LINE_MAX => self.wrong("a line of more than 1 GiB", "take fewer facets or wavelengths"),
                 _ => {
@@ -101,18 +121,54 @@ impl Reader {
             &format!("{}:{}", self.path, self.line),
             "take fewer facets or wavelengths",
         )?;
-        let fields = serde_json::from_slice(&bytes)
-            .map_err(|e| self.wrong(&format!("not a JSON object ({e})"), "each line must be one record"))?;
-        self.typed(fields).map(Some)
+        match self.fields(&bytes) {
+            Ok(fields) => self.typed(fields).map(Some),
+            Err(error) if self.line == 1 || !is_whole => Err(error),
+            Err(error) => self.lost(&bytes, &error).map(Some),
+        }
+    }
+
+    /// The fields of a line.
+    fn fields(&self, line: &[u8]) -> Result<Fields> {
+        let fields: Fields = serde_json::from_slice(without_mark(line)).map_err(|error| {
+            if let Some((form, remedy)) = other_form(line).filter(|_| self.line == 1) {
+                return self.wrong(&form, &remedy);
+            }
+            let problem = format!("{}, column {}", problem(&error), error.column());
+            self.wrong(&format!("not a JSON object ({problem})"), ONE_RECORD)
+        })?;
+        match fields.kind().as_str() {
+            "" => {
+                Err(self.wrong("a record without 'kind'", "each line must be a scene, a sample or a summary"))
+            }
+            _ => Ok(fields),
+        }
+    }
+
+    /// What stands in the stream for a line that holds no record: nobody knows what of, but it is counted as a sample that failed.
+    fn lost(&mut self, line: &[u8], error: &Error) -> Result<Record> {
+        if is_scene(line) {
+            self.lost_scene = Some(self.line);
+        }
+        let mut sample = Sample::new(&self.scene, &format!("line {}", self.line))?;
+        sample.set_error(error)?;
+        Ok(Record::Sample(sample))
     }
 
     /// The next line, or as much of it as tells what is wrong with it; empty at the end.
     fn line(&mut self) -> io::Result<Vec<u8>> {
         let (mut bytes, mut source) = (Vec::new(), (&mut self.source).take(BEGINNING));
         source.read_until(b'\n', &mut bytes)?;
-        if is_record(&bytes) && !bytes.ends_with(b"\n") {
-            source.set_limit(LINE_MAX - bytes.len() as u64);
+        if bytes.ends_with(b"\n") {
+            return Ok(bytes);
+        }
+        source.set_limit(LINE_MAX - bytes.len() as u64);
+        if is_record(&bytes) {
             read_line(&mut source, &mut bytes)?;
+        } else if self.line > 0 && bytes.len() as u64 == BEGINNING {
+            // what is no record takes no memory
+            source.skip_until(b'\n')?;
+            bytes.extend((source.limit() > 0).then_some(b'\n'));
         }
         Ok(bytes)
     }
@@ -122,12 +178,23 @@ impl Reader {
         self.line_bytes
     }
 
-    fn typed(&self, fields: Fields) -> Result<Record> {
+    fn typed(&mut self, fields: Fields) -> Result<Record> {
         match fields.kind().as_str() {
-            "scene" => Ok(Record::Scene(Scene::from_fields(fields).map_err(|e| self.at(e))?)),
-            "sample" => Ok(Record::Sample(Sample { fields })),
-            "" => {
-                Err(self.wrong("a record without 'kind'", "each line must be a scene, a sample or a summary"))
+            "scene" => {
+                let scene = Scene::from_fields(fields).map_err(|e| self.at(e))?;
+                self.scene = scene.fields.text_at("id").ok().flatten().unwrap_or_default();
+                self.lost_scene = None;
+                Ok(Record::Scene(scene))
+            }
+            "sample" => {
+                let mut sample = Sample { fields };
+                if let Some(line) = self.lost_scene
+                    && !matches!(sample.error(), Ok(Some(_)))
+                {
+                    let problem = format!("the scene above it, line {line}, cannot be read; mend that line");
+                    sample.set_error(&Error::field("scene", problem))?;
+                }
+                Ok(Record::Sample(sample))
             }
             _ => Ok(Record::Other(fields)),
         }
@@ -178,5 +245,14 @@ fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
 
 /// Whether a line begins as a record does.
 fn is_record(line: &[u8]) -> bool {
-    line.trim_ascii_start().starts_with(b"{")
+    without_mark(line).trim_ascii_start().starts_with(b"{")
+}
+
+/// Whether a line that cannot be read says that it is a scene.
+fn is_scene(line: &[u8]) -> bool {
+    let line = String::from_utf8_lossy(line);
+    let kind = |rest: &str| {
+        rest.trim_start().strip_prefix(':').map(|kind| kind.trim_start().starts_with("\"scene\""))
+    };
+    line.split("\"kind\"").skip(1).any(|rest| kind(rest) == Some(true))
 }

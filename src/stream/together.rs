@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::pipe::{AHEAD, Made, Transform, transformed};
-use super::{Kept, Reader, Record, Sample};
+use super::pipe::{AHEAD, Made, Transform, context_of, transformed};
+use super::{Kept, Reader, Record, Sample, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
@@ -100,32 +100,37 @@ fn read<T: Together>(
     group: impl Fn(&Sample) -> Result<Option<String>>,
 ) -> Result<Stream<T::Context>> {
     let (mut places, mut groups, mut known) = (Vec::new(), Vec::<Group<T::Context>>::new(), HashMap::new());
-    let mut context = None;
+    let mut contexts = Scenes::default();
     while let Some(record) = reader.read()? {
-        let Record::Sample(sample) = record else {
-            kept.pass()?;
-            places.push(Place::Record(match record {
-                Record::Scene(mut scene) => {
-                    context = Some(Arc::new(transform.scene(&mut scene).map_err(|e| reader.at(e))?));
-                    Record::Scene(scene)
-                }
-                other => other,
-            }));
+        let mut sample = match record {
+            Record::Sample(sample) => sample,
+            Record::Scene(mut scene) => {
+                kept.pass()?;
+                let context = transform.scene(&mut scene).map_err(|e| reader.at(e))?;
+                contexts.enter(&scene, Arc::new(context));
+                places.push(Place::Record(Record::Scene(scene)));
+                continue;
+            }
+            other => {
+                kept.pass()?;
+                places.push(Place::Record(other));
+                continue;
+            }
+        };
+        let context = context_of(reader, &mut contexts, &mut sample)?;
+        let name = group(&sample).map_err(|e| reader.at(e));
+        let kept = kept.sample(|kept| transform.is_made(&sample, kept))?;
+        let Some(context) = context else {
+            places.push(Place::Record(Record::Sample(sample)));
             continue;
         };
-        let Some(context) = &context else { return Err(reader.no_scene()) };
-        let name = group(&sample).map_err(|e| reader.at(e))?;
-        let is_whole = matches!(sample.error(), Ok(None));
-        let at = match name.filter(|_| is_whole) {
-            Some(name) => *known.entry(name).or_insert(groups.len()),
-            None => groups.len(),
-        };
+        let at = name?.map_or(groups.len(), |name| *known.entry(name).or_insert(groups.len()));
         if at == groups.len() {
             groups.push(Group { members: Vec::new(), kept: Vec::new() });
         }
         places.push(Place::Member(at));
-        groups[at].kept.push(kept.sample(|kept| transform.is_made(&sample, kept))?);
-        groups[at].members.push(Member { context: Arc::clone(context), sample });
+        groups[at].kept.push(kept);
+        groups[at].members.push(Member { context, sample });
     }
     Ok(Stream { places, groups })
 }

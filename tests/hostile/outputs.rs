@@ -65,6 +65,45 @@ fn nothing_is_said_of_what_fails() {
 fn threads_that_cannot_be_had() {
     assert_refused(
         "",
-        &[case("ulimit -v 400000; vkernel -j 1024 --facets 2x2", 1, &["so many threads", "--threads"])],
+        &[case("ulimit -v 400000; vkernel -j 1024 --facets 2x2", 1, &["a run on 1024 threads", "--threads"])],
     );
+}
+
+/// A name is bytes: one that is no UTF-8 is written as it is, and said as far as it can be.
+#[test]
+fn names_that_are_no_utf_8() {
+    let folder = Workdir::new();
+    let run = folder.sh("name=$(printf 'x\\377')
+        vkernel --facets 2x2 -o \"$name.json\" --save \"kernel=$name.npy\"
+        vforward \"$name.json\" --reflectance cc24:red || echo $?
+        vforward --reflectance cc24:red --render \"$name.exr\" -o \"$name.ndjson\" < \"$name.json\"
+        vestimate --resume \"$name.estimates\" --plot \"$name.svg\" --spectra \"$name.csv\" < \"$name.ndjson\"
+        vscore --report \"$name.html\" -o \"$name.scores\" < \"$name.estimates\"
+        ls | sed 's/x[^.]*/x/'");
+    assert_eq!(
+        run.stdout, "2\nx.csv\nx.estimates\nx.exr\nx.html\nx.json\nx.ndjson\nx.npy\nx.scores\nx.svg\n",
+        "{run:?}"
+    );
+    assert!(run.status == 0 && run.stderr.lines().count() == 1 && run.stderr.contains("UTF-8"), "{run:?}");
+}
+
+/// With as few files as may be open at once a run ends as it should, or says in one line that there are too many.
+#[test]
+fn few_files_may_be_open() {
+    let folder = Workdir::new();
+    folder.sh("vkernel --facets 2x2 -o scene; vforward scene --reflectance cc24:red -o samples; vestimate samples -o estimates");
+    for files in 4..9 {
+        for line in [
+            "vkernel --facets 2x2 -o out --save kernel=k.npy --plot k.svg",
+            "vforward scene --reflectance cc24:red -o out --render r.exr",
+            "vestimate samples -o out --spectra a.csv --plot a.svg --trace t --save facet_rgb=f.npy",
+            "vestimate samples --resume again",
+            "vscore estimates --report r.html --plot x.png --save id=f.npy",
+        ] {
+            let run = folder.sh(&format!("ulimit -n {files}; exec {line} > /dev/null"));
+            let is_said = run.stderr.lines().count() == 1 && run.stderr.contains("Too many open files");
+            let is_done = run.status == 0 && run.stderr.is_empty();
+            assert!(is_done || (run.status == 1 && is_said), "{files} {line}: {run:?}");
+        }
+    }
 }

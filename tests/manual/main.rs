@@ -7,6 +7,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod docs;
+mod flags;
 mod imports;
 mod pages;
 mod paper_map;

@@ -40,6 +40,7 @@ mod resume;
 mod scripts;
 mod silence;
 mod spectra_files;
+mod streams;
 mod tables;
 mod terminal;
 mod verdict;

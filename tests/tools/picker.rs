@@ -34,6 +34,7 @@ fn clicks_in_a_preview_measure_the_photograph() {
         "echo '{truth}' > corners.json
         oiiotool {ROOT}/tests/data/photos/a_ideal_magenta_50.exr --resize:filter=box 3200x2400 -d half -o photo.exr
         vextract photo.exr --preview photo.png
+        oiiotool photo.png --eraseattrib '.*' -o plain.png
         PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/clicks.mjs {ROOT}/share/picker.html photo.png corners.json \
             \"${{PICKER_SCREENSHOT:-shot.png}}\""
     ));
@@ -61,6 +62,7 @@ fn clicks_in_a_preview_measure_the_photograph() {
     measures(&folder, said["command"].as_str().unwrap());
     is_read(&folder, marked);
     measures_two(&folder, &said["list"]);
+    names_its_files(&folder, &said["odd"]);
 }
 
 /// Corners within so many px.
@@ -124,6 +126,20 @@ fn measures_two(folder: &Workdir, list: &Value) {
     let (count, records) = run.stdout.split_once('\n').unwrap();
     assert_eq!(count.trim(), "3");
     is_the_panel(records);
+}
+
+/// Commands as a shell takes them: each names the file that was opened, and runs nothing else.
+fn names_its_files(folder: &Workdir, odd: &Value) {
+    const TOOLS: &str =
+        "vkernel() { :; }\nvextract() { cat \"$1\" > read; printf %s \"$1\"; }\nvestimate() { cat; }\n";
+    assert_eq!(odd.as_array().unwrap().len(), 9);
+    for named in odd.as_array().unwrap() {
+        let (name, command) = (named[0].as_str().unwrap(), named[1].as_str().unwrap());
+        let run = folder.sh(&format!("rm -f read\n{TOOLS}{command}\ncmp read plain.png; cat result.ndjson"));
+        let found = run.stdout.strip_prefix("./").unwrap_or(&run.stdout);
+        assert_eq!((found, run.stderr.as_str()), (name, ""), "{command}");
+        assert!(!run.stdout.starts_with('-') && !folder.path().join("pwned").exists(), "{command}");
+    }
 }
 
 /// The page's file of regions, but for the chart.

@@ -206,7 +206,7 @@ fn a_photograph_needs_no_truth() {
     let page = report(&folder, &format!(
         "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii --illuminant D65 \
             --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' |
-            vestimate --quiet | vscore"));
+            vestimate --quiet | vscore --overlay over-{{}}.png"));
     let page = Document::parse(body(&page)).unwrap();
     let picture = page.descendants().find(|node| node.has_tag_name("img")).unwrap();
     assert!(picture.attribute("src").unwrap().starts_with("data:image/jpeg;base64,/9j/"));
@@ -221,4 +221,87 @@ fn a_photograph_needs_no_truth() {
     assert_eq!(parts[1].attribute("class"), Some("verdict good"));
     assert!(parts[3].descendants().any(|node| node.has_tag_name("img")));
     assert_eq!(names.last(), Some(&"details"));
+}
+
+/// What the pictures of a page show, by its samples; each picture is one colour.
+fn pictures(folder: &Workdir, flags: &str) -> String {
+    let run = folder.sh(&format!(
+        "vscore three.ndjson --report out.html {flags} > /dev/null
+        python3 - <<'END'
+import base64, io, re
+from PIL import Image
+for section in open('out.html').read().split('<section class=\"sample\"')[1:]:
+    picture = re.search('data:image/jpeg;base64,([^\"]*)', section)
+    red, _, blue = Image.open(io.BytesIO(base64.b64decode(picture[1]))).getpixel((5, 5)) if picture else (0, 0, 0)
+    print(re.search('<h2>([^<]*)', section)[1], 'red' if red > 200 else 'blue' if blue > 200 else '-')
+END"
+    ));
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{flags}");
+    run.stdout
+}
+
+/// Three samples, and pictures of one colour each.
+const THREE: &str = "
+vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:blue cc24:white |
+    vestimate | sed 's/\"id\":\"cc24:/\"id\":\"/' > three.ndjson
+head -n 2 three.ndjson > one.ndjson
+python3 -c 'from PIL import Image
+for name, colour in [(\"red\", (255, 0, 0)), (\"over-red\", (255, 0, 0)), (\"blue\", (0, 0, 255)), (\"over-blue\", (0, 0, 255)), (\"over-white\", (0, 0, 0))]:
+    Image.new(\"RGB\", (40, 30), colour).save(name + \".png\")'
+mkdir folder; cp blue.png folder; cp red.png 'folder/{}.png'";
+
+#[test]
+fn pictures_are_those_of_the_command_line() {
+    let folder = Workdir::new();
+    if !folder.can("python3 -c 'import PIL'", "pictures in reports") {
+        return;
+    }
+    folder.sh(THREE);
+    assert_eq!(pictures(&folder, ""), "red -\nblue -\nwhite -\n");
+    assert_eq!(pictures(&folder, "--overlay over-{}.png"), "red red\nblue blue\nwhite -\n");
+    assert_eq!(
+        pictures(&folder, "--overlay folder/blue.png --overlay red.png"),
+        "red red\nblue blue\nwhite -\n"
+    );
+    assert_eq!(pictures(&folder, "--overlay over-{}.png --overlay red.png"), "red red\nblue blue\nwhite -\n");
+    let refused = |flags: &str, status: i32, says: &str| {
+        let run = folder.sh(&format!("vscore {flags} > /dev/null"));
+        assert!(
+            run.status == status && run.stderr.lines().count() == 1 && run.stderr.contains(says),
+            "{flags}: {run:?}"
+        );
+    };
+    refused(
+        "three.ndjson --report out.html --overlay over-red.png",
+        2,
+        "no sample is called as over-red.png is",
+    );
+    // one of one may be called anything
+    assert_eq!(folder.sh("vscore one.ndjson --report one.html --overlay over-blue.png > /dev/null; grep -c 'src=' one.html").stdout, "1\n");
+    folder.sh("rm over-white.png");
+    refused("three.ndjson --report out.html --overlay over-{}.png", 1, "over-white.png");
+}
+
+/// Nothing that a stream says makes a report read a file, be it named in a history or by a sample's name; a pipe is not waited for.
+#[test]
+fn a_stream_names_no_pictures() {
+    let folder = Workdir::new();
+    folder.sh(
+        "vkernel --facets 2x2 | vforward --reflectance cc24:red | vestimate > one
+        mkdir folder; mkfifo folder/waits.png waits
+        said='{\"tool\":\"vextract\",\"version\":\"0.1.0\",\"arguments\":[\"--overlay\",\"waits\",\"--overlay=waits\"]}'
+        sed \"1s/\\\"history\\\":\\[/&$said,/\" one > foreign.ndjson
+        sed 's/\"id\":\"cc24:red\"/\"id\":\"..\\/folder\\/waits\"/' one > away.ndjson",
+    );
+    let run = folder.sh("timeout 20 vscore foreign.ndjson --report out.html | grep -c waits; grep -c waits out.html; grep -c '<img' out.html || :");
+    assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("1\n1\n0\n", ""));
+    let refused = |line: &str, says: &str| {
+        let run = folder.sh(&format!("timeout 20 {line} > /dev/null"));
+        assert!(
+            run.status == 1 && run.stderr.lines().count() == 1 && run.stderr.contains(says),
+            "{line}: {run:?}"
+        );
+    };
+    refused("vscore away.ndjson --report out.html --overlay folder/{}.png", "leads to another folder");
+    refused("vscore away.ndjson --report out.html --overlay waits", "not a regular file");
 }

@@ -154,3 +154,37 @@ fn verdicts_stand_at_the_end() {
     assert_eq!(on_terminal("", "vestimate samples.ndjson -q -o out.ndjson").stdout, "");
     assert_eq!(on_terminal("", "vestimate samples.ndjson -o out.ndjson 2> said; cat said").stdout, "");
 }
+
+/// Names from a stream, from files of spectra and their names: what acts on a terminal is shown, not done.
+#[test]
+fn names_do_nothing_to_a_terminal() {
+    let folder = Workdir::new();
+    let run = folder.sh(r#"
+vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:blue --noise-sd 1e-3 > plain
+jq -c 'if .id == "cc24:red" then .id = "r\u001b]0;title\u0007\u001b[2J\u009b31m\u007f\u202eder\u2066\u200f\u2028\nx" else . end' \
+    plain > escapes.ndjson
+vestimate escapes.ndjson -v --plot - > estimates.ndjson 2> said
+vestimate escapes.ndjson --exposure 1000 > /dev/null 2>> said || :
+vscore estimates.ndjson --plot - --table > table 2>> said
+jq -c 'if .kind == "scene" then .geometry.name = "\u001b[2J\u202e" else . end' estimates.ndjson |
+    vscore --by geometry.name --table >> table 2>> said
+mkdir own; printf 'nm,a\n400,0.5\n700,0.5\n' > "own/$(printf 'w\033[2J\342\200\256e').csv"
+VFOLD_DATA=own vkernel --list reflectances > list
+VFOLD_DATA=own vforward escapes.ndjson --reflectance "$(printf 'w\033[2J\342\200\256')" 2>> said || :
+vestimate "$(printf 'no\033[2J\342\200\256.ndjson')" 2>> said || :
+vkernel "$(printf -- '--no\033[2J\342\200\256')" 2>> said || :
+cat said table list"#);
+    assert_eq!(run.status, 0, "{run:?}");
+    let acts = |letter: char| {
+        (letter.is_control() && letter != '\n')
+            || "\u{61c}\u{200e}\u{200f}\u{2028}\u{2029}".contains(letter)
+            || ('\u{202a}'..='\u{202e}').contains(&letter)
+            || ('\u{2066}'..='\u{2069}').contains(&letter)
+    };
+    let acting: Vec<_> = run.stdout.lines().filter(|line| line.contains(acts)).collect();
+    assert!(acting.is_empty(), "{acting:?}");
+    for (file, shown) in [("said", 7), ("table", 3), ("list", 1)] {
+        let count = folder.sh(&format!("grep -c 'u{{1b}}.*2J' {file}")).stdout;
+        assert_eq!(count.trim().parse::<usize>().unwrap(), shown, "{file}: {}", run.stdout);
+    }
+}

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use vfold::files::{is_pattern, named};
 use vfold::image::{Balance, FacetMeasurement, Grid, Photograph, PixelRun, write_overlay, write_preview};
 use vfold::{Error, Result};
 
@@ -21,7 +22,7 @@ impl PictureArgs {
     /// [`Error::Usage`] if several photographs would be drawn into one file.
     pub fn check(&self, images: &[PathBuf]) -> Result<()> {
         for (flag, file) in [("--overlay", &self.overlay), ("--preview", &self.preview)] {
-            let shared = file.as_deref().is_some_and(|file| for_image(file, "") == file);
+            let shared = file.as_deref().is_some_and(|file| !is_pattern(file));
             if shared && images.len() > 1 {
                 let problem = format!("{} photographs do not go into one picture", images.len());
                 return Err(Error::usage(flag, problem, "write {} for their names, as in overlay-{}.png"));
@@ -43,7 +44,7 @@ impl PictureArgs {
         let Some(file) = &self.preview else { return Ok(false) };
         for image in images {
             let photograph = open(image)?;
-            write_preview(&for_image(file, &name(image)), &photograph, image, &balance(&photograph))?;
+            write_preview(&named(file, &name(image)), &photograph, image, &balance(&photograph))?;
         }
         Ok(true)
     }
@@ -62,12 +63,8 @@ impl PictureArgs {
     ) -> Result<()> {
         let Some(file) = &self.overlay else { return Ok(()) };
         let left_out: Vec<PixelRun> = facets.iter().flat_map(|facet| facet.left_out.clone()).collect();
-        write_overlay(&for_image(file, &name(image)), photograph, grids, &left_out, balance)
+        write_overlay(&named(file, &name(image)), photograph, grids, &left_out, balance)
     }
-}
-
-fn for_image(file: &Path, name: &str) -> PathBuf {
-    PathBuf::from(file.to_string_lossy().replace("{}", name))
 }
 
 /// A sample, and what is drawn of it, is called after its photograph.

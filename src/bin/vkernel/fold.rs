@@ -20,6 +20,9 @@ use super::{Args, MethodName, SamplingName, SpacingName, say_work};
 const TOLERANCE: f64 = 1e-5;
 /// Facet means that may be this far off are no answer.
 const USELESS: f64 = 0.05;
+/// Up to this angle light bounces more often between undivided panels than Lanczos' method follows, whatever their sides: facet means would be
+/// off by all of their light.
+const TOO_NARROW_DEG: f64 = 0.2;
 /// Samples of a Monte Carlo estimate.
 const SAMPLES: u32 = 10_000;
 
@@ -36,6 +39,11 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let default = if method == Method::Exact { Mesh::Auto } else { Mesh::Facets };
     let mesh = args.mesh.unwrap_or(default);
+    if mesh == Mesh::Auto && fold.angle_deg() <= TOO_NARROW_DEG {
+        let problem = format!("light bounces too often between undivided panels at {}°", fold.angle_deg());
+        let remedy = format!("give more than {TOO_NARROW_DEG}°, or --mesh facets");
+        return Err(Error::usage("--angle-deg", problem, remedy));
+    }
     let (response, accuracy) = respond_by(method, fold, mesh, tolerance)?;
     say_accuracy(args, fold, &accuracy)?;
     let skipped = skipped(fold, &light, &accuracy, response.poles().len());
@@ -81,21 +89,26 @@ fn say_accuracy(args: &Args, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
         warn_of_spread(args, source.method, source.entry_sd);
     }
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
-    if accuracy.residual > tolerance && !args.common.quiet {
+    let too_large = accuracy.facet_mean_error.filter(|error| *error > tolerance).map(|error| {
+        let angle_deg = fold.angle_deg();
+        (error, format!("{error:.1e} is the least error of the facet means that is reached at {angle_deg}°"))
+    });
+    match &too_large {
+        Some((_, problem)) if args.tolerance.is_some() => {
+            return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
+        }
+        Some((error, problem)) if *error > USELESS => {
+            return Err(Error::usage("--angle-deg", problem, "give a wider angle or --mesh facets"));
+        }
+        _ if args.common.quiet => return Ok(()),
+        _ => {}
+    }
+    if accuracy.residual > tolerance {
         let left =
             format!("Lanczos' method stopped at a residual of {:.1e}: too many bounces", accuracy.residual);
         cli::say("vkernel", &left);
     }
-    let Some(error) = accuracy.facet_mean_error.filter(|error| *error > tolerance) else { return Ok(()) };
-    let problem =
-        format!("{error:.1e} is the least error of the facet means that is reached at {}°", fold.angle_deg());
-    if args.tolerance.is_some() {
-        return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
-    }
-    if error > USELESS {
-        return Err(Error::usage("--angle-deg", problem, "give a wider angle or --mesh facets"));
-    }
-    if !args.common.quiet {
+    if let Some((_, problem)) = too_large {
         cli::say("vkernel", &problem);
     }
     Ok(())

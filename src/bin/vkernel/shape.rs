@@ -22,6 +22,11 @@ const TOLERANCE: f64 = 5e-3;
 /// Least tolerance: exchanges are kept in single precision.
 const TOLERANCE_MIN: f64 = 1e-6;
 
+/// Facets of curved panels from which on the default tolerance takes half a minute or more.
+const SLOW: usize = 100;
+/// A tolerance that curved panels reach on meshes of a sixteenth as many pairs.
+const FAST_TOLERANCE: f64 = 0.01;
+
 /// Surfaces other than a V of flat panels.
 #[derive(ClapArgs)]
 #[command(next_help_heading = "Shapes")]
@@ -69,6 +74,13 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     }
     let sources = args.light.sources(&shape, args.sky)?;
     let (tolerance, mesh) = (args.tolerance.unwrap_or(TOLERANCE), args.mesh.unwrap_or(Mesh::Auto));
+    if args.shape.bow_deg != 0.0
+        && (mesh, shape.len() >= SLOW, tolerance < FAST_TOLERANCE) == (Mesh::Auto, true, true)
+        && !args.common.quiet
+    {
+        let long = format!("curved panels take about a minute; --tolerance {FAST_TOLERANCE} takes seconds");
+        cli::say("vkernel", &long);
+    }
     let solved = solve(&shape, &sources, mesh, tolerance)?;
     say_accuracy(args, &solved)?;
     let skipped = solved.kernel.census().skipped();

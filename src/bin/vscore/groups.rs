@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use vfold::score::{Group, Summary};
-use vfold::stream::{Fields, Sample, Scene};
+use vfold::stream::{Fields, Sample, Scene, Scenes};
 use vfold::{Error, Result};
 
 /// What samples without the field are grouped as.
@@ -12,7 +12,7 @@ const NONE: &str = "(none)";
 /// All samples, and those of each value of a field.
 pub struct Groups<'a> {
     field: Option<&'a str>,
-    scene: Fields,
+    scenes: Scenes<Fields>,
     all: Summary,
     /// By value, in the order in which they came.
     groups: Vec<Group>,
@@ -22,14 +22,14 @@ pub struct Groups<'a> {
 
 impl<'a> Groups<'a> {
     pub fn new(field: Option<&'a str>) -> Self {
-        let (scene, all) = (Fields::default(), Summary::default());
-        Self { field, scene, all, groups: Vec::new(), places: HashMap::new(), found: false }
+        let (scenes, all) = (Scenes::default(), Summary::default());
+        Self { field, scenes, all, groups: Vec::new(), places: HashMap::new(), found: false }
     }
 
-    /// The samples that follow are of this scene.
+    /// Takes a scene of samples that follow.
     pub fn enter(&mut self, scene: &Scene) {
         if self.field.is_some() {
-            self.scene = scene.fields.clone();
+            self.scenes.enter(scene, scene.fields.clone());
         }
     }
 
@@ -38,9 +38,10 @@ impl<'a> Groups<'a> {
         let scores = sample.scores()?;
         self.all.add(scores.as_deref());
         let Some(field) = self.field else { return Ok(()) };
+        let scene = self.scenes.of(sample).ok().flatten();
         let value = match sample.fields.text_at(field)? {
             Some(value) => Some(value),
-            None => self.scene.text_at(field)?,
+            None => scene.map_or(Ok(None), |scene| scene.text_at(field))?,
         };
         self.found |= value.is_some();
         let value = value.unwrap_or_else(|| NONE.to_owned());

@@ -69,9 +69,10 @@ struct Args {
     /// samples the worst 24 are shown. For it and for --plot samples need no truth
     #[arg(long, value_name = "FILE.html", value_parser = page)]
     report: Option<PathBuf>,
-    /// Picture of what was measured for --report, {} in the name standing for the sample's [default: what vextract --overlay wrote]
+    /// Picture of what was measured for --report, as vextract --overlay drew it; {} in the name stands for the sample's; repeated: pictures that
+    /// have their samples' names
     #[arg(long, value_name = "FILE.png", requires = "report")]
-    overlay: Option<PathBuf>,
+    overlay: Vec<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
     #[arg(long, value_name = "FILE.csv|.sp|.spdx")]
     spectra: Option<PathBuf>,
@@ -147,8 +148,8 @@ fn gallery(args: &Args) -> Option<Gallery> {
 }
 
 fn draw(args: &Args, gallery: &Gallery, all: &Summary, scorer: &Scorer) -> Result<()> {
-    let overlay = args.overlay.clone();
-    let view = View { illuminant: scorer.first_illuminant(), observer: args.observer, overlay };
+    let view =
+        View { illuminant: scorer.first_illuminant(), observer: args.observer, overlays: &args.overlay };
     args.report.as_ref().map_or(Ok(()), |path| report::write(path, gallery, all, &view))?;
     match &args.plot {
         Some(path) if gallery.seen() > CURVES_MAX && path != Path::new("-") => {

@@ -10,6 +10,15 @@ const WIDTH: usize = 80;
 /// Most and least columns for a sample's name.
 const NAME: [usize; 2] = [28, 12];
 
+/// How a cell begins that a spreadsheet takes for a formula.
+const FORMULA: [char; 4] = ['=', '+', '-', '@'];
+
+/// A name as text wherever the table is pasted.
+fn cell(name: &str) -> String {
+    let name = one_line(name);
+    if name.trim_start().starts_with(FORMULA) { format!("'{name}") } else { name }
+}
+
 /// One column per score.
 pub struct Table {
     name_width: usize,
@@ -38,13 +47,13 @@ impl Table {
         let heading = |column: &Column| {
             let (metric, light) = column.name.split_once('_').unwrap_or((&column.name, ""));
             let heading = format!("{} {light}", metric.to_uppercase());
-            format!(" {:>1$}", heading.trim_end(), column.width)
+            format!(" {:>1$}", one_line(heading.trim_end()), column.width)
         };
         out.text(&self.named("sample", &self.columns.iter().map(heading).collect::<String>()))
     }
 
     pub fn row(&self, out: &mut Output, sample: &Sample) -> Result<()> {
-        let id = one_line(&sample.id());
+        let id = cell(&sample.id());
         if let Some(error) = sample.error()? {
             return out.row(sample, &self.named(&id, &format!(" {}", one_line(&error))));
         }
@@ -57,7 +66,7 @@ impl Table {
     pub fn footer(&self, out: &mut Output, all: &Summary, by: Option<(&str, &[Group])>) -> Result<()> {
         if let Some((field, groups)) = by {
             for Group { value, summary } in groups {
-                let value = one_line(value);
+                let value = cell(value);
                 out.text(&format!("{field} {value}: {} of {} scored", summary.scored(), summary.samples()))?;
                 self.statistics(out, summary)?;
             }

@@ -24,7 +24,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
             ideal: |told| 1e6 / told.daylight.map_or(ANY_MIRED, Daylight::mired),
             least: 400.0,
             words: "the sun has another colour than was to be expected",
-            remedy: "tell --illuminant sun:LAT,LON,TIME, or measure it",
+            remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
         }),
     }),
 };

@@ -22,7 +22,7 @@ pub static TILT: Unknown = Unknown {
             ideal: |told| told.tilt_deg,
             least: 1.0,
             words: "the sun stood elsewhere than it was told",
-            remedy: "turn the fold until both panels are equally bright, or tell --tilt-deg",
+            remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
         }),
     }),
 };

@@ -19,7 +19,7 @@ pub static VIGNETTING: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.1,
             words: "the lens darkens the corners of the picture",
-            remedy: "give --flat-field, or close the aperture",
+            remedy: "give vextract --white, a picture of a white sheet, or close the aperture",
         }),
     }),
 };

@@ -1,7 +1,7 @@
 //! Small copies of pictures, for reports.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufReader};
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
@@ -41,6 +41,10 @@ pub struct Thumbnail {
 pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     let unreadable = |error: image::ImageError| Error::picture(path, error, "give a PNG, JPEG or TIFF");
     let no_file = |source| Error::file(path.display(), source);
+    // a named pipe would be waited for, maybe for ever
+    if !path.metadata().map_err(no_file)?.is_file() {
+        return Err(no_file(io::Error::other("not a regular file")));
+    }
     let mut file = BufReader::new(File::open(path).map_err(no_file)?);
     let reader = ImageReader::new(&mut file).with_guessed_format().map_err(no_file)?;
     let picture = reader.decode().map_err(unreadable)?;

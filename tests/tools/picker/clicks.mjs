@@ -100,7 +100,20 @@ try {
   await two.fill("#camera", "canon-5d-mark-ii");
   await two.fill("#light", "D65");
   const list = { regions: await value(two, "#json"), command: await value(two, "#command") };
-  process.stdout.write(`${JSON.stringify({ fields, prompts, before, after, problems, command, withChart, regions, loaded, turned, list })}\n`);
+
+  // names that mean something to a shell or look like flags, of files and as they are typed
+  const odd = [];
+  for (const name of ["-it's $(touch pwned) `x` \"5\" \\.png", "ends\nof\nlines.png", "=x.png", "~.png", "#1;x.png"]) {
+    copyFileSync("plain.png", name);
+    const page = await opened(1400, 900, `./${name}`);
+    for (const corner of [...truth.panel0, ...truth.panel1.slice(2)]) await click(page, corner);
+    odd.push([name, await value(page, "#command")]);
+    if (name.includes("\n")) continue; // a field holds one line
+    await page.fill("#name", "other.png");
+    await page.fill("#name", name);
+    odd.push([name, await value(page, "#command")]);
+  }
+  process.stdout.write(`${JSON.stringify({ fields, prompts, before, after, problems, command, withChart, regions, loaded, turned, list, odd })}\n`);
 } finally {
   await browser.close();
 }
