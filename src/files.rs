@@ -7,8 +7,21 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
+use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
+
+/// A name as it is compared with others: systems write the same letters composed (é) or as a letter and its accent.
+///
+/// # Example
+/// ```
+/// use vfold::files::composed;
+/// assert_eq!(composed("cafe\u{301}.tif"), composed("caf\u{e9}.tif"));
+/// ```
+#[must_use]
+pub fn composed(name: &str) -> String {
+    name.nfc().collect()
+}
 
 /// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes the bytes as
 /// they come.
@@ -149,7 +162,7 @@ fn beside(path: &Path) -> io::Result<Target> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     // The error names the temporary file, which nobody asked for: its kind says what is wrong.
-    builder.tempfile_in(folder(path)).map(Target::Named).map_err(|e| e.kind().into())
+    builder.tempfile_in(folder(path)).map(Target::Named).map_err(without_its_name)
 }
 
 fn temporary() -> tempfile::Builder<'static, 'static> {

@@ -11,7 +11,7 @@ use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose};
 use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
-use vfold::{Error, Result};
+use vfold::{Error, Result, spectrum};
 
 use super::context::{Believed, Context};
 use super::estimator::Estimator;
@@ -149,11 +149,22 @@ pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
             "take the RAW file, or give vextract --undo",
         )
     });
-    let stand_in = record.camera()?.stands_in.map(|one| {
-        Doubt::new(
+    let camera = record.camera()?;
+    let (make, model) = sample.taken_by()?;
+    let another = match &camera.stands_in {
+        Some(one) => Some(Doubt::new(
             format!("nobody measured the curves of {}: another camera's stand in for them", one.camera),
             "make them of a photograph of a colour chart (vextract --save-camera)",
-        )
-    });
-    Ok(developed.into_iter().chain(stand_in).collect())
+        )),
+        None if spectrum::is_other_camera(&camera.name, &make, &model) => Some(Doubt::new(
+            format!(
+                "EXIF says that {} took the picture, not {}",
+                format!("{make} {model}").trim(),
+                camera.name
+            ),
+            "give the camera that took it (vextract --camera)",
+        )),
+        None => None,
+    };
+    Ok(developed.into_iter().chain(another).collect())
 }

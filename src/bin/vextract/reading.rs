@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FlatField, Photograph, ReadOptions, Transfer, is_preview};
+use vfold::image::{FlatField, Photograph, PictureFile, ReadOptions, Transfer, is_preview};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
 
@@ -32,11 +32,12 @@ pub struct ReadingArgs {
 /// # Errors
 /// As [`Photograph::open`]; [`Error::Picture`] if it is a preview or an overlay, in which nothing can be measured.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
-    if is_preview(path) {
+    let mut file = PictureFile::open(path)?;
+    if is_preview(&mut file) {
         let problem = "this is a picture for the eye that vextract made of a photograph";
         return Err(Error::picture(path, problem, "give the photograph itself"));
     }
-    Photograph::open(path, options)
+    Photograph::read(file, options)
 }
 
 impl ReadingArgs {

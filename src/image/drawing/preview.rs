@@ -1,7 +1,6 @@
 //! A picture for the eye of any photograph: small, bright enough, sRGB.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, Seek};
 use std::path::Path;
 
 use ndarray::Array2;
@@ -72,13 +71,13 @@ impl Canvas {
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Balance, Photograph, ReadOptions, is_preview, write_linear, write_preview};
+/// use vfold::image::{Balance, Photograph, PictureFile, ReadOptions, is_preview, write_linear, write_preview};
 /// let folder = tempfile::tempdir().unwrap();
 /// let (path, preview) = (folder.path().join("wide.tif"), folder.path().join("preview.png"));
 /// write_linear(&path, 3200, 2, &vec![0.1; 3200 * 2 * 3])?;
 /// let photograph = Photograph::open(&path, &ReadOptions::default())?;
 /// write_preview(&preview, &photograph, &path, &Balance::of(&photograph, None))?;
-/// assert!(is_preview(&preview) && !is_preview(&path));
+/// assert!(is_preview(&mut PictureFile::open(&preview)?) && !is_preview(&mut PictureFile::open(&path)?));
 /// assert_eq!(Photograph::open(&preview, &ReadOptions::default())?.width(), 1600);
 /// # Ok::<(), vfold::Error>(())
 /// ```
@@ -91,9 +90,8 @@ pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance:
 
 /// Whether a file is a preview or an overlay, made for the eye: what it shows was measured in another. A file that cannot be read is none.
 #[must_use]
-pub fn is_preview(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
-    let Ok(reader) = png::Decoder::new(BufReader::new(file)).read_info() else { return false };
+pub fn is_preview(file: &mut (impl BufRead + Seek)) -> bool {
+    let Ok(reader) = png::Decoder::new(file).read_info() else { return false };
     reader.info().uncompressed_latin1_text.iter().any(|text| text.keyword == SIZE_KEYWORD)
 }
 

@@ -29,12 +29,11 @@ use crate::{Error, Result};
 ///
 /// # Errors
 /// As [`Photograph::open`]; [`Error::Usage`] if another curve than the linear one is asked for.
-pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
+pub(super) fn open(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Photograph> {
     if options.transfer == Transfer::Srgb {
         let problem = format!("{} is a RAW file, whose numbers are linear", path.display());
         return Err(Error::usage("--transfer", problem, "leave it out"));
     }
-    let bytes = std::fs::read(path).map_err(|source| Error::file(path.display(), source))?;
     let Decoded { image, exif, is_dng, undone } = decode(path, bytes)?;
     if let Some(opcode) = undone {
         let problem =
