@@ -165,6 +165,13 @@ fn beside(path: &Path) -> io::Result<Target> {
     builder.tempfile_in(folder(path)).map(Target::Named).map_err(without_its_name)
 }
 
+/// The system's own error, without the name of a file that nobody gave.
+fn without_its_name(error: io::Error) -> io::Error {
+    let system = error.get_ref().and_then(|wrapped| wrapped.source());
+    let system = system.and_then(|source| source.downcast_ref::<io::Error>()?.raw_os_error());
+    system.map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
+}
+
 fn temporary() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".vfold-");

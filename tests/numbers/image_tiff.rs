@@ -16,7 +16,8 @@ const HEAD: &str = "\
 
 `cargo test --test numbers tiff` writes one small picture in every layout, has OpenImageIO and vfold read it, and compares all pixels: strips or
 tiles; samples side by side or a plane each; uncompressed, PackBits, LZW, Deflate; without predictor, with differences (2), with that of floats
-(3); in turns little-endian and big-endian. A cell has how many files gave the same numbers within 1e-6, or were refused, and why.
+(3); in turns little-endian and big-endian. A cell has how many files gave the same numbers within 1e-6, or were refused, and why. \"Right\" are
+those that OpenImageIO 2.4 reads otherwise than the same picture in strips: floats of 64 bits in tiles, and what it cannot read.
 
 ";
 /// Files that one process of oiiotool reads.
@@ -34,6 +35,8 @@ struct Made {
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Came {
     Same,
+    /// The numbers that OpenImageIO reads of the same picture in another layout, but not in this one.
+    Right,
     Refused(String),
     Other(String),
 }
@@ -64,14 +67,16 @@ fn by_openimageio(folder: &Path, files: &[Made]) {
         run.current_dir(folder).output().unwrap().status.success()
     };
     files.par_chunks(AT_ONCE).filter(|files| !convert(files)).for_each(|files| {
-        files.chunks(1).for_each(|file| drop(convert(file)));
+        for file in files.chunks(1) {
+            convert(file);
+        }
     });
 }
 
-fn compare(folder: &Path, file: &Made) -> Came {
+/// `first` is a file of the same picture in the plainest layout.
+fn compare(folder: &Path, file: &Made, first: &Made) -> Came {
     let options = ReadOptions { transfer: Transfer::Linear, ..ReadOptions::default() };
-    let path = |ending: &str| folder.join(format!("{}.{ending}", file.n));
-    let ours = match Photograph::open(&path("tif"), &options) {
+    let ours = match Photograph::open(&folder.join(format!("{}.tif", file.n)), &options) {
         Ok(photograph) => photograph,
         Err(error) => {
             let message = error.to_string();
@@ -79,22 +84,26 @@ fn compare(folder: &Path, file: &Made) -> Came {
             return Came::Refused(why.split(';').next().unwrap().to_owned());
         }
     };
-    let Ok(theirs) = Photograph::open(&path("exr"), &options) else {
-        return Came::Other("read, but not by OpenImageIO".to_owned());
+    let is_theirs = |n: usize| {
+        let theirs = Photograph::open(&folder.join(format!("{n}.exr")), &options);
+        theirs.is_ok_and(|theirs| are_same(&ours, &theirs))
     };
-    let light = |photograph: &Photograph, (x, y)| match photograph.pixel(x, y) {
-        Pixel::Light(light) => light,
-        other => panic!("{} {x},{y}: {other:?}", file.what),
-    };
-    let size = (ours.width(), ours.height());
-    let pixels = (0..size.0).flat_map(|x| (0..size.1).map(move |y| (x, y)));
-    let off =
-        |at| light(&ours, at).iter().zip(light(&theirs, at)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let most = pixels.map(off).fold(0.0, f64::max);
-    match size == (theirs.width(), theirs.height()) && most < 1e-6 {
-        true => Came::Same,
-        false => Came::Other(format!("off by {most}")),
+    match () {
+        () if is_theirs(file.n) => Came::Same,
+        () if is_theirs(first.n) => Came::Right,
+        () => Came::Other("other numbers".to_owned()),
     }
+}
+
+fn are_same(ours: &Photograph, theirs: &Photograph) -> bool {
+    let size = |photograph: &Photograph| (photograph.width(), photograph.height());
+    let near = |at: (usize, usize)| match (ours.pixel(at.0, at.1), theirs.pixel(at.0, at.1)) {
+        (Pixel::Light(ours), Pixel::Light(theirs)) => {
+            ours.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 1e-6)
+        }
+        _ => false,
+    };
+    size(ours) == size(theirs) && (0..ours.height()).all(|y| (0..ours.width()).all(|x| near((x, y))))
 }
 
 #[test]
@@ -102,7 +111,13 @@ fn every_layout_is_read_as_openimageio_does_or_refused() {
     let folder = tempfile::tempdir().unwrap();
     let files = made(folder.path());
     by_openimageio(folder.path(), &files);
-    let came: Vec<Came> = files.par_iter().map(|file| compare(folder.path(), file)).collect();
+    let came: Vec<Came> = files
+        .par_iter()
+        .map(|file| {
+            let first = files.iter().find(|first| first.row == file.row).unwrap();
+            compare(folder.path(), file, first)
+        })
+        .collect();
     let others: Vec<_> = files.iter().zip(&came).filter(|(_, came)| matches!(came, Came::Other(_))).collect();
     let others: Vec<_> = others.iter().map(|(file, came)| format!("{}: {came:?}", file.what)).collect();
     assert!(others.is_empty(), "{} of {}:\n{}", others.len(), files.len(), others.join("\n"));
@@ -134,17 +149,19 @@ fn page(files: &[Made], came: &[Came]) -> String {
         }
         *cells.entry((&file.row, &file.column)).or_default().entry(came).or_default() += 1;
     }
-    let same = came.iter().filter(|came| **came == Came::Same).count();
+    let count = |wanted: &Came| came.iter().filter(|came| *came == wanted).count();
+    let (same, right) = (count(&Came::Same), count(&Came::Right));
     let mut page = format!(
-        "{HEAD}{} files: {same} are the same, {} are refused.\n\n| samples are | a pixel has | {} |\n|---|---|---|---|---|---|\n",
+        "{HEAD}{} files: {same} are the same, {right} are right, {} are refused.\n\n| samples are | a pixel has | {} |\n|---|---|---|---|---|---|\n",
         files.len(),
-        files.len() - same,
+        files.len() - same - right,
         COLUMNS.join(" | ")
     );
     for row in rows {
         let cell = |column: &&str| {
             let counts = cells[&(row, *column)].iter().map(|(came, count)| match came {
                 Came::Same => format!("{count} same"),
+                Came::Right => format!("{count} right"),
                 Came::Refused(why) | Came::Other(why) => format!("{count} refused: {why}"),
             });
             counts.collect::<Vec<_>>().join(", ")

@@ -246,12 +246,17 @@ fn limits() -> Limits {
 }
 
 pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
+    let problem = one_line(&error.to_string());
+    // what OpenEXR's decoder says of files that are whole
+    if let Some((_, what)) = problem.split_once("not supported: ") {
+        return Error::picture(path, format!("this vfold does not read this file: {what}"), RESAVE);
+    }
     let remedy = match &error {
         ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
         ImageError::Unsupported(_) => RESAVE,
         _ => DAMAGED,
     };
-    Error::picture(path, one_line(&error.to_string()), remedy)
+    Error::picture(path, problem, remedy)
 }
 
 /// A decoder's message, which may have several lines, in one.

@@ -3,7 +3,6 @@
 use std::io::{Read, Seek};
 
 use exr::compression::Compression;
-use exr::error::Error;
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::meta::header::Header;
@@ -22,14 +21,7 @@ pub(super) enum Kind {
 
 /// The kind of a file whose header can be read.
 pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
-    let headers = match MetaData::read_from_buffered(file, false) {
-        Ok(MetaData { headers, .. }) => headers,
-        Err(Error::NotSupported(what)) => {
-            let is = format!("this vfold does not read this kind of OpenEXR: {what}");
-            return Some(Kind::Other { is, remedy: OTHER_COMPRESSION });
-        }
-        Err(_) => return None,
-    };
+    let MetaData { headers, .. } = MetaData::read_from_buffered(file, false).ok()?;
     let in_colour: Vec<_> = headers.iter().filter(|header| is_in_colour(header)).collect();
     let (is, remedy) = match in_colour[..] {
         [] => other(&headers),
