@@ -216,6 +216,14 @@ impl Error {
         matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
     }
 
+    /// Whether the process may open no more files (`ulimit -n`), or the machine: another file would fare no better.
+    #[must_use]
+    pub fn is_out_of_files(&self) -> bool {
+        const ENFILE: i32 = 23;
+        const EMFILE: i32 = 24;
+        matches!(self, Self::File { source, .. } if matches!(source.raw_os_error(), Some(ENFILE | EMFILE)))
+    }
+
     /// An I/O error with the file it happened to.
     pub fn file(path: impl std::fmt::Display, source: io::Error) -> Self {
         Self::File { path: path.to_string(), source }

@@ -7,8 +7,21 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
+use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
+
+/// A name as it is compared with others: systems write the same letters composed (é) or as a letter and its accent.
+///
+/// # Example
+/// ```
+/// use vfold::files::composed;
+/// assert_eq!(composed("cafe\u{301}.tif"), composed("caf\u{e9}.tif"));
+/// ```
+#[must_use]
+pub fn composed(name: &str) -> String {
+    name.nfc().collect()
+}
 
 /// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes the bytes as
 /// they come.
@@ -166,7 +179,15 @@ fn beside(path: &Path) -> io::Result<Target> {
     // Temporary files are private by default; a result is for whom the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder(path)).map(Target::Named)
+    // The error names the temporary file, which nobody asked for: its kind says what is wrong.
+    builder.tempfile_in(folder(path)).map(Target::Named).map_err(without_its_name)
+}
+
+/// The system's own error, without the name of a file that nobody gave.
+fn without_its_name(error: io::Error) -> io::Error {
+    let system = error.get_ref().and_then(|wrapped| wrapped.source());
+    let system = system.and_then(|source| source.downcast_ref::<io::Error>()?.raw_os_error());
+    system.map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
 }
 
 fn temporary() -> tempfile::Builder<'static, 'static> {

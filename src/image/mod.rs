@@ -35,9 +35,11 @@ pub use measuring::{
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{
-    CameraNotes, FlatField, Mosaic, Orientation, Photograph, PhotographInfo, Pixel, SensorInfo, Taken,
+    CameraNotes, FileStamp, FlatField, Mosaic, Orientation, Photograph, PhotographInfo, Pixel, SensorInfo,
+    Taken,
 };
 pub use placing::{
     CHART_CORNERS, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
     check_inside, parse_corners,
 };
+pub use reading::PictureFile;

@@ -132,6 +132,11 @@ pub(super) fn by_name(name: &str) -> Option<MeasuredCamera> {
     measured_cameras().find(|camera| camera.is_made_by(name) && camera.is_or_shares_sensor(name))
 }
 
+/// Whether make and model, as they are written into pictures, are those of a camera that calls itself otherwise elsewhere.
+pub(super) fn is_same_model((make, model): (&str, &str), (other_make, other): (&str, &str)) -> bool {
+    words(make).next() == words(other_make).next() && plain_model(make, model) == plain_model(make, other)
+}
+
 /// What tells a model from the others of its maker: `NIKON D70` is `d70`, `Canon EOS 400D DIGITAL` is `400d`.
 fn plain_model(maker: &str, model: &str) -> String {
     let of_maker: Vec<String> = words(maker).collect();

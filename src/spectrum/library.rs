@@ -24,7 +24,7 @@ struct Camera {
 const CAMERAS: [Camera; 3] = [
     Camera {
         name: "canon-5d-mark-ii",
-        about: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces)",
+        about: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces: scitech 2017), which its pictures mean",
         exif_make: "Canon",
         exif_model: "Canon EOS 5D Mark II",
         channels: || shared!("canon-5d-mark-ii.csv"),
@@ -251,9 +251,84 @@ pub fn camera_by_exif(make: &str, model: &str) -> Option<String> {
     first.or_else(|| cameras::by_exif(make, model).map(|camera| camera.name()))
 }
 
+/// Names of other built-in measurements of the model that the built-in camera `name` was measured on.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::other_measurements;
+/// assert_eq!(other_measurements("canon-5d-mark-ii"), ["canon-eos-5d-mark-ii"]);
+/// assert!(other_measurements("nikon-d5100").is_empty());
+/// ```
+#[must_use]
+pub fn other_measurements(name: &str) -> Vec<String> {
+    let known = |camera: &&Camera| same_name(camera.name, name);
+    let of_first =
+        CAMERAS.iter().find(known).and_then(|camera| cameras::by_exif(camera.exif_make, camera.exif_model));
+    let found = of_first.or_else(|| cameras::by_name(name));
+    let of_measured = found.into_iter().flat_map(|found| {
+        let same = CAMERAS
+            .iter()
+            .filter(move |camera| cameras::by_exif(camera.exif_make, camera.exif_model) == Some(found));
+        same.map(|camera| camera.name.to_owned()).chain([found.name()])
+    });
+    let mut others: Vec<String> = of_measured.filter(|other| !same_name(other, name)).collect();
+    others.dedup();
+    others
+}
+
+/// Whether the built-in camera `name` was measured on another model than the one that writes these EXIF fields Make and Model into
+/// its pictures; not where there is no such camera, or the picture names no model.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::is_other_camera;
+/// assert!(is_other_camera("nikon-d850", "Canon", "Canon EOS R5"));
+/// assert!(!is_other_camera("nikon-d850", "NIKON CORPORATION", "NIKON D850"));
+/// assert!(!is_other_camera("mine.csv", "Canon", "Canon EOS R5"));
+/// ```
+#[must_use]
+pub fn is_other_camera(name: &str, make: &str, model: &str) -> bool {
+    if model.trim().is_empty() {
+        return false;
+    }
+    let first = CAMERAS.iter().find(|camera| same_name(camera.name, name));
+    let is_first =
+        |camera: &Camera| cameras::is_same_model((camera.exif_make, camera.exif_model), (make, model));
+    match (first, cameras::by_name(name)) {
+        (Some(camera), _) if is_first(camera) => false,
+        (_, Some(measured)) => cameras::by_exif(make, model) != Some(measured),
+        (first, None) => first.is_some(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By their pictures, by their names, by other names, by another measurement, by the sensor.
+    #[test]
+    fn cameras_are_told_from_others() {
+        let (canon, nikon) = ("Canon", "NIKON CORPORATION");
+        for (name, make, model, other) in [
+            ("canon-5d-mark-ii", canon, "Canon EOS 5D Mark II", false),
+            ("canon-eos-5d-mark-ii", canon, "Canon EOS 5D Mark II", false),
+            ("canon-5d-mark-ii", canon, "Canon EOS 5D Mark III", true),
+            ("Canon-EOS-Rebel-T3i", canon, "Canon EOS 600D", false),
+            ("canon-eos-r6m2", canon, "Canon EOS R8", false),
+            ("nikon-d5100", nikon, "NIKON D5100", false),
+            ("nikon-d5100", nikon, "NIKON D1", true),
+            ("sigma-sd-merrill", "SIGMA", "SIGMA SD1 Merrill", false),
+            ("sigma-sd-merrill", "SIGMA", "SIGMA fp", true),
+            ("nikon-d850", canon, "", false),
+            ("nikon-d850.csv", canon, "Canon EOS R5", false),
+        ] {
+            assert_eq!(is_other_camera(name, make, model), other, "{name}, {model}");
+        }
+        assert_eq!(other_measurements("canon-eos-5d-mark-ii"), ["canon-5d-mark-ii"]);
+        for name in ["sigma-sd-merrill", "canon-eos-r5", "mine.csv"] {
+            assert!(other_measurements(name).is_empty(), "{name}");
+        }
+    }
 
     #[test]
     fn every_listed_name_is_found() {

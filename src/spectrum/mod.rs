@@ -27,7 +27,7 @@ pub use daylight::{daylight_vectors, daylight_weights};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;
-pub use library::camera_by_exif;
+pub use library::{camera_by_exif, is_other_camera, other_measurements};
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 

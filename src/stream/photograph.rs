@@ -9,13 +9,19 @@ use super::Sample;
 use super::colours;
 use super::development::DevelopmentRecord;
 use crate::error::Result;
-use crate::image::{FacetMeasurement, Grid, PhotographInfo, Processing, Refinement};
+use crate::image::{FacetMeasurement, FileStamp, Grid, PhotographInfo, Processing, Refinement};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ImageRecord {
     /// File, as it was named.
     file: String,
+    /// Size of the file, bytes; absent of a pipe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file_bytes: Option<u64>,
+    /// When the file was last written, seconds after 1970-01-01T00:00Z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file_modified_s: Option<f64>,
     /// Width of the upright picture, px.
     width: usize,
     /// Height of the upright picture, px.
@@ -177,6 +183,8 @@ impl ImageRecord {
         let count = panels.iter().filter_map(|panel| panel.panel).max().map_or(0, |last| last + 1);
         Self {
             file: path.display().to_string(),
+            file_bytes: info.file.map(|file| file.bytes),
+            file_modified_s: info.file.map(|file| file.modified_s),
             width: info.width,
             height: info.height,
             stored_as: info.format.clone(),
@@ -267,6 +275,12 @@ struct MakingRecord {
     darkest: Vec<f64>,
     black_level: Option<Levels>,
     white_level: Option<Levels>,
+    #[serde(default)]
+    make: String,
+    #[serde(default)]
+    model: String,
+    file_bytes: Option<u64>,
+    file_modified_s: Option<f64>,
 }
 
 impl MakingRecord {
@@ -315,6 +329,26 @@ impl Sample {
     pub fn unsubtracted_black(&self) -> Result<Option<f64>> {
         let record: Option<MakingRecord> = self.fields.get("image")?;
         Ok(record.and_then(|record| record.darkest_part()))
+    }
+
+    /// Maker and model of the camera that took the photograph, both empty where it does not say so.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn taken_by(&self) -> Result<(String, String)> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.map(|record| (record.make, record.model)).unwrap_or_default())
+    }
+
+    /// Size and time of the file that the sample was measured in, if they were recorded.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn measured_file(&self) -> Result<Option<FileStamp>> {
+        let record: Option<MakingRecord> = self.fields.get("image")?;
+        Ok(record.and_then(|record| {
+            Some(FileStamp { bytes: record.file_bytes?, modified_s: record.file_modified_s? })
+        }))
     }
 
     /// Where the panels are in the photograph; none if the sample is not one of two panels.

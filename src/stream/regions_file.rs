@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::{Fields, Regions, json_file};
 use crate::error::{Error, Result};
+use crate::files::composed;
 
 const EXAMPLE: &str = "{\"panel0\": [[x, y], [x, y], [x, y], [x, y]], ..} or a list of such objects";
 
@@ -68,7 +69,7 @@ impl RegionsFile {
                 let problem = format!("entry {n} of the list has no field 'image'");
                 return Err(Error::regions(&self.path, problem, "name its photograph"));
             };
-            if !seen.insert(image) {
+            if !seen.insert(composed(image)) {
                 let problem = format!("field 'image': '{image}' comes twice");
                 return Err(Error::regions(&self.path, problem, "keep one of the two entries"));
             }
@@ -81,13 +82,11 @@ impl RegionsFile {
     /// # Errors
     /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of another shape.
     pub fn of(&self, image: &Path, size: [usize; 2]) -> Result<Regions> {
-        let names = [image.file_name(), image.file_stem()].map(|name| name.and_then(|name| name.to_str()));
-        let named = |name: &Option<&str>| self.entries.iter().find(|entry| entry.image.as_deref() == *name);
-        let entry = if self.is_list {
-            names.iter().filter(|name| name.is_some()).find_map(named)
-        } else {
-            self.entries.first()
-        };
+        let names = [image.file_name(), image.file_stem()].map(|name| Some(composed(name?.to_str()?)));
+        let is_called =
+            |entry: &Regions, name: &str| entry.image.as_deref().is_some_and(|image| composed(image) == name);
+        let named = |name: &String| self.entries.iter().find(|entry| is_called(entry, name));
+        let entry = if self.is_list { names.iter().flatten().find_map(named) } else { self.entries.first() };
         let entry = entry.ok_or_else(|| {
             let problem = format!("no entry of the list has '{}' as its 'image'", image.display());
             Error::regions(&self.path, problem, "add one; names are compared without folders")
@@ -155,6 +154,9 @@ mod tests {
             of("folder/a.png").unwrap().panels.contains_key(&0) && of("b.tif").unwrap().panels.is_empty()
         );
         assert!(of("b.png").unwrap_err().to_string().contains("'b.png'"));
+        let composed = open("[{\"image\": \"\u{e9}.tif\"}]").unwrap();
+        assert!(composed.of(Path::new("e\u{301}.tif"), [9, 9]).is_ok());
+        assert!(refused("[{\"image\": \"\u{e9}\"}, {\"image\": \"e\u{301}\"}]").contains("comes twice"));
         let all = open(&format!(r#"{{"image": "a.tif", "panel0": {SQUARE}, "panel1": null}}"#)).unwrap();
         assert!(all.of(Path::new("b.tif"), [9, 9]).unwrap().panels.contains_key(&0));
     }

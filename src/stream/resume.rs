@@ -28,6 +28,12 @@ impl Kept {
         Self { records: None, is_unknown: false }
     }
 
+    /// The same, none of its samples to be made again.
+    #[must_use]
+    pub fn all_known(self) -> Self {
+        Self { is_unknown: false, ..self }
+    }
+
     /// Passes the record of a scene.
     ///
     /// # Errors
@@ -110,6 +116,22 @@ impl Resumed {
         let source = BufReader::new(file.take(self.whole));
         let records = Reader::new(Box::new(source), &self.path.display().to_string());
         Ok(Kept { records: Some(records), is_unknown: !self.has_history })
+    }
+
+    /// Keeps no more than so many lines of what the file has; before any is compared.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read once more.
+    pub fn keep(&mut self, lines: usize) -> Result<()> {
+        let reopened = || File::open(&self.path).map_err(|e| self.failed(e));
+        let mut kept = BufReader::new(reopened()?.take(self.whole));
+        let mut bytes = 0;
+        for _ in 0..lines {
+            bytes += kept.skip_until(b'\n').map_err(|e| self.failed(e))? as u64;
+        }
+        self.written = BufReader::new(reopened()?.take(bytes));
+        self.whole = bytes;
+        Ok(())
     }
 
     /// Compares a line with that in its place, or appends it.

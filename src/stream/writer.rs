@@ -63,6 +63,17 @@ impl Output {
         }
     }
 
+    /// Keeps no more than the first records of the interrupted run; before any is written.
+    ///
+    /// # Errors
+    /// [`Error::File`] if they cannot be read.
+    pub fn keep(&mut self, records: usize) -> Result<()> {
+        match &mut self.sink {
+            Sink::Resumed(resumed) => resumed.keep(records),
+            _ => Ok(()),
+        }
+    }
+
     /// Shows how many samples have been written.
     pub fn show(&mut self, progress: Progress) {
         self.progress = Some(progress);

@@ -212,6 +212,89 @@ fn openexr_says_whose_colours_it_holds() {
     }
 }
 
+/// By the names of the Color Interop Forum.
+#[test]
+fn openexr_names_its_colour_space() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |id: &str, more: &str| {
+        let colour = "--pattern constant:color=.2,.4,.6 16x9 3 -d float";
+        oiiotool(&folder, &format!("{colour} --attrib:type=string colorInteropID {id} {more} -o a.exr"));
+        folder.path().join("a.exr")
+    };
+    let rec709 = "--attrib:type=float[8] chromaticities 0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329";
+    for (id, want) in [
+        ("lin_rec709_scene", LINEAR),
+        ("srgb_rec709_scene", SRGB),
+        ("srgb_rec709_display", SRGB),
+        ("data", LINEAR),
+        ("unknown", LINEAR),
+    ] {
+        for more in ["", rec709] {
+            assert_light(&open(made(id, more)).unwrap(), want, 1e-7);
+        }
+    }
+    for (id, why) in [
+        ("g22_rec709_scene", "whose curve is neither linear nor sRGB's"),
+        ("lin_ap1_scene", "whose primaries are not sRGB's"),
+        ("srgb_p3d65_display", "whose primaries are not sRGB's"),
+        ("house:own", "a colour space that is not known here"),
+    ] {
+        let refused = refusal(&made(id, ""));
+        assert!(refused.contains(&format!("its attribute colorInteropID says {id}, {why}")), "{refused}");
+    }
+}
+
+#[test]
+fn openexr_that_is_not_read_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let grey = "--pattern constant:color=.2,.4,.6 16x9 3 -d float";
+    oiiotool(&folder, &format!("{grey} --attrib oiio:subimagename left -o a.exr"));
+    oiiotool(&folder, &format!("{grey} --attrib oiio:subimagename right -o b.exr"));
+    oiiotool(&folder, "a.exr b.exr --siappend -o two.exr");
+    let refused = refusal(&folder.path().join("two.exr"));
+    assert!(
+        refused.contains("several pictures in one file, its parts 0 'left', 1 'right'; save the part"),
+        "{refused}"
+    );
+    oiiotool(&folder, "--pattern constant:color=.2,.4,.6 16x9 3 -d uint32 -o whole.exr");
+    let refused = refusal(&folder.path().join("whole.exr"));
+    assert!(refused.contains("channel R has whole numbers (UINT)"), "{refused}");
+    let bytes = fs::read(folder.path().join("a.exr")).unwrap();
+    let mark = b"compression\0compression\0";
+    let at = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len() + 4;
+    for (number, why) in [(10, "HTJ2K"), (11, "HTJ2K"), (12, "compression")] {
+        let mut changed = bytes.clone();
+        changed[at] = number;
+        let refused = refusal(&written(&folder, "a.exr", &changed));
+        assert!(refused.contains("this vfold does not read") && refused.contains(why), "{refused}");
+        assert!(!refused.contains("damaged"), "{refused}");
+    }
+}
+
+#[test]
+fn gamma_of_exif_is_believed_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    // a directory of EXIF with its Gamma, behind it
+    let gamma = |tenths: u32| {
+        let entry = |tag: u16, kind: u16, value: u32| {
+            [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &1_u32.to_le_bytes(), &value.to_le_bytes()].concat()
+        };
+        let mut bytes = b"II*\0\x08\0\0\0\x01\0".to_vec();
+        bytes.extend(
+            [entry(0x8769, 4, 26), vec![0; 4], vec![1, 0], entry(0xa500, 5, 44), vec![0; 4]].concat(),
+        );
+        bytes.extend([tenths.to_le_bytes(), 10_u32.to_le_bytes()].concat());
+        encoded(&folder, "a.png", None, Some(bytes))
+    };
+    assert_light(&open(gamma(10)).unwrap(), LINEAR, 1e-12);
+    assert_light(&open(gamma(22)).unwrap(), SRGB, 1e-12);
+    let refused = refusal(&gamma(18));
+    assert!(
+        refused.contains("its EXIF Gamma says 1.8, whose curve is neither linear nor sRGB's"),
+        "{refused}"
+    );
+}
+
 /// Of 32 bits and more, only floats; of four inks, none.
 #[test]
 fn numbers_that_are_no_light_are_refused() {

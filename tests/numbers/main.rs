@@ -15,6 +15,7 @@ mod image_facets;
 mod image_files;
 mod image_refine;
 mod image_statements;
+mod image_tiff;
 mod kernel_methods;
 mod laws;
 mod least_misfit;

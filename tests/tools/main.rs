@@ -24,6 +24,7 @@ mod measure;
 mod not_modelled;
 mod photographs;
 mod picker;
+mod picture_files;
 mod plots;
 mod python;
 #[cfg(feature = "raw")]

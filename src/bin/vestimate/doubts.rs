@@ -10,8 +10,8 @@ use vfold::estimate::verdict::{Doubt, Level, unusual_exposure, unusual_findings}
 use vfold::forward::FacetValues;
 use vfold::image::Processing;
 use vfold::scene::FoldSetting;
-use vfold::spectrum::have_one_peak;
 use vfold::spectrum::library::{What, is_built_in};
+use vfold::spectrum::{have_one_peak, is_other_camera};
 use vfold::stream::{CameraRecord, Sample, Scene};
 
 use super::context::Context;
@@ -27,6 +27,7 @@ pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
         open_sides(sample)?,
         scaled(&camera),
         stand_in(&camera),
+        another_camera(&camera, sample)?,
     ];
     Ok(all.into_iter().flatten().collect())
 }
@@ -97,6 +98,19 @@ fn stand_in(camera: &CameraRecord) -> Option<Doubt> {
             "make them of a photograph of a colour chart (vextract --save-camera)",
         )
     })
+}
+
+/// A camera that EXIF says is another than the one that was stated.
+fn another_camera(camera: &CameraRecord, sample: &Sample) -> Result<Option<Doubt>> {
+    let (make, model) = sample.taken_by()?;
+    let is_other = camera.stands_in.is_none() && is_other_camera(&camera.name, &make, &model);
+    Ok(is_other.then(|| {
+        let took = format!("{make} {model}");
+        Doubt::new(
+            format!("EXIF says that {} took the picture, not {}", took.trim(), camera.name),
+            "give the camera that took it (vextract --camera)",
+        )
+    }))
 }
 
 impl Estimator<'_> {

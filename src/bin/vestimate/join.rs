@@ -7,6 +7,7 @@ use vfold::estimate::Exposure;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::verdict::Doubt;
+use vfold::files::composed;
 use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Scene, Together, pipe_together};
 use vfold::{Error, Result};
 
@@ -24,7 +25,7 @@ pub enum Join {
     Id,
     /// In a field.
     Field(String),
-    /// In a list of ids.
+    /// In a list of ids, as they are compared.
     Ids(Vec<String>),
 }
 
@@ -35,7 +36,7 @@ impl FromStr for Join {
         if text.is_empty() {
             return Err("write a field, or ids with commas between".to_owned());
         }
-        let ids: Vec<String> = text.split(',').map(str::to_owned).collect();
+        let ids: Vec<String> = text.split(',').map(composed).collect();
         Ok(match text {
             "id" => Self::Id,
             _ if ids.len() > 1 => Self::Ids(ids),
@@ -50,7 +51,7 @@ impl Join {
     /// # Errors
     /// A sample that does not name its sheet where it should.
     pub fn sheet(&self, sample: &Sample) -> Result<Option<String>> {
-        let id = sample.id();
+        let id = composed(&sample.id());
         match self {
             Self::Id => {
                 let sheet = id.rsplit_once(['-', '_']).map_or(id.as_str(), |(sheet, _)| sheet);
@@ -98,7 +99,7 @@ pub fn run(
         Join::Id | Join::Field(_) => Vec::new(),
     });
     let sheet = |sample: &Sample| {
-        named.borrow_mut().retain(|id| *id != sample.id());
+        named.borrow_mut().retain(|id| *id != composed(&sample.id()));
         join.sheet(sample)
     };
     pipe_together(reader, estimator, kept, sheet, done)?;

@@ -1,14 +1,42 @@
 //! Many photographs at once.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use vfold::Result;
-use vfold::image::Photograph;
+use vfold::files::composed;
+use vfold::image::{FileStamp, Photograph};
 use vfold::parallel::{Item, in_order};
-use vfold::stream::{Kept, Sample};
+use vfold::stream::{Kept, Output, Sample};
 
 use super::pictures::name;
 use super::sample::Setup;
+
+/// Forgets what an interrupted run measured from the first photograph on that was replaced since; which that is.
+///
+/// # Errors
+/// As [`Kept::sample`].
+pub fn forget_replaced<'a>(images: &'a [PathBuf], out: &mut Output) -> Result<Option<&'a PathBuf>> {
+    let mut kept = out.kept()?.all_known();
+    kept.pass()?;
+    for (n, path) in images.iter().enumerate() {
+        let Some(measured) = kept.sample(is_of(path))?.map(|sample| sample.measured_file()).transpose()?
+        else {
+            continue;
+        };
+        let there = path.metadata().ok().and_then(|metadata| FileStamp::of(&metadata));
+        if measured.zip(there).is_some_and(|(measured, there)| measured != there) {
+            out.keep(n + 1)?; // the scene is one of them
+            return Ok(Some(path));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether a sample is called after a photograph.
+fn is_of(path: &Path) -> impl Fn(&Sample) -> bool {
+    let name = composed(&name(path));
+    move |sample| composed(&sample.id()) == name
+}
 
 /// Measures photographs, of which the first is open already, and hands on their samples in order, each as soon as it is there.
 /// Those that `kept` has are not measured again. No more of them are in memory than there are threads.
@@ -23,8 +51,7 @@ pub fn measure(
     let mut first = Some(first);
     let steps = images.iter().map(|path| {
         let opened = first.take();
-        let is_its = |sample: &Sample| sample.id() == name(path);
-        match kept.sample(is_its).transpose() {
+        match kept.sample(is_of(path)).transpose() {
             Some(sample) => Item::Known(sample),
             None => Item::ToDo((path, opened)),
         }

@@ -1,5 +1,7 @@
 //! Which camera took a photograph.
 
+use std::path::Path;
+
 use vfold::camera::{StandIn, StandIns};
 use vfold::image::Photograph;
 use vfold::stream::StandInRecord;
@@ -24,7 +26,16 @@ pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<
         (info.camera.make.as_deref().unwrap_or(""), info.camera.model.as_deref().unwrap_or(""));
     if let Some(camera) = spectrum::camera_by_exif(make, model) {
         let same = spectrum::measured_cameras().any(|one| one.name() == camera && one.has_same_sensor(model));
-        let said = same.then(|| format!("{make} {model}: curves of {camera}, whose sensor is the same"));
+        let said = match &spectrum::other_measurements(&camera)[..] {
+            _ if same => Some(format!("{make} {model}: curves of {camera}, whose sensor is the same")),
+            [] => None,
+            others => {
+                let others = others.join(", ");
+                Some(format!(
+                    "{make} {model}: curves of {camera}; another measurement is {others} (--camera)"
+                ))
+            }
+        };
         return Ok(Some(Camera { spec: camera, stands_in: None, said }));
     }
     if model.is_empty() {
@@ -38,6 +49,22 @@ pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<
     let StandIn { name, why, .. } = stand_in;
     let (why, curve_error) = (why.words().to_owned(), why.expected_error());
     Ok(Some(Camera { spec: name, stands_in: Some(StandInRecord { camera: of, why, curve_error }), said }))
+}
+
+/// What is to be said of a photograph of which EXIF says that another camera took it than the one whose curves it is measured with.
+pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<String> {
+    let notes = &photograph.info().camera;
+    let (make, model) = (notes.make.as_deref().unwrap_or(""), notes.model.as_deref().unwrap_or(""));
+    spectrum::is_other_camera(camera, make, model).then(|| {
+        let instead = match spectrum::camera_by_exif(make, model) {
+            Some(known) => format!("give --camera {known}, or none"),
+            None => "leave out --camera, or give the curves of that camera".to_owned(),
+        };
+        let (path, taken_by) = (path.display(), format!("{make} {model}").trim().to_owned());
+        format!(
+            "warning: EXIF of {path} says {taken_by}, and its colours are taken for those of {camera}: expect a wrong spectrum; {instead}"
+        )
+    })
 }
 
 fn warning(of: &str, stand_in: &StandIn) -> String {

@@ -162,6 +162,14 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         calibration,
         flat_field,
     };
+    if let Some(replaced) = batch::forget_replaced(&images, out)?
+        && !args.common.quiet
+    {
+        let replaced = replaced.display();
+        said.push(format!(
+            "{replaced} was replaced since it was measured: it is measured again, and what follows it"
+        ));
+    }
     if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::image::{FlatField, Photograph, ReadOptions, Transfer, is_for_the_eye};
+use vfold::image::{FlatField, Photograph, PictureFile, ReadOptions, Transfer, is_for_the_eye};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
 
@@ -47,7 +47,8 @@ impl Reading {
     /// # Errors
     /// As [`Photograph::open`]; [`Error::Picture`] if it is a picture for the eye.
     pub fn open(&self, path: &Path) -> Result<Photograph> {
-        if is_for_the_eye(path) {
+        let mut file = PictureFile::open(path)?;
+        if is_for_the_eye(&mut file) {
             let problem = "this is a picture for the eye, made by vfold";
             return Err(Error::picture(
                 path,
@@ -55,7 +56,7 @@ impl Reading {
                 "render it as .exr or .tif, or give the photograph itself",
             ));
         }
-        let photograph = Photograph::open(path, &self.options)?;
+        let photograph = Photograph::read(file, &self.options)?;
         match self.black_level {
             Some(BlackLevel::Darkest) => Ok(photograph.with_darkest_as_black()),
             _ => Ok(photograph),

@@ -20,7 +20,7 @@ use super::pictures::name;
 use super::placing;
 use super::reading::Reading;
 use super::regions::GivenRegions;
-use super::{Args, balance, numbers};
+use super::{Args, balance, camera, numbers};
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
@@ -90,13 +90,25 @@ impl Setup<'_> {
                 .iter()
                 .for_each(|line| cli::say("vextract", line));
         }
+        if let Ok(camera) = self.scene.camera()
+            && camera.stands_in.is_none()
+            && let Some(line) = camera::other_than(&camera.name, path, &photograph)
+        {
+            cli::say("vextract", &line);
+        }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
     }
 
     /// A photograph's sample, or that of one that cannot be measured among others that can.
+    ///
+    /// # Errors
+    /// If the machine has no files left to open, which is no fault of the photograph's.
     pub fn sample_or_error(&self, path: &Path, photograph: Result<Photograph>) -> Result<Sample> {
         self.sample(path, photograph).or_else(|error| {
+            if error.is_out_of_files() {
+                return Err(error);
+            }
             let mut sample = Sample::new(&self.id, &name(path))?;
             sample.set_error(&error)?;
             Ok(sample)

@@ -1,6 +1,7 @@
 //! What is known about a photograph besides its pixels.
 
 use super::camera_notes::CameraNotes;
+use super::file_stamp::FileStamp;
 use crate::image::numbers::{Development, Transfer};
 
 /// What is known about a photograph besides its pixels.
@@ -31,6 +32,8 @@ pub struct PhotographInfo {
     pub undone: Option<Development>,
     /// Of a RAW file: what was read of the sensor.
     pub sensor: Option<SensorInfo>,
+    /// Size and time of the file, if it is one that stays.
+    pub file: Option<FileStamp>,
 }
 
 /// The part of a sensor that makes a picture.
@@ -67,6 +70,7 @@ impl PhotographInfo {
             darkest: Vec::new(),
             undone: None,
             sensor: None,
+            file: None,
         }
     }
 }

@@ -3,6 +3,7 @@
 mod camera_notes;
 mod darkest;
 mod ends;
+mod file_stamp;
 mod flat_field;
 mod info;
 mod interleaved;
@@ -16,6 +17,7 @@ mod sites;
 mod taken;
 
 pub use camera_notes::CameraNotes;
+pub use file_stamp::FileStamp;
 pub use flat_field::FlatField;
 pub use info::{PhotographInfo, SensorInfo};
 pub(in crate::image) use interleaved::Interleaved;
@@ -79,6 +81,12 @@ impl Photograph {
     ) -> Option<Self> {
         let sites = Sites::new(light, mosaic, info.camera.orientation)?;
         Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
+    }
+
+    /// The same, of a file of such a size and time.
+    pub(in crate::image) fn of_file(mut self, file: Option<FileStamp>) -> Self {
+        self.info.file = file;
+        self
     }
 
     /// A photograph of linear light that is at hand.

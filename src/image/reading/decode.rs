@@ -1,20 +1,18 @@
 //! From the bytes of a picture file to stored samples, whatever the file turns out to be.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek};
+use std::io::{BufRead, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::codecs::tiff::TiffDecoder;
-use image::{
-    DynamicImage, ExtendedColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits,
-};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits};
 
 use super::exif::{self, Tags};
 use super::jpeg::Jpeg;
 use super::openexr::{self, Kind};
+use super::picture_file::PictureFile;
 use super::stated::Statement;
-use super::{icc, in_place, png_chunks};
+use super::tiff::Tiff;
+use super::{icc, openexr_pixels, png_chunks};
 use crate::image::photograph::CameraNotes;
 use crate::room;
 use crate::{Error, Result};
@@ -38,7 +36,7 @@ pub(super) struct Picture {
 /// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
 pub(super) const MAX_BYTES: u64 = 2 << 30;
 /// Largest width and height, px.
-const MAX_SIDE: u32 = 1 << 16;
+pub(super) const MAX_SIDE: u32 = 1 << 16;
 /// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other compressions fewer than these.
 const MAX_COMPRESSION: u64 = 1 << 16;
 
@@ -47,16 +45,12 @@ pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it agai
 const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 
 /// Reads and decodes a picture file; the content, not the name, says which format it is.
-pub(super) fn decode(path: &Path) -> Result<Decoded> {
+pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
+    let (path, length) = (&file.path().to_owned(), file.length());
     let failed = |source| Error::file(path.display(), source);
-    let file = File::open(path).map_err(failed)?;
-    let length = file.metadata().map_err(failed)?.len();
-    if length > MAX_BYTES {
-        return Err(Error::picture(path, "the file is larger than 2 GiB", TOO_LARGE));
-    }
     // the directories of a TIFF file are read with all of it
     room::ask(length, &path.display().to_string(), TOO_LARGE)?;
-    let mut file = BufReader::new(file);
+    file.rewind().map_err(failed)?;
     let head = file.fill_buf().map_err(failed)?;
     if head.is_empty() {
         return Err(Error::picture(path, "the file is empty", "copy it again"));
@@ -74,28 +68,30 @@ pub(super) fn decode(path: &Path) -> Result<Decoded> {
     let format = image::guess_format(head).ok().filter(is_supported);
     let format =
         format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
-    let tags = match format {
-        ImageFormat::Tiff => Some(exif::read(Some(exif::tiff_tags(&mut file).map_err(failed)?))),
-        _ => None,
-    };
-    if tags.as_ref().is_some_and(|tags| tags.is_raw) {
+    if format == ImageFormat::Tiff {
+        return decode_tiff(file, path, length);
+    }
+    not_named_raw(path, format)?;
+    let (pixels, block, mut stated) = foreseen(path, || decode_whole(path, file, length, format))?;
+    let Tags { camera, stated: by_exif } = exif::read(block, 0);
+    stated.extend(by_exif);
+    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
+}
+
+fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decoded> {
+    let cut_short = |error| Error::picture(path, one_line(&format!("{error}")), DAMAGED);
+    let tiff = Tiff::open(file, length).map_err(cut_short)?;
+    if tiff.is_raw() {
         return Ok(Decoded::Raw);
     }
-    if tags.as_ref().is_some_and(|tags| tags.has_wide_integers) {
-        const REMEDY: &str = "save it again with 16 bits, or as floats";
-        return Err(Error::picture(path, "its numbers are integers of 32 bits, which are not read", REMEDY));
-    }
-    if is_named_raw(path) {
-        let problem = format!("named like a camera's RAW file, but a {} picture", name(format));
-        return Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"));
-    }
-    file.rewind().map_err(failed)?;
-    let (pixels, block, mut stated) = decode_as(path, &mut file, length, format)?;
-    let Tags { camera, colour_space, has_profile, .. } = tags.unwrap_or_else(|| exif::read(block));
-    if has_profile && stated.is_empty() {
-        stated.push(icc::unreadable());
-    }
-    stated.extend(colour_space);
+    let format = ImageFormat::Tiff;
+    not_named_raw(path, format)?;
+    let block = exif::tiff_tags(file).map_err(|source| Error::file(path.display(), source))?;
+    let Tags { mut camera, stated: by_exif } = exif::read(Some(block), tiff.page());
+    camera.notes.extend(tiff.note());
+    let mut stated = tiff.statements();
+    stated.extend(by_exif);
+    let pixels = foreseen(path, || tiff.pixels(path, file))?;
     Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
 }
 
@@ -115,9 +111,13 @@ const RAW_ENDINGS: [&str; 16] = [
     "rw2",
 ];
 
-fn is_named_raw(path: &Path) -> bool {
+fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str()))
+    if !ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str())) {
+        return Ok(());
+    }
+    let problem = format!("named like a camera's RAW file, but a {} picture", name(format));
+    Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"))
 }
 
 /// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark: where they stand, and what they are.
@@ -145,48 +145,30 @@ fn is_supported(format: &ImageFormat) -> bool {
 type PictureAndMore = (DynamicImage, Option<Vec<u8>>, Vec<Statement>);
 
 /// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the file's fault.
-fn decode_as(
-    path: &Path,
-    file: &mut BufReader<File>,
-    length: u64,
-    format: ImageFormat,
-) -> Result<PictureAndMore> {
+fn foreseen<T>(path: &Path, decode: impl FnOnce() -> Result<T>) -> Result<T> {
     let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
-    catch_unwind(AssertUnwindSafe(|| decode_whole(path, file, length, format))).unwrap_or_else(unforeseen)
+    catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(unforeseen)
 }
 
 fn decode_whole(
     path: &Path,
-    file: &mut BufReader<File>,
+    file: &mut PictureFile,
     length: u64,
     format: ImageFormat,
 ) -> Result<PictureAndMore> {
     let mut stated = before_pixels(path, file, format)?;
     let mut decoder = image_decoder(file, format).map_err(|error| undecodable(path, error))?;
-    let (width, height) = decoder.dimensions();
-    if width == 0 || height == 0 {
-        let problem = format!("the picture is {width} x {height} px");
-        return Err(Error::picture(path, problem, "copy the file again"));
-    }
-    if decoder.total_bytes() > MAX_BYTES {
-        let problem = format!("{width} x {height} px would take more than 2 GiB");
-        return Err(Error::picture(path, problem, TOO_LARGE));
-    }
-    if decoder.total_bytes() > length.saturating_mul(MAX_COMPRESSION) {
-        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
-        return Err(Error::picture(path, problem, DAMAGED));
-    }
-    let bytes = decoder.total_bytes();
+    let (dimensions, bytes) = (decoder.dimensions(), decoder.total_bytes());
+    check_size(path, dimensions, bytes, length)?;
     room::ask(bytes, &path.display().to_string(), TOO_LARGE)?;
-    if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
-        return Err(inks(path));
-    }
     stated.extend(decoder.icc_profile().ok().flatten().map(|profile| icc::statement(&profile)));
     let block = decoder.exif_metadata().ok().flatten();
-    let (dimensions, color_type) = (decoder.dimensions(), decoder.color_type());
+    let has_alpha = decoder.color_type().has_alpha();
     drop(decoder);
     file.rewind().map_err(|source| Error::file(path.display(), source))?;
-    if let Some(picture) = in_place::decode(&mut *file, format, dimensions, color_type) {
+    if format == ImageFormat::OpenExr
+        && let Some(picture) = openexr_pixels::decode(&mut *file, dimensions, has_alpha)
+    {
         return Ok((picture, block, stated));
     }
     // once decoded, once copied
@@ -196,8 +178,25 @@ fn decode_whole(
     Ok((picture, block, stated))
 }
 
+/// Checks that a picture of so many bytes is there, is not too large, and may be in a file of that length.
+pub(super) fn check_size(path: &Path, (width, height): (u32, u32), bytes: u64, length: u64) -> Result<()> {
+    if width == 0 || height == 0 {
+        let problem = format!("the picture is {width} x {height} px");
+        return Err(Error::picture(path, problem, "copy the file again"));
+    }
+    if bytes > MAX_BYTES {
+        let problem = format!("{width} x {height} px would take more than 2 GiB");
+        return Err(Error::picture(path, problem, TOO_LARGE));
+    }
+    if bytes > length.saturating_mul(MAX_COMPRESSION) {
+        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
+        return Err(Error::picture(path, problem, DAMAGED));
+    }
+    Ok(())
+}
+
 /// The decoder of a file from its beginning.
-fn image_decoder(file: &mut BufReader<File>, format: ImageFormat) -> ImageResult<impl ImageDecoder> {
+fn image_decoder(file: &mut PictureFile, format: ImageFormat) -> ImageResult<impl ImageDecoder> {
     file.rewind()?;
     let mut reader = ImageReader::with_format(file, format);
     reader.limits(limits());
@@ -205,7 +204,7 @@ fn image_decoder(file: &mut BufReader<File>, format: ImageFormat) -> ImageResult
 }
 
 /// What the decoders do not tell, or take for something else: what a file says of its numbers.
-fn before_pixels(path: &Path, file: &mut BufReader<File>, format: ImageFormat) -> Result<Vec<Statement>> {
+fn before_pixels(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<Vec<Statement>> {
     match format {
         ImageFormat::Png => Ok(png_chunks::statements(file)),
         ImageFormat::OpenExr => match openexr::kind(file) {
@@ -225,15 +224,11 @@ fn before_pixels(path: &Path, file: &mut BufReader<File>, format: ImageFormat) -
                 _ => Ok(Vec::new()),
             }
         }
-        // asked for before the decoder is given its limits: they are those of the picture, and a small one's are too narrow for a profile
-        _ => {
-            let profile = TiffDecoder::new(file).ok().and_then(|mut decoder| decoder.icc_profile().ok()?);
-            Ok(profile.iter().map(|profile| icc::statement(profile)).collect())
-        }
+        _ => Ok(Vec::new()),
     }
 }
 
-fn inks(path: &Path) -> Error {
+pub(super) fn inks(path: &Path) -> Error {
     Error::picture(
         path,
         "its colours are those of inks (CMYK)",
@@ -250,13 +245,18 @@ fn limits() -> Limits {
     limits
 }
 
-fn undecodable(path: &Path, error: ImageError) -> Error {
+pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
+    let problem = one_line(&error.to_string());
+    // what OpenEXR's decoder says of files that are whole
+    if let Some((_, what)) = problem.split_once("not supported: ") {
+        return Error::picture(path, format!("this vfold does not read this file: {what}"), RESAVE);
+    }
     let remedy = match &error {
         ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
         ImageError::Unsupported(_) => RESAVE,
         _ => DAMAGED,
     };
-    Error::picture(path, one_line(&error.to_string()), remedy)
+    Error::picture(path, problem, remedy)
 }
 
 /// A decoder's message, which may have several lines, in one.

@@ -8,10 +8,12 @@ use std::io::{self, Read, Seek, SeekFrom};
 use exif::{Context, Exif, In, Reader, Tag, Value};
 
 use super::exif_taken::taken;
-use super::stated::{OTHER_COLOURS, Statement};
+use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
 use crate::image::photograph::{CameraNotes, Orientation};
 
+/// How far EXIF's gamma may be from a number and still mean it.
+const SAME_GAMMA: f64 = 5e-3;
 /// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
 const TAGS_BYTES: usize = 1 << 20;
 
@@ -38,35 +40,28 @@ fn read_part(file: &mut (impl Read + Seek), block: &mut [u8], from: usize) -> io
     file.read_exact(part)
 }
 
-/// An ICC profile.
-const PROFILE: Tag = Tag(Context::Tiff, 0x8773);
-
 /// What a block says.
 pub(super) struct Tags {
     pub camera: CameraNotes,
-    /// Whose colours the picture has.
-    pub colour_space: Option<Statement>,
-    /// Whether a TIFF file holds what a sensor saw, and at best a preview for other programs.
-    pub is_raw: bool,
-    /// Whether a TIFF file has an ICC profile.
-    pub has_profile: bool,
-    /// Whether a TIFF file has integers of 32 bits or more, which its decoder takes for floats if the file does not name them.
-    pub has_wide_integers: bool,
+    /// Whose colours the picture has, and how its numbers follow the light.
+    pub stated: Vec<Statement>,
 }
 
-/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block.
-pub(super) fn read(block: Option<Vec<u8>>) -> Tags {
+/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block, and its picture may be on another `page` than the first.
+pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
     let mut notes = Vec::new();
     let exif = block.and_then(|block| parse(block, &mut notes));
     let field =
         |tag| exif.as_ref().and_then(|exif| exif.get_field(tag, In::PRIMARY)).map(|field| &field.value);
+    let of_page = |tag| exif.as_ref()?.get_field(tag, In(page as u16)).map(|field| &field.value);
     let camera = CameraNotes {
         make: field(Tag::Make).and_then(text),
         model: field(Tag::Model).and_then(text),
         exposure_s: field(Tag::ExposureTime).and_then(positive),
         f_number: field(Tag::FNumber).and_then(positive),
         iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
-        orientation: field(Tag::Orientation)
+        orientation: of_page(Tag::Orientation)
+            .or_else(|| field(Tag::Orientation))
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
         xyz_to_camera: exif.as_ref().and_then(xyz_to_camera),
         taken: exif.as_ref().map(taken).unwrap_or_default(),
@@ -74,10 +69,7 @@ pub(super) fn read(block: Option<Vec<u8>>) -> Tags {
     };
     Tags {
         camera,
-        colour_space: exif.as_ref().and_then(colour_space),
-        is_raw: exif.as_ref().is_some_and(is_raw),
-        has_profile: field(PROFILE).is_some(),
-        has_wide_integers: exif.as_ref().is_some_and(has_wide_integers),
+        stated: exif.iter().flat_map(|exif| [colour_space(exif), gamma(exif)]).flatten().collect(),
     }
 }
 
@@ -97,6 +89,18 @@ fn colour_space(exif: &Exif) -> Option<Statement> {
     Some(Statement { by: "EXIF", says: says.map_err(|()| format!("Adobe RGB, {OTHER_COLOURS}")) })
 }
 
+/// The power of light that EXIF says the numbers are shown by; 2.2 is said of sRGB's curve, too.
+fn gamma(exif: &Exif) -> Option<Statement> {
+    let gamma = positive(&exif.get_field(Tag::Gamma, In::PRIMARY)?.value)?;
+    let is = |number: f64| (gamma - number).abs() < SAME_GAMMA;
+    let says = match () {
+        () if is(1.0) => Ok(Transfer::Linear),
+        () if is(2.2) => Ok(Transfer::Srgb),
+        () => Err(format!("{gamma}, {OTHER_CURVE}")),
+    };
+    Some(Statement { by: "EXIF Gamma", says })
+}
+
 fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
     Reader::new()
         .continue_on_error(true)
@@ -108,25 +112,6 @@ fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
         })
         .map_err(|error| notes.push(format!("EXIF: {error}; all of it is ignored")))
         .ok()
-}
-
-/// Whether the first directory is that of a DNG, of a mosaic, or of a preview: then the picture itself is the sensor's, as in
-/// NEF and ARW.
-fn is_raw(exif: &Exif) -> bool {
-    const DNG_VERSION: Tag = Tag(Context::Tiff, 0xc612);
-    const NEW_SUBFILE_TYPE: Tag = Tag(Context::Tiff, 0xfe);
-    const MOSAIC: u32 = 32803;
-    let number = |tag| exif.get_field(tag, In::PRIMARY).and_then(|field| field.value.get_uint(0));
-    number(DNG_VERSION).is_some()
-        || number(Tag::PhotometricInterpretation) == Some(MOSAIC)
-        || number(NEW_SUBFILE_TYPE).is_some_and(|kind| kind & 1 == 1)
-}
-
-fn has_wide_integers(exif: &Exif) -> bool {
-    const SAMPLE_FORMAT: Tag = Tag(Context::Tiff, 0x153);
-    const FLOAT: u32 = 3;
-    let number = |tag| exif.get_field(tag, In::PRIMARY).and_then(|field| field.value.get_uint(0));
-    number(Tag::BitsPerSample).is_some_and(|bits| bits >= 32) && number(SAMPLE_FORMAT) != Some(FLOAT)
 }
 
 /// DNG's matrix for D65, which stands first or second.
@@ -181,14 +166,14 @@ mod tests {
 
     #[test]
     fn no_exif_is_no_fault() {
-        let camera = read(None).camera;
+        let camera = read(None, 0).camera;
         assert_eq!((camera.orientation, camera.notes), (Orientation::UPRIGHT, vec![]));
     }
 
     #[test]
     fn broken_exif_becomes_a_note() {
         for broken in [b"nonsense".to_vec(), b"II*\0".to_vec(), b"II*\0\xff\xff\xff\xff".to_vec()] {
-            let camera = read(Some(broken)).camera;
+            let camera = read(Some(broken), 0).camera;
             assert_eq!(camera.orientation, Orientation::UPRIGHT);
             assert!(camera.notes[0].ends_with("is ignored"), "{:?}", camera.notes);
         }
@@ -203,48 +188,21 @@ mod tests {
         large[..4].copy_from_slice(&small[..4]);
         large[4..8].copy_from_slice(&(directory as u32).to_le_bytes());
         large[directory..directory + small.len() - 8].copy_from_slice(&small[8..]);
-        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap())).camera;
+        let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap()), 0).camera;
         assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
     }
 
     #[test]
     fn good_fields_survive_a_bad_one() {
         let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6)); // the make lies outside the block
-        let camera = read(Some(block(&[make, orientation]))).camera;
+        let camera = read(Some(block(&[make, orientation])), 0).camera;
         assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
         assert_eq!(camera.notes.len(), 1);
     }
 
     #[test]
-    fn raw_files_are_told_from_pictures() {
-        for (entry, raw) in [
-            ((0xfe, 4, 1, 0), false),  // the whole picture
-            ((0xfe, 4, 1, 1), true),   // a preview
-            ((0xfe, 4, 1, 2), false),  // a page
-            ((0x106, 3, 1, 2), false), // RGB
-            ((0x106, 3, 1, 32803), true),
-            ((0xc612, 1, 4, 0x0401), true),
-        ] {
-            assert_eq!(read(Some(block(&[entry]))).is_raw, raw, "{entry:?}");
-        }
-    }
-
-    #[test]
-    fn integers_of_32_bits_are_told_from_floats() {
-        let (bits, float, integer) = ((0x102, 3, 1, 32), (0x153, 3, 1, 3), (0x153, 3, 1, 1));
-        for (entries, wide) in [
-            (vec![bits], true),
-            (vec![bits, integer], true),
-            (vec![bits, float], false),
-            (vec![(0x102, 3, 1, 16)], false),
-        ] {
-            assert_eq!(read(Some(block(&entries))).has_wide_integers, wide, "{entries:?}");
-        }
-    }
-
-    #[test]
     fn an_impossible_orientation_is_noted() {
-        let camera = read(Some(block(&[(0x112, 3, 1, 9)]))).camera;
+        let camera = read(Some(block(&[(0x112, 3, 1, 9)])), 0).camera;
         assert_eq!(camera.orientation, Orientation::UPRIGHT);
         assert!(camera.notes[0].contains("orientation"));
     }

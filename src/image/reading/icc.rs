@@ -2,11 +2,9 @@
 
 use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
 
-use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
+use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, curve_like};
 use crate::image::numbers::Transfer;
 
-/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows 0.001.
-const SAME_CURVE: f64 = 2e-3;
 /// Furthest, in XYZ under D50, that primaries may be from others and still be them: writers round them in various ways.
 const SAME_PRIMARY: f64 = 3e-3;
 /// Red, green and blue of sRGB, adapted to D50.
@@ -20,13 +18,8 @@ const SRGB_PRIMARIES: [[f64; 3]; 3] =
 pub(super) fn statement(profile: &[u8]) -> Statement {
     match ColorProfile::new_from_slice(profile) {
         Ok(profile) => said(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
-        Err(_) => unreadable(),
+        Err(_) => said(Err("something that cannot be read".to_owned())),
     }
-}
-
-/// Of a profile that is there, but cannot be read.
-pub(super) fn unreadable() -> Statement {
-    said(Err("something that cannot be read".to_owned()))
 }
 
 fn said(says: Result<Transfer, String>) -> Statement {
@@ -52,12 +45,7 @@ fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
 /// The curve of a channel; none where a table of colours takes its place.
 fn curve(tone: Option<&ToneReprCurve>) -> Result<Transfer, &'static str> {
     let tone = tone.and_then(|tone| tone.make_linear_evaluator().ok()).ok_or(OTHER_CURVE)?;
-    let is = |curve: &Transfer| {
-        (0..=255).map(|step| f64::from(step) / 255.0).all(|stored| {
-            (f64::from(tone.evaluate_value(stored as f32)) - curve.to_linear(stored)).abs() < SAME_CURVE
-        })
-    };
-    [Transfer::Linear, Transfer::Srgb].into_iter().find(is).ok_or(OTHER_CURVE)
+    curve_like(|stored| tone.evaluate_value(stored as f32).into()).ok_or(OTHER_CURVE)
 }
 
 fn has_srgb_primaries(profile: &ColorProfile) -> bool {

@@ -4,13 +4,17 @@ mod decode;
 mod exif;
 mod exif_taken;
 mod icc;
-mod in_place;
 mod jpeg;
 mod open;
 mod openexr;
+mod openexr_pixels;
+mod picture_file;
 mod png_chunks;
 mod primaries;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;
 mod stated;
 mod taken;
+mod tiff;
+
+pub use picture_file::PictureFile;

@@ -5,6 +5,7 @@ use std::path::Path;
 use image::ImageFormat;
 
 use super::decode::{Decoded, Picture, decode, name};
+use super::picture_file::PictureFile;
 use super::{raw, stated};
 use crate::image::numbers::{ReadOptions, Scale, Transfer};
 use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
@@ -35,14 +36,23 @@ impl Photograph {
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn open(path: &Path, options: &ReadOptions) -> Result<Self> {
-        let (decoded, undo) = (decode(path)?, options.development.is_some());
+        Self::read(PictureFile::open(path)?, options)
+    }
+
+    /// Reads a file that is open already, as [`Photograph::open`] does.
+    ///
+    /// # Errors
+    /// As [`Photograph::open`].
+    pub fn read(mut file: PictureFile, options: &ReadOptions) -> Result<Self> {
+        let (path, stamp) = (&file.path().to_owned(), file.stamp());
+        let (decoded, undo) = (decode(&mut file)?, options.development.is_some());
         let no_colours = |what: &str| {
             let problem = format!("{what} has no white balance and matrix to undo");
             Error::picture(path, problem, "read it without --undo")
         };
         let photograph = match decoded {
             Decoded::Raw if undo => Err(no_colours("a RAW file")),
-            Decoded::Raw => raw::open(path, options),
+            Decoded::Raw => raw::open(path, file.into_bytes()?, options),
             Decoded::Picture(picture) if undo && !picture.pixels.color().has_color() => {
                 Err(no_colours("a grey picture"))
             }
@@ -52,7 +62,7 @@ impl Photograph {
                 Self::from_picture(*picture, options, is_given)
             }
         };
-        photograph.map(Self::with_limits_found)
+        Ok(photograph?.with_limits_found().of_file(stamp))
     }
 
     fn from_picture(picture: Picture, options: &ReadOptions, transfer_given: bool) -> Result<Self> {

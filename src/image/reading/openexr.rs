@@ -2,11 +2,13 @@
 
 use std::io::{Read, Seek};
 
+use exr::compression::Compression;
 use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::meta::header::Header;
 
 use super::primaries::are_srgb;
-use super::stated::{OTHER_COLOURS, Statement};
+use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
 
 /// What is to be known before the pixels are decoded.
@@ -20,16 +22,66 @@ pub(super) enum Kind {
 /// The kind of a file whose header can be read.
 pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
     let MetaData { headers, .. } = MetaData::read_from_buffered(file, false).ok()?;
-    let Some(header) = headers.iter().find(|header| is_in_colour(header)) else {
-        let (is, remedy) = other(&headers);
-        return Some(Kind::Other { is, remedy });
+    let in_colour: Vec<_> = headers.iter().filter(|header| is_in_colour(header)).collect();
+    let (is, remedy) = match in_colour[..] {
+        [] => other(&headers),
+        [header] => match not_read(header) {
+            Some(why) => why,
+            None => return Some(Kind::Colours(statements(header))),
+        },
+        _ => (several(&headers), "save the part that is meant by itself, as `oiiotool --subimage N` does"),
     };
+    Some(Kind::Other { is, remedy })
+}
+
+const OTHER_COMPRESSION: &str = "save it with another compression, such as ZIP";
+
+/// Why a picture in red, green and blue cannot be read all the same, and what to do.
+fn not_read(header: &Header) -> Option<(String, &'static str)> {
+    if let Compression::HTJ2K32 | Compression::HTJ2K256 = header.compression {
+        let is = "this vfold does not read OpenEXR compressed by HTJ2K".to_owned();
+        return Some((is, OTHER_COMPRESSION));
+    }
+    let is_whole = |name: &str| {
+        header
+            .channels
+            .list
+            .iter()
+            .any(|channel| channel.name.eq(name) && channel.sample_type == SampleType::U32)
+    };
+    if let Some(name) = ["R", "G", "B"].into_iter().find(|name| is_whole(name)) {
+        let is = format!("its channel {name} has whole numbers (UINT), which do not say what white is");
+        return Some((is, "save it as half or float"));
+    }
+    if let [first, others @ ..] = &views(header)[..]
+        && !others.is_empty()
+    {
+        let is = format!("a picture of several views: {first}, {}", others.join(", "));
+        return Some((is, "save the view that is meant by itself, as R, G and B"));
+    }
     if !is_filled(header) {
         let is = "a picture whose data window leaves part of its display window empty".to_owned();
-        let remedy = "make its display window that of its pixels, as `oiiotool --fullpixels` does";
-        return Some(Kind::Other { is, remedy });
+        return Some((is, "make its display window that of its pixels, as `oiiotool --fullpixels` does"));
     }
-    Some(Kind::Colours(colours(header).into_iter().collect()))
+    None
+}
+
+/// The eyes or cameras that one part has pictures of.
+fn views(header: &Header) -> Vec<String> {
+    match header.own_attributes.other.iter().find(|&(name, _)| name.eq("multiView")) {
+        Some((_, AttributeValue::TextVector(views))) => views.iter().map(ToString::to_string).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// That several parts are in colour, by their names or numbers.
+fn several(headers: &[Header]) -> String {
+    let in_colour = headers.iter().enumerate().filter(|(_, header)| is_in_colour(header));
+    let names = in_colour.map(|(n, header)| match &header.own_attributes.layer_name {
+        Some(name) => format!("{n} '{name}'"),
+        None => n.to_string(),
+    });
+    format!("several pictures in one file, its parts {}", names.collect::<Vec<_>>().join(", "))
 }
 
 /// Whether it is a flat picture in red, green and blue.
@@ -71,6 +123,14 @@ fn is_filled(header: &Header) -> bool {
         && end(from.y(), shown.size.y()) <= header.layer_size.y() as i64
 }
 
+/// What a header says of its numbers. Chromaticities alone are those of linear light.
+fn statements(header: &Header) -> Vec<Statement> {
+    let (interop, colours) = (interop(header), colours(header));
+    let says_curve = interop.is_some();
+    let colours = colours.filter(|colours| !says_curve || colours.says.is_err());
+    [interop, colours].into_iter().flatten().collect()
+}
+
 /// `whiteLuminance` says how bright 1 was, which no measurement here depends on.
 fn colours(header: &Header) -> Option<Statement> {
     let says = header.shared_attributes.chromaticities?;
@@ -79,4 +139,28 @@ fn colours(header: &Header) -> Option<Statement> {
     let of_space = || format!("a red at {}, {}, a colour space {OTHER_COLOURS}", says.red.x(), says.red.y());
     let says = if are_srgb(&corners) { Ok(Transfer::Linear) } else { Err(of_space()) };
     Some(Statement { by: "attribute chromaticities", says })
+}
+
+/// The colour space by its name: `lin_rec709_scene` is linear, in the colours of Rec. 709, which are sRGB's.
+///
+/// # Source
+/// Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering" (2025), as OpenEXR 3.4 has it.
+fn interop(header: &Header) -> Option<Statement> {
+    let attributes = header.own_attributes.other.iter().chain(&header.shared_attributes.other);
+    let text = attributes.into_iter().find_map(|(name, value)| match value {
+        AttributeValue::Text(text) if name.eq("colorInteropID") => Some(text.to_string()),
+        _ => None,
+    })?;
+    let id = text.trim().to_ascii_lowercase();
+    if matches!(id.as_str(), "" | "data" | "unknown" | "raw") {
+        return None;
+    }
+    let says = match id.split('_').collect::<Vec<_>>()[..] {
+        ["lin", "rec709", _] => Ok(Transfer::Linear),
+        ["srgb", "rec709", _] => Ok(Transfer::Srgb),
+        [_, "rec709", _] => Err(format!("{text}, {OTHER_CURVE}")),
+        [_, _, "scene" | "display"] => Err(format!("{text}, {OTHER_COLOURS}")),
+        _ => Err(format!("{text}, a colour space that is not known here")),
+    };
+    Some(Statement { by: "attribute colorInteropID", says })
 }

@@ -4,7 +4,7 @@
 ///
 /// # Source
 /// IEC 61966-2-1:1999, table 1.
-const SRGB: [[f64; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
+pub(super) const SRGB: [[f64; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 /// How far they may be from others and still be them: writers round.
 const SAME: f64 = 2e-3;
 

@@ -22,6 +22,9 @@ pub(super) const OTHER_CURVE: &str = "whose curve is neither linear nor sRGB's";
 /// and with colours: they were made of a camera's by a matrix that the file does not tell.
 pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
 
+/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows 0.001.
+const SAME_CURVE: f64 = 2e-3;
+
 /// How to read it all the same.
 const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how its numbers are to be read";
 
@@ -43,6 +46,16 @@ pub(super) fn curve(path: &Path, statements: &[Statement]) -> Result<Option<Tran
         }
     }
     Ok(agreed.map(|(_, curve)| curve))
+}
+
+/// The curve that is this one, from stored numbers in [0, 1] to linear light.
+pub(super) fn curve_like(to_linear: impl Fn(f64) -> f64) -> Option<Transfer> {
+    let is = |curve: &Transfer| {
+        (0..=255)
+            .map(|step| f64::from(step) / 255.0)
+            .all(|stored| (to_linear(stored) - curve.to_linear(stored)).abs() < SAME_CURVE)
+    };
+    [Transfer::Linear, Transfer::Srgb].into_iter().find(is)
 }
 
 #[cfg(test)]

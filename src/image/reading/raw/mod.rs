@@ -42,12 +42,11 @@ const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or
 ///
 /// # Errors
 /// As [`Photograph::open`]; [`Error::Usage`] if another curve than the linear one is asked for.
-pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Photograph> {
+pub(super) fn open(path: &Path, mut bytes: Vec<u8>, options: &ReadOptions) -> Result<Photograph> {
     if options.transfer == Transfer::Srgb {
         let problem = format!("{} is a RAW file, whose numbers are linear", path.display());
         return Err(Error::usage("--transfer", problem, "leave it out"));
     }
-    let mut bytes = std::fs::read(path).map_err(|source| Error::file(path.display(), source))?;
     if let Some(fault) = tiff_directories::fault(&bytes) {
         return Err(damaged(path, one_line(&fault)));
     }

@@ -1,0 +1,139 @@
+//! A TIFF file under another directory.
+
+use std::io::{self, Read, Seek, SeekFrom};
+
+use super::directory::{
+    BITS_PER_SAMPLE, COMPRESSION, HEIGHT, JPEG_TABLES, LONG, PHOTOMETRIC, PREDICTOR, ROWS_PER_STRIP,
+    SAMPLE_FORMAT, SAMPLES_PER_PIXEL, SHORT, STRIP_BYTE_COUNTS, STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH,
+    TILE_OFFSETS, TILE_WIDTH, WIDTH,
+};
+use super::layout::{Cut, Layout};
+
+const HEAD_BYTES: u64 = 8;
+const UNDEFINED: u16 = 7;
+
+/// A file of which the first bytes lead to a directory that seems to lie behind its end. No strip or tile reaches there.
+pub(super) struct Described<R> {
+    file: R,
+    head: [u8; HEAD_BYTES as usize],
+    directory: Vec<u8>,
+    /// Where the directory begins.
+    end: u64,
+    at: u64,
+}
+
+impl<R: Read + Seek> Described<R> {
+    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of `chunks`.
+    pub fn new(file: R, length: u64, layout: &Layout, chunks: &[(u64, u64)]) -> Self {
+        // its first byte is read after a seek alone, so that a strip cut short ends where the file does
+        let end = length + 1;
+        let directory = directory(layout, chunks, end);
+        let mark = if layout.is_little { *b"II*\0" } else { *b"MM\0*" };
+        let place = long(layout.is_little, end);
+        let head = std::array::from_fn(|n| if n < 4 { mark[n] } else { place[n - 4] });
+        Self { file, head, directory, end, at: 0 }
+    }
+}
+
+impl<R: Read + Seek> Read for Described<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let ours = match self.at {
+            at if at < HEAD_BYTES => &self.head[at as usize..],
+            at if at >= self.end => self.directory.get((at - self.end) as usize..).unwrap_or_default(),
+            _ => {
+                let read = self.file.read(buffer)?;
+                self.at += read as u64;
+                return Ok(read);
+            }
+        };
+        let read = ours.len().min(buffer.len());
+        buffer[..read].copy_from_slice(&ours[..read]);
+        self.seek(SeekFrom::Current(read as i64))?;
+        Ok(read)
+    }
+}
+
+impl<R: Read + Seek> Seek for Described<R> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let to = match to {
+            SeekFrom::Start(to) => Some(to),
+            SeekFrom::Current(by) => self.at.checked_add_signed(by),
+            SeekFrom::End(by) => (self.end + self.directory.len() as u64).checked_add_signed(by),
+        };
+        self.at = to.ok_or(io::ErrorKind::InvalidInput)?;
+        if self.at < self.end {
+            self.file.seek(SeekFrom::Start(self.at))?;
+        }
+        Ok(self.at)
+    }
+}
+
+/// A directory that begins at `end`, values that do not fit into their entries behind it.
+fn directory(layout: &Layout, chunks: &[(u64, u64)], end: u64) -> Vec<u8> {
+    let (offsets, counts): (Vec<u64>, Vec<u64>) = chunks.iter().copied().unzip();
+    let number = |tag: u16, number: u64| (tag, LONG, vec![number]);
+    let format = if layout.kind.is_float() { 3 } else { 1 };
+    let mut entries = vec![
+        number(WIDTH, layout.width.into()),
+        number(HEIGHT, layout.height.into()),
+        (BITS_PER_SAMPLE, SHORT, vec![8 * layout.kind.stored() as u64]),
+        (COMPRESSION, SHORT, vec![layout.compression]),
+        (PHOTOMETRIC, SHORT, vec![1]),
+        (SAMPLES_PER_PIXEL, SHORT, vec![layout.samples_together() as u64]),
+        (PREDICTOR, SHORT, vec![layout.predictor]),
+        (SAMPLE_FORMAT, SHORT, vec![format]),
+    ];
+    match layout.cut {
+        Cut::Strips(rows) => entries.extend([
+            (STRIP_OFFSETS, LONG, offsets),
+            number(ROWS_PER_STRIP, rows),
+            (STRIP_BYTE_COUNTS, LONG, counts),
+        ]),
+        Cut::Tiles(width, length) => entries.extend([
+            number(TILE_WIDTH, width),
+            number(TILE_LENGTH, length),
+            (TILE_OFFSETS, LONG, offsets),
+            (TILE_BYTE_COUNTS, LONG, counts),
+        ]),
+    }
+    let tables = layout.jpeg_tables.iter().flatten().map(|byte| u64::from(*byte)).collect::<Vec<_>>();
+    if !tables.is_empty() {
+        entries.push((JPEG_TABLES, UNDEFINED, tables));
+    }
+    entries.sort_by_key(|(tag, ..)| *tag);
+    written(layout.is_little, &entries, end)
+}
+
+fn written(is_little: bool, entries: &[(u16, u16, Vec<u64>)], end: u64) -> Vec<u8> {
+    let mut bytes = short(is_little, entries.len() as u64).to_vec();
+    let mut behind = Vec::new();
+    let behind_at = end + 2 + 12 * entries.len() as u64 + 4;
+    for (tag, kind, numbers) in entries {
+        bytes.extend(short(is_little, (*tag).into()));
+        bytes.extend(short(is_little, (*kind).into()));
+        bytes.extend(long(is_little, numbers.len() as u64));
+        let mut values: Vec<u8> = match *kind {
+            SHORT => numbers.iter().flat_map(|number| short(is_little, *number)).collect(),
+            LONG => numbers.iter().flat_map(|number| long(is_little, *number)).collect(),
+            _ => numbers.iter().map(|number| *number as u8).collect(),
+        };
+        if values.len() <= 4 {
+            values.resize(4, 0);
+            bytes.extend(values);
+        } else {
+            bytes.extend(long(is_little, behind_at + behind.len() as u64));
+            behind.extend(values);
+        }
+    }
+    bytes.extend([0; 4]);
+    bytes.extend(behind);
+    bytes
+}
+
+fn short(is_little: bool, number: u64) -> [u8; 2] {
+    if is_little { (number as u16).to_le_bytes() } else { (number as u16).to_be_bytes() }
+}
+
+fn long(is_little: bool, number: u64) -> [u8; 4] {
+    if is_little { (number as u32).to_le_bytes() } else { (number as u32).to_be_bytes() }
+}

@@ -1,0 +1,373 @@
+//! How the samples of a page lie in its file, and why they cannot be read.
+
+use std::path::Path;
+
+use image::ColorType;
+
+use super::damaged;
+use super::directory::{
+    BITS_PER_SAMPLE, COMPRESSION, Directory, EXTRA_SAMPLES, FILL_ORDER, HEIGHT, JPEG_TABLES, PHOTOMETRIC,
+    PLANAR_CONFIGURATION, PREDICTOR, ROWS_PER_STRIP, SAMPLE_FORMAT, SAMPLES_PER_PIXEL, STRIP_BYTE_COUNTS,
+    STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH, TILE_OFFSETS, TILE_WIDTH, WIDTH,
+};
+use crate::image::reading::decode::{MAX_SIDE, inks};
+use crate::{Error, Result};
+
+/// What a sample is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    U8,
+    U16,
+    F16,
+    F32,
+    F64,
+}
+
+impl Kind {
+    /// Bytes of a sample as it is stored.
+    pub fn stored(self) -> usize {
+        match self {
+            Self::U8 => 1,
+            Self::U16 | Self::F16 => 2,
+            Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    pub fn is_float(self) -> bool {
+        !matches!(self, Self::U8 | Self::U16)
+    }
+}
+
+/// How a page is cut up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// Into strips of so many rows.
+    Strips(u64),
+    /// Into tiles of such a width and height, px.
+    Tiles(u64, u64),
+}
+
+/// How the samples of a page lie in its file.
+pub(super) struct Layout {
+    pub is_little: bool,
+    pub width: u32,
+    pub height: u32,
+    pub kind: Kind,
+    /// Samples a pixel.
+    pub samples: usize,
+    /// Colours a pixel, 1 or 3, which come first.
+    colours: usize,
+    /// The sample that is alpha.
+    alpha: Option<usize>,
+    /// Whether 0 is white.
+    pub is_inverted: bool,
+    /// Whether each sample has a plane of its own.
+    pub is_planar: bool,
+    pub cut: Cut,
+    pub compression: u64,
+    pub predictor: u64,
+    pub jpeg_tables: Option<Vec<u8>>,
+    /// Where strips or tiles lie, plane by plane, and how many bytes they have.
+    pub chunks: Vec<(u64, u64)>,
+}
+
+const NONE: u64 = 1;
+const LZW: u64 = 5;
+const JPEG: u64 = 7;
+const DEFLATE: u64 = 8;
+const PACK_BITS: u64 = 32773;
+const OLD_DEFLATE: u64 = 32946;
+/// Compressions that nobody undoes here, by their names.
+const UNREAD_COMPRESSIONS: [(u64, &str); 11] = [
+    (2, "fax's (CCITT RLE)"),
+    (3, "fax's (CCITT group 3)"),
+    (4, "fax's (CCITT group 4)"),
+    (6, "old JPEG's"),
+    (32909, "PixarLog's"),
+    (34676, "SGILog's"),
+    (34712, "JPEG 2000's"),
+    (34887, "LERC's"),
+    (34925, "LZMA's"),
+    (50000, "Zstandard's"),
+    (50001, "WebP's"),
+];
+
+impl Layout {
+    /// # Errors
+    /// [`Error::Picture`] if it contradicts itself, or says what is not read here.
+    pub fn of(path: &Path, page: &Directory, length: u64) -> Result<Self> {
+        let (Some(width), Some(height)) = (page.number(WIDTH), page.number(HEIGHT)) else {
+            return Err(damaged(path, "it does not say how large its picture is"));
+        };
+        if width == 0 || height == 0 {
+            let problem = format!("the picture is {width} x {height} px");
+            return Err(Error::picture(path, problem, "copy the file again"));
+        }
+        if width.max(height) > MAX_SIDE.into() {
+            let problem = format!("{width} x {height} px");
+            let remedy = "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read";
+            return Err(Error::picture(path, problem, remedy));
+        }
+        let (colours, is_inverted) = colours(path, page)?;
+        let kind = kind(path, page)?;
+        let samples = page.number(SAMPLES_PER_PIXEL).unwrap_or(1) as usize;
+        let alpha = alpha(path, page, samples, colours)?;
+        let compression = compression(path, page)?;
+        let is_planar = match page.number(PLANAR_CONFIGURATION).unwrap_or(1) {
+            1 => false,
+            2 => samples > 1,
+            other => return Err(damaged(path, format!("its PlanarConfiguration is {other}"))),
+        };
+        let layout = Self {
+            is_little: page.is_little,
+            width: width as u32,
+            height: height as u32,
+            kind,
+            samples,
+            colours,
+            alpha,
+            is_inverted,
+            is_planar,
+            cut: cut(path, page, height)?,
+            compression,
+            predictor: predictor(path, page, (compression, kind))?,
+            jpeg_tables: page.bytes(JPEG_TABLES).map(<[u8]>::to_vec),
+            chunks: Vec::new(),
+        };
+        if kind.is_float() && colours == 1 {
+            return Err(unread(path, "grey pictures of floats", "save it with 16 bits, or as RGB"));
+        }
+        let chunks = layout.find_chunks(path, page, length)?;
+        Ok(Self { chunks, ..layout })
+    }
+
+    /// The colours and alpha that are wanted, by their places among a pixel's samples.
+    pub fn wanted(&self) -> impl Iterator<Item = usize> {
+        (0..self.colours).chain(self.alpha)
+    }
+
+    /// Whether the samples of the file are those of the picture, byte by byte.
+    pub fn is_as_wanted(&self) -> bool {
+        !self.is_planar
+            && self.wanted().eq(0..self.samples)
+            && matches!(self.kind, Kind::U8 | Kind::U16 | Kind::F32)
+    }
+
+    /// Colours, alpha and depth of the picture that is made of it.
+    pub fn color_type(&self) -> ColorType {
+        match (self.kind, self.colours, self.alpha.is_some()) {
+            (Kind::U8, 1, false) => ColorType::L8,
+            (Kind::U8, 1, true) => ColorType::La8,
+            (Kind::U8, _, false) => ColorType::Rgb8,
+            (Kind::U8, _, true) => ColorType::Rgba8,
+            (Kind::U16, 1, false) => ColorType::L16,
+            (Kind::U16, 1, true) => ColorType::La16,
+            (Kind::U16, _, false) => ColorType::Rgb16,
+            (Kind::U16, _, true) => ColorType::Rgba16,
+            (_, _, false) => ColorType::Rgb32F,
+            (_, _, true) => ColorType::Rgba32F,
+        }
+    }
+
+    fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// Bytes of the picture that is made of it.
+    pub fn bytes(&self) -> u64 {
+        self.pixels() * u64::from(self.color_type().bytes_per_pixel())
+    }
+
+    /// Bytes of all samples.
+    pub fn stored_bytes(&self) -> u64 {
+        self.bytes().max(self.pixels().saturating_mul((self.samples * self.kind.stored()) as u64))
+    }
+
+    /// Bytes of a strip or tile that is decoded beside the picture before its samples are picked.
+    pub fn bytes_besides(&self) -> u64 {
+        let rows = match self.cut {
+            Cut::Strips(rows) => rows.min(self.height.into()),
+            Cut::Tiles(_, rows) => rows,
+        };
+        if self.is_as_wanted() { 0 } else { self.row_bytes().saturating_mul(rows) }
+    }
+
+    /// Samples a pixel in a strip or tile.
+    pub fn samples_together(&self) -> usize {
+        if self.is_planar { 1 } else { self.samples }
+    }
+
+    /// Bytes of a row of a strip or tile.
+    fn row_bytes(&self) -> u64 {
+        let columns = match self.cut {
+            Cut::Strips(_) => self.width.into(),
+            Cut::Tiles(width, _) => width,
+        };
+        columns.saturating_mul((self.samples_together() * self.kind.stored()) as u64)
+    }
+
+    /// How many strips or tiles a plane has, and how many rows of it the nth has.
+    fn plane(&self) -> (u64, impl Fn(u64) -> u64) {
+        let height = u64::from(self.height);
+        let (across, rows) = match self.cut {
+            Cut::Strips(rows) => (1, rows),
+            Cut::Tiles(width, rows) => (u64::from(self.width).div_ceil(width), rows),
+        };
+        let is_tiled = matches!(self.cut, Cut::Tiles(..));
+        let rows_of =
+            move |n: u64| if is_tiled { rows } else { rows.min(height - rows * (n % height.div_ceil(rows))) };
+        (across * height.div_ceil(rows), rows_of)
+    }
+
+    /// Where the strips or tiles lie, each wholly within a file of so many bytes.
+    fn find_chunks(&self, path: &Path, page: &Directory, length: u64) -> Result<Vec<(u64, u64)>> {
+        let (offsets, counts, what) = match self.cut {
+            Cut::Strips(_) => (STRIP_OFFSETS, STRIP_BYTE_COUNTS, "strips"),
+            Cut::Tiles(..) => (TILE_OFFSETS, TILE_BYTE_COUNTS, "tiles"),
+        };
+        let (in_a_plane, rows_of) = self.plane();
+        let wanted = in_a_plane * if self.is_planar { self.samples as u64 } else { 1 };
+        let bytes_of = |n: u64| self.row_bytes().saturating_mul(rows_of(n));
+        let offsets = page.numbers(offsets).unwrap_or_default();
+        let counts = match page.numbers(counts) {
+            // some old writers leave them out
+            None if self.compression == NONE => (0..wanted.min(offsets.len() as u64)).map(bytes_of).collect(),
+            counts => counts.unwrap_or_default(),
+        };
+        if (offsets.len().min(counts.len()) as u64) < wanted {
+            let (there, width, height) = (offsets.len().min(counts.len()), self.width, self.height);
+            let problem =
+                format!("inconsistent sizes: {width} x {height} px are {wanted} {what}, and it has {there}");
+            return Err(damaged(path, problem));
+        }
+        let chunks: Vec<_> = offsets.into_iter().zip(counts).take(wanted as usize).collect();
+        for (n, (offset, count)) in (0..).zip(&chunks) {
+            if offset + count > length {
+                return Err(damaged(path, format!("one of its {what} ends beyond the end of the file")));
+            }
+            if *count == 0 || self.compression == NONE && *count < bytes_of(n) {
+                return Err(damaged(path, format!("one of its {what} has {count} bytes")));
+            }
+        }
+        Ok(chunks)
+    }
+}
+
+/// How many colours there are, and whether 0 is white.
+fn colours(path: &Path, page: &Directory) -> Result<(usize, bool)> {
+    let what = match page.number(PHOTOMETRIC) {
+        Some(0) => return Ok((1, true)),
+        Some(1) => return Ok((1, false)),
+        Some(2) => return Ok((3, false)),
+        Some(5) => return Err(inks(path)),
+        Some(3) => "colours of a palette",
+        Some(4) => "masks",
+        Some(6) => "colours as JPEG has them (YCbCr)",
+        Some(8..=10) => "CIELAB",
+        Some(32844 | 32845) => "LogLuv",
+        Some(other) => {
+            let what = format!("PhotometricInterpretation {other}");
+            return Err(unread(path, &what, "save it as RGB"));
+        }
+        None => return Err(damaged(path, "it does not say whether it is grey or RGB")),
+    };
+    Err(unread(path, what, "save it as RGB"))
+}
+
+/// What all samples are.
+fn kind(path: &Path, page: &Directory) -> Result<Kind> {
+    const INTEGERS: u64 = 1;
+    const SIGNED: u64 = 2;
+    const FLOATS: u64 = 3;
+    const UNDEFINED: u64 = 4;
+    let alike = |tag: u16, default: u64| {
+        let all = page.numbers(tag).unwrap_or_else(|| vec![default]);
+        if all.iter().all(|one| *one == all[0]) { Ok(all[0]) } else { Err(all) }
+    };
+    let unlike = |what: &str, all: Vec<u64>| {
+        let all = all.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
+        unread(path, &format!("samples of different {what} ({all})"), "save it with 16 bits in every sample")
+    };
+    let bits = alike(BITS_PER_SAMPLE, 1).map_err(|all| unlike("bits", all))?;
+    let format = alike(SAMPLE_FORMAT, INTEGERS).map_err(|all| unlike("kinds", all))?;
+    match (format, bits) {
+        (INTEGERS | UNDEFINED, 8) => Ok(Kind::U8),
+        (INTEGERS | UNDEFINED, 16) => Ok(Kind::U16),
+        (FLOATS, 16) => Ok(Kind::F16),
+        (FLOATS, 32) => Ok(Kind::F32),
+        (FLOATS, 64) => Ok(Kind::F64),
+        (INTEGERS | UNDEFINED, bits) => {
+            Err(unread(path, &format!("integers of {bits} bits"), "save it again with 16 bits, or as floats"))
+        }
+        (SIGNED, _) => Err(unread(path, "signed integers", "save it again with 16 bits, or as floats")),
+        (FLOATS, bits) => Err(unread(path, &format!("floats of {bits} bits"), "save it again with 32 bits")),
+        _ => Err(unread(path, "complex numbers", "save it again with 16 bits, or as floats")),
+    }
+}
+
+/// The sample that is alpha: as `ExtraSamples` says, or, if it says nothing, a single one beside the colours.
+fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Result<Option<usize>> {
+    const ASSOCIATED: u64 = 1;
+    const UNASSOCIATED: u64 = 2;
+    if samples < colours {
+        return Err(damaged(path, format!("{samples} samples a pixel are not {colours} colours")));
+    }
+    let extra = page.numbers(EXTRA_SAMPLES);
+    let is_alpha = |kind: &u64| matches!(*kind, ASSOCIATED | UNASSOCIATED);
+    let alpha = match &extra {
+        Some(kinds) => kinds.iter().position(is_alpha),
+        None => (samples == colours + 1).then_some(0),
+    };
+    if colours == 1 && samples - usize::from(alpha.is_some()) > 1 {
+        let problem =
+            format!("it is grey, and has {samples} samples a pixel: which are its colours it does not say");
+        return Err(Error::picture(path, problem, "save it as RGB"));
+    }
+    Ok(alpha.map(|alpha| colours + alpha).filter(|alpha| *alpha < samples))
+}
+
+fn compression(path: &Path, page: &Directory) -> Result<u64> {
+    const REMEDY: &str = "save it uncompressed, or compressed by Deflate or LZW";
+    let compression = page.number(COMPRESSION).unwrap_or(NONE);
+    if page.number(FILL_ORDER).unwrap_or(1) != 1 {
+        return Err(unread(path, "bytes whose bits are in the other order (FillOrder 2)", REMEDY));
+    }
+    if matches!(compression, NONE | LZW | JPEG | DEFLATE | PACK_BITS | OLD_DEFLATE) {
+        return Ok(compression);
+    }
+    let name = UNREAD_COMPRESSIONS.iter().find(|(number, _)| *number == compression);
+    let name = name.map_or_else(|| format!("number {compression}"), |(_, name)| (*name).to_owned());
+    Err(unread(path, &format!("the compression {name}"), REMEDY))
+}
+
+/// What was done to the samples before they were compressed; it means nothing for other compressions.
+fn predictor(path: &Path, page: &Directory, (compression, kind): (u64, Kind)) -> Result<u64> {
+    const DIFFERENCES: u64 = 2;
+    const OF_FLOATS: u64 = 3;
+    if !matches!(compression, LZW | DEFLATE | OLD_DEFLATE) {
+        return Ok(1);
+    }
+    match page.number(PREDICTOR).unwrap_or(1) {
+        known @ (1 | DIFFERENCES) => Ok(known),
+        OF_FLOATS if kind.is_float() => Ok(OF_FLOATS),
+        other => Err(damaged(path, format!("its Predictor is {other}"))),
+    }
+}
+
+fn cut(path: &Path, page: &Directory, height: u64) -> Result<Cut> {
+    if !page.has(TILE_OFFSETS) {
+        let rows = page.number(ROWS_PER_STRIP).unwrap_or(height).min(height);
+        return if rows > 0 { Ok(Cut::Strips(rows)) } else { Err(damaged(path, "its strips have no rows")) };
+    }
+    let side = |tag| page.number(tag).filter(|px| (1..=u64::from(MAX_SIDE)).contains(px));
+    match (side(TILE_WIDTH), side(TILE_LENGTH)) {
+        (Some(width), Some(length)) => Ok(Cut::Tiles(width, length)),
+        _ => Err(damaged(path, "its tiles have no size")),
+    }
+}
+
+/// Of what a whole file may have and is not read here.
+fn unread(path: &Path, what: &str, remedy: &str) -> Error {
+    Error::picture(path, format!("this vfold does not read TIFF with {what}"), remedy)
+}

@@ -1,0 +1,284 @@
+//! Files of pictures as other programs write them, through `vextract`: two halves of known colours, the facets of either panel.
+
+use serde_json::Value;
+
+use crate::common::{Ended, Workdir, is_there};
+
+const FILES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bugs");
+/// `extract`, and `halves` with so many channels in so many samples.
+const SETUP: &str = r#"
+    vkernel --angle-deg 50 -o scene.json
+    corners0="40,55 40,5 5,10 5,50" corners1="40,55 40,5 75,10 75,50"
+    extract() {
+        vextract "$@" --scene scene.json --panel0 "$corners0" --panel1 "$corners1"
+    }
+    of_canon() {
+        extract "$@" --camera canon-5d-mark-ii --illuminant D65
+    }
+    halves() {
+        oiiotool --create 80x60 3 --fill:color=.2,.4,.1 40x60 --fill:color=.3,.15,.25 40x60+40+0 "$@"
+    }
+"#;
+const COLOURS: [[f64; 3]; 2] = [[0.2, 0.4, 0.1], [0.3, 0.15, 0.25]];
+
+fn sh(folder: &Workdir, line: &str) -> Ended {
+    folder.sh(&format!("{SETUP}\n{line}"))
+}
+
+fn sample(run: &Ended) -> Value {
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap()
+}
+
+/// Asserts that all facets have the colours of their halves.
+fn assert_halves(run: &Ended, tolerance: f64, what: &str) {
+    let sample = sample(run);
+    let facets = sample["facet_rgb"].as_array().unwrap();
+    for (n, facet) in facets.iter().enumerate() {
+        let want = COLOURS[2 * n / facets.len()];
+        let got: Vec<f64> = facet.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
+        assert!(
+            got.iter().zip(want).all(|(got, want)| (got - want).abs() < tolerance),
+            "{what}, {n}: {got:?} {want:?}"
+        );
+    }
+}
+
+#[test]
+fn files_of_other_programs_are_read_as_they_are_meant() {
+    if !is_there(FILES) {
+        return;
+    }
+    let folder = Workdir::new();
+    for name in ["rgb_two_extra_samples.tif", "planes_in_tiles.tif", "encoded_srgb_by_color_interop_id.exr"] {
+        assert_halves(&sh(&folder, &format!("of_canon {FILES}/{name}")), 2e-3, name);
+    }
+}
+
+#[test]
+fn layouts_of_tiff_are_read_or_refused_by_name() {
+    let folder = Workdir::new();
+    for (name, how) in [
+        ("more samples", "--ch R,G,B,=.7,=.3 -d uint16 --compression zip"),
+        ("planes in tiles", "--tile 32 32 --planarconfig separate -d uint16 --compression none"),
+        ("LZW in tiles", "--tile 32 32 --compression lzw -d uint16"),
+        ("half", "-d half --attrib:type=int tiff:half 1"),
+        ("planes of floats", "--planarconfig separate -d float --compression lzw"),
+    ] {
+        assert_halves(&sh(&folder, &format!("halves {how} -o a.tif; of_canon a.tif")), 1e-3, name);
+    }
+    // what was made small stands before what is meant, or behind it
+    let run = sh(
+        &folder,
+        "halves -d uint16 -o a.tif; oiiotool a.tif --resize 40x30 -o small.tif
+        oiiotool a.tif small.tif --siappend -d uint16 -o first.tif; of_canon first.tif",
+    );
+    assert_halves(&run, 1e-3, "several pages");
+    assert_eq!(sample(&run)["image"]["notes"][0], "TIFF: it has 2 pages, of which the first is read");
+    let run = sh(&folder, "oiiotool small.tif a.tif --siappend -d uint16 -o last.tif; of_canon last.tif");
+    assert_eq!(
+        (run.status, run.stderr.as_str()),
+        (
+            1,
+            "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; save the page that is meant by itself\n"
+        )
+    );
+    for (how, why) in [
+        ("-d uint32", "integers of 32 bits"),
+        ("-d uint8 --compression jpeg", "YCbCr"),
+        ("-d uint16 --ch R,G,B -d A=uint8 --ch 0 --compression ccittrle -d uint8", "CCITT"),
+    ] {
+        let run = sh(&folder, &format!("halves {how} -o a.tif; of_canon a.tif"));
+        let is_named = run.stderr.contains("this vfold does not read TIFF with ") && run.stderr.contains(why);
+        assert!(run.status == 1 && is_named || run.stdout.contains("sample"), "{how}: {run:?}");
+    }
+}
+
+/// A pipe can be read once.
+#[test]
+fn pipes_are_read_as_the_files_they_carry() {
+    let folder = Workdir::new();
+    let run = sh(
+        &folder,
+        r#"
+        without_file() { tail -n 1 | sed 's/"id":"[^"]*"//; s/"file":"[^"]*",//; s/"file_[a-z_]*":[0-9.e]*,//g'; }
+        halves -d uint16 -o a.tif
+        halves -d half -o a.exr
+        halves -d uint16 -o a.png
+        mkfifo pipe
+        for file in a.tif a.exr a.png; do
+            of_canon $file | without_file > of_file
+            cat $file > pipe & of_canon pipe | without_file > of_pipe
+            cmp of_file of_pipe
+            cat $file > pipe & of_canon $file --white pipe > of_white
+            of_canon $file --white $file | tail -n 1 > white
+            tail -n 1 of_white | cmp - white
+        done
+        cat a.tif > pipe & of_canon pipe --preview preview.png
+        "#,
+    );
+    assert_eq!((run.status, run.stderr.as_str(), run.stdout.as_str()), (0, "", ""));
+    if folder.can("bash -c :", "pictures of <(...) are not tested") {
+        let run = sh(
+            &folder,
+            r#"bash -ec 'vextract <(cat a.tif) --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
+                --panel0 "40,55 40,5 5,10 5,50" --panel1 "40,55 40,5 75,10 75,50"'"#,
+        );
+        assert_halves(&run, 1e-3, "<(cat a.tif)");
+        let run = sh(&folder, "bash -ec 'vextract <(echo no picture) --preview a.png'");
+        assert!(run.status == 1 && run.stderr.contains("not a PNG, TIFF"), "{run:?}");
+    }
+}
+
+/// A picture that is replaced while a run rests is measured again, which is said; the file is that of one run.
+#[test]
+fn replaced_pictures_are_measured_again() {
+    let folder = Workdir::new();
+    let run = sh(
+        &folder,
+        "for n in 1 2 3; do halves -d uint16 -o $n.tif; done
+        of_canon 1.tif 2.tif 3.tif --resume out.ndjson
+        of_canon 1.tif 2.tif 3.tif --resume out.ndjson
+        oiiotool 2.tif --mulc .5 -d uint16 -o 2.tif
+        touch -d 2020-01-01 2.tif
+        of_canon 1.tif 2.tif 3.tif --resume out.ndjson
+        of_canon 1.tif 2.tif 3.tif > whole.ndjson
+        cmp out.ndjson whole.ndjson
+        touch -d 2021-01-01 1.tif
+        extract 1.tif --no-history --camera canon-5d-mark-ii --illuminant D65 --resume one.ndjson
+        touch -d 2022-01-01 1.tif
+        extract 1.tif --no-history --camera canon-5d-mark-ii --illuminant D65 --resume one.ndjson",
+    );
+    let again = |name: &str| {
+        format!(
+            "vextract: {name} was replaced since it was measured: it is measured again, and what follows it\n"
+        )
+    };
+    assert_eq!((run.status, run.stderr), (0, again("2.tif") + &again("1.tif")));
+}
+
+/// Systems write é as one letter or as two.
+#[test]
+fn composed_and_decomposed_names_are_one() {
+    let folder = Workdir::new();
+    let run = sh(
+        &folder,
+        r#"
+        composed=$(printf 'caf\303\251') decomposed=$(printf 'cafe\314\201')
+        halves -d uint16 -o $decomposed.tif
+        corners='"panel0": [[40,55],[40,5],[5,10],[5,50]], "panel1": [[40,55],[40,5],[75,10],[75,50]]'
+        echo "[{\"image\": \"$composed.tif\", $corners}]" > corners.json
+        vextract $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --regions corners.json
+        "#,
+    );
+    assert_halves(&run, 1e-3, "regions");
+    let run = sh(
+        &folder,
+        "vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
+            --regions corners.json --resume out.ndjson
+        sed -i \"s/$decomposed/$composed/g\" out.ndjson
+        vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
+            --regions corners.json --resume out.ndjson"
+            .replace("$decomposed", "cafe\u{301}")
+            .replace("$composed", "caf\u{e9}")
+            .as_str(),
+    );
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+}
+
+/// A camera that EXIF says is not the one that was named.
+#[test]
+fn another_camera_in_exif_is_said_and_a_doubt() {
+    let folder = Workdir::new();
+    let of = |make: &str, model: &str, camera: &str| {
+        let line = format!(
+            "halves --attrib Make '{make}' --attrib Model '{model}' -d uint16 -o a.tif
+            extract a.tif {camera} --illuminant D65 > sample.ndjson"
+        );
+        let run = sh(&folder, &line);
+        assert_eq!(run.status, 0, "{run:?}");
+        let estimate = sample(&folder.sh("vestimate sample.ndjson --quiet"));
+        (run.stderr, estimate["estimate"]["verdict"]["because"].to_string())
+    };
+    let (said, because) = of("Canon", "Canon EOS R5", "--camera nikon-d850 --quiet");
+    assert_eq!(
+        said,
+        "vextract: warning: EXIF of a.tif says Canon Canon EOS R5, and its colours are taken for those of nikon-d850: expect a wrong \
+         spectrum; give --camera canon-eos-r5, or none\n"
+    );
+    assert!(
+        because.contains("EXIF says that Canon Canon EOS R5 took the picture, not nikon-d850"),
+        "{because}"
+    );
+    for (model, camera) in [
+        ("Canon EOS R5", "--camera canon-eos-r5"),
+        ("Canon EOS 5D Mark II", "--camera canon-eos-5d-mark-ii"),
+        ("Canon EOS 5D Mark II", "--camera canon-5d-mark-ii"),
+        ("Canon EOS R5", "--camera mine.csv"),
+        ("", "--camera nikon-d850"),
+    ] {
+        folder.sh("printf 'nm,R,G,B\n380,0,0.1,1\n550,0.3,1,0.2\n720,1,0,0\n' > mine.csv");
+        let (said, because) = of("Canon", model, camera);
+        assert!(
+            said.is_empty() && !because.contains("took the picture"),
+            "{model} {camera}: {said} {because}"
+        );
+    }
+    let (said, _) = of("Canon", "Canon EOS 5D Mark II", "");
+    assert_eq!(
+        said,
+        "vextract: Canon Canon EOS 5D Mark II: curves of canon-5d-mark-ii; another measurement is canon-eos-5d-mark-ii (--camera)\n"
+    );
+}
+
+/// No fix, wiped, or blank: like a picture that does not say where or when it was taken.
+#[test]
+fn places_and_times_that_are_none() {
+    let folder = Workdir::new();
+    let place = |latitude: &str, south: &str, longitude: &str, west: &str| {
+        format!(
+            "--attrib:type=float[3] GPS:Latitude {latitude} --attrib GPS:LatitudeRef '{south}' \
+             --attrib:type=float[3] GPS:Longitude {longitude} --attrib GPS:LongitudeRef '{west}'"
+        )
+    };
+    let noon = "--attrib GPS:DateStamp 2026:06:21 --attrib:type=float[3] GPS:TimeStamp 10,0,0";
+    let clock = |time: &str, offset: &str| {
+        format!("--attrib Exif:DateTimeOriginal '{time}' --attrib Exif:OffsetTimeOriginal '{offset}'")
+    };
+    let munich = place("48,8,24", "N", "11,34,48", "E");
+    for (attributes, light) in [
+        (format!("{munich} {noon}"), "sun:48.14,11.58,2026-06-21T10:00:00Z"),
+        (format!("{} {noon}", place("0,0,0", "N", "0,0,0", "E")), "D65"),
+        (format!("{} {noon}", place("48,8,24", " ", "11,34,48", "E")), "D65"),
+        (
+            format!("{} {noon}", place("8,0,0", "South", "11,0,0", "West")),
+            "sun:-8.00,-11.00,2026-06-21T10:00:00Z",
+        ),
+        (
+            format!("{munich} {noon} {}", clock("0000:00:00 00:00:00", "+02:00")),
+            "sun:48.14,11.58,2026-06-21T10:00:00Z",
+        ),
+        (
+            format!("{munich} {noon} {}", clock("2026:06:21 09:00:00", "   :  ")),
+            "sun:48.14,11.58,2026-06-21T10:00:00Z",
+        ),
+        (format!("{munich} {}", clock("2026:06:21 09:00:00", "   :  ")), "D65"),
+    ] {
+        let run = sh(
+            &folder,
+            &format!(
+                "halves {attributes} -d uint16 -o a.tif; extract a.tif --camera canon-5d-mark-ii | head -n 1"
+            ),
+        );
+        assert_eq!(sample(&run)["illuminants"][0]["name"], light, "{attributes}: {}", run.stderr);
+    }
+    if is_there(FILES) {
+        let line = format!("extract {FILES}/place_all_zeros.tif | head -n 1");
+        let run = sh(&folder, &line);
+        assert!(
+            run.stderr.contains("daylight assumed, D65: the photograph does not say where it was taken"),
+            "{}",
+            run.stderr
+        );
+    }
+}
