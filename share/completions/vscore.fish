@@ -8,7 +8,7 @@ metamerism\t'From the first illuminant to each other one'"
 complete -c vscore -l by -d 'Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`' -r
 complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like, flat and folded, and of a single sheet what the estimate leaves of its facets; of more than seven samples how scores are spread and which ten are worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
 complete -c vscore -l report -d 'Write a page with all of it and what the tools decided, one file for browsers and printers; of many samples the worst 24 are shown. For it and for --plot samples need no truth' -r -F
-complete -c vscore -l overlay -d 'Picture of what was measured for --report, {} in the name standing for the sample\'s [default: what vextract --overlay wrote]' -r -F
+complete -c vscore -l overlay -d 'Picture of what was measured for --report, as vextract --overlay drew it; {} in the name stands for the sample\'s; repeated: pictures that have their samples\' names' -r -F
 complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vscore -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F

@@ -10,9 +10,8 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
 /// Flags of other programs that messages and pages name, those of cargo, OpenImageIO and GNU parallel.
-const OTHERS: [&str; 13] = [
+const OTHERS: [&str; 12] = [
     "--bench",
-    "--example",
     "--features",
     "--nocapture",
     "--path",
@@ -32,7 +31,7 @@ fn known() -> BTreeMap<&'static str, BTreeSet<String>> {
         let help = Workdir::new().sh(&format!("{tool} --help")).stdout;
         let entries = help.lines().map(str::trim_start).filter(|line| line.starts_with('-'));
         let named = entries.filter_map(|line| flags(line).into_iter().next());
-        let also = help.lines().filter(|line| line.contains("[aliases:")).flat_map(flags);
+        let also = help.lines().filter(|line| line.contains("[alias")).flat_map(flags);
         named.chain(also).collect::<BTreeSet<String>>()
     };
     TOOLS.into_iter().map(|tool| (tool, listed(tool))).collect()

@@ -23,7 +23,8 @@ pub(super) struct Described<R> {
 }
 
 impl<R: Read + Seek> Described<R> {
-    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of `chunks`.
+    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of `chunks`. Tiles are whole: the decoder
+    /// of LZW fails where one is read row by row.
     pub fn new(file: R, length: u64, layout: &Layout, chunks: &[(u64, u64)]) -> Self {
         // its first byte is read after a seek alone, so that a strip cut short ends where the file does
         let end = length + 1;
@@ -72,10 +73,11 @@ impl<R: Read + Seek> Seek for Described<R> {
 fn directory(layout: &Layout, chunks: &[(u64, u64)], end: u64) -> Vec<u8> {
     let (offsets, counts): (Vec<u64>, Vec<u64>) = chunks.iter().copied().unzip();
     let number = |tag: u16, number: u64| (tag, LONG, vec![number]);
+    let (width, height) = layout.size_with_margins();
     let format = if layout.kind.is_float() { 3 } else { 1 };
     let mut entries = vec![
-        number(WIDTH, layout.width.into()),
-        number(HEIGHT, layout.height.into()),
+        number(WIDTH, width),
+        number(HEIGHT, height),
         (BITS_PER_SAMPLE, SHORT, vec![8 * layout.kind.stored() as u64]),
         (COMPRESSION, SHORT, vec![layout.compression]),
         (PHOTOMETRIC, SHORT, vec![1]),

@@ -150,6 +150,7 @@ impl Layout {
     /// Whether the samples of the file are those of the picture, byte by byte.
     pub fn is_as_wanted(&self) -> bool {
         !self.is_planar
+            && matches!(self.cut, Cut::Strips(_))
             && self.wanted().eq(0..self.samples)
             && matches!(self.kind, Kind::U8 | Kind::U16 | Kind::F32)
     }
@@ -167,6 +168,15 @@ impl Layout {
             (Kind::U16, _, true) => ColorType::Rgba16,
             (_, _, false) => ColorType::Rgb32F,
             (_, _, true) => ColorType::Rgba32F,
+        }
+    }
+
+    /// Width and height of what strips or tiles hold: tiles reach beyond the picture.
+    pub fn size_with_margins(&self) -> (u64, u64) {
+        let (width, height) = (u64::from(self.width), u64::from(self.height));
+        match self.cut {
+            Cut::Strips(_) => (width, height),
+            Cut::Tiles(columns, rows) => (width.next_multiple_of(columns), height.next_multiple_of(rows)),
         }
     }
 

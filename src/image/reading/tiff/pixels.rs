@@ -88,9 +88,9 @@ impl<R: BufRead + Seek> Pixels<'_, R> {
             let row_bytes = columns as usize * stored_pixel;
             decoded.resize(row_bytes * rows as usize, 0);
             decoder.read_chunk_bytes(n, &mut decoded)?;
-            for (y, row) in decoded.chunks_exact(row_bytes).enumerate() {
-                let start = ((top + y) * layout.width as usize + left) * pixel;
-                let to = &mut pixels[start..][..columns as usize * pixel];
+            let shown = (columns as usize).min(layout.width as usize - left);
+            for (y, row) in (top..layout.height as usize).zip(decoded.chunks_exact(row_bytes)) {
+                let to = &mut pixels[(y * layout.width as usize + left) * pixel..][..shown * pixel];
                 for (from, to) in row.chunks_exact(stored_pixel).zip(to.chunks_exact_mut(pixel)) {
                     picked.iter().for_each(|place| put(layout.kind, from, to, *place));
                 }
