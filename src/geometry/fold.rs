@@ -104,7 +104,7 @@ impl Fold {
         if !possible(width, depth) {
             return Err(Error::usage(
                 "--panel",
-                format!("{width}x{depth} is not a panel"),
+                format!("{width:?}x{depth:?} is not a panel"),
                 "give width along the crease x depth, both positive, at most 1000 times each other",
             ));
         }

@@ -21,6 +21,7 @@ mod install;
 mod joint;
 mod levels;
 mod measure;
+mod no_fold;
 mod not_modelled;
 mod photographs;
 mod picker;
