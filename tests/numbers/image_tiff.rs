@@ -162,7 +162,12 @@ fn page(files: &[Made], came: &[Came]) -> String {
             let counts = cells[&(row, *column)].iter().map(|(came, count)| match came {
                 Came::Same => format!("{count} same"),
                 Came::Right => format!("{count} right"),
-                Came::Refused(why) | Came::Other(why) => format!("{count} refused: {why}"),
+                Came::Refused(why) | Came::Other(why) => {
+                    format!(
+                        "{count} refused: {}",
+                        why.trim_start_matches("this vfold does not read TIFF with ")
+                    )
+                }
             });
             counts.collect::<Vec<_>>().join(", ")
         };

@@ -83,14 +83,10 @@ fn layouts_of_tiff_are_read_or_refused_by_name() {
             "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; save the page that is meant by itself\n"
         )
     );
-    for (how, why) in [
-        ("-d uint32", "integers of 32 bits"),
-        ("-d uint8 --compression jpeg", "YCbCr"),
-        ("-d uint16 --ch R,G,B -d A=uint8 --ch 0 --compression ccittrle -d uint8", "CCITT"),
-    ] {
+    for (how, why) in [("-d uint32", "integers of 32 bits"), ("-d uint8 --compression jpeg", "YCbCr")] {
         let run = sh(&folder, &format!("halves {how} -o a.tif; of_canon a.tif"));
         let is_named = run.stderr.contains("this vfold does not read TIFF with ") && run.stderr.contains(why);
-        assert!(run.status == 1 && is_named || run.stdout.contains("sample"), "{how}: {run:?}");
+        assert!(run.status == 1 && is_named, "{how}: {run:?}");
     }
 }
 
@@ -176,7 +172,7 @@ fn composed_and_decomposed_names_are_one() {
         &folder,
         "vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
             --regions corners.json --resume out.ndjson
-        sed -i \"s/$decomposed/$composed/g\" out.ndjson
+        sed -i 's/\"id\":\"$decomposed\"/\"id\":\"$composed\"/' out.ndjson
         vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
             --regions corners.json --resume out.ndjson"
             .replace("$decomposed", "cafe\u{301}")
@@ -267,7 +263,7 @@ fn places_and_times_that_are_none() {
         let run = sh(
             &folder,
             &format!(
-                "halves {attributes} -d uint16 -o a.tif; extract a.tif --camera canon-5d-mark-ii | head -n 1"
+                "halves {attributes} -d uint8 -o a.jpg; extract a.jpg --camera canon-5d-mark-ii | head -n 1"
             ),
         );
         assert_eq!(sample(&run)["illuminants"][0]["name"], light, "{attributes}: {}", run.stderr);
