@@ -49,7 +49,11 @@ fn streams() {
             case("gzip -c good.ndjson | vestimate", 1, &["-:1", "gzip -dc"]),
             case("gzip -c good.ndjson | vscore", 1, &["-:1", "gzip -dc"]),
             case("gzip -c good.ndjson | vforward --reflectance 0.5", 1, &["-:1", "gzip -dc"]),
-            case("gzip -c good.ndjson | vextract picture.tif", 1, &["-:1", "gzip -dc"]),
+            case(
+                "gzip -c good.ndjson | vextract picture.tif --panel0 '5,9 5,1 1,1 1,9' --panel1 '5,9 5,1 9,1 9,9'",
+                1,
+                &["-:1", "gzip -dc"],
+            ),
             case("xz -c good.ndjson | vestimate", 1, &["-:1", "xz -dc"]),
             case("bzip2 -c good.ndjson | vestimate", 1, &["-:1", "bzip2 -dc"]),
             case("iconv -f UTF-8 -t UTF-16 good.ndjson | vestimate", 1, &["-:1", "iconv -f UTF-16 -t UTF-8"]),
