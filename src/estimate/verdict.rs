@@ -121,7 +121,7 @@ pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
     } else {
         "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
     };
-    (off > EXPOSURE_DOUBTFUL || off < -EXPOSURE_WRONG).then(|| Doubt {
+    (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
             "white that faces the sun would be {:.3} times the white level of the picture, which people do not expose to",

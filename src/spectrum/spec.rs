@@ -151,7 +151,7 @@ impl Specs {
         table.check_quantity(path, what, member)?;
         match what {
             What::Reflectances => table = table.in_fractions(path, self.percent)?,
-            What::Cameras if member.is_none() => table = table.as_channels(path)?,
+            What::Cameras if member.is_none() => table = table.into_channels(path)?,
             What::Cameras | What::Illuminants => {}
         }
         let spectra = column_called(path, member, table.spectra(path))?;

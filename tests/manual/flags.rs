@@ -9,7 +9,7 @@ use crate::common::Workdir;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
-/// Flags of other programs that messages and pages name, those of cargo, OpenImageIO and GNU parallel.
+/// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO` and GNU parallel.
 const OTHERS: [&str; 12] = [
     "--bench",
     "--features",

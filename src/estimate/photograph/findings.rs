@@ -35,7 +35,7 @@ pub fn findings(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
         match findings.iter_mut().find(|one| one.what == symptom.words) {
             Some(same) => same.is_unusual |= is_unusual,
             None => {
-                findings.push(Finding { what: symptom.words.to_owned(), remedy: symptom.remedy, is_unusual })
+                findings.push(Finding { what: symptom.words.to_owned(), remedy: symptom.remedy, is_unusual });
             }
         }
     }

@@ -114,7 +114,7 @@ mod tests {
         let mut channel = |level: f64| {
             let mut number = |k: usize| {
                 let noise: f64 = StandardNormal.sample(&mut draws);
-                let light = if k % 3 == 0 { 0.0 } else { 10_000.0 + k as f64 };
+                let light = if k.is_multiple_of(3) { 0.0 } else { 10_000.0 + k as f64 };
                 (level + light + 20.0 * noise).max(0.0).round() as f32
             };
             Sampled::new(vec![(0..9000).map(&mut number).collect()])

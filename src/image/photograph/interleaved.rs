@@ -134,10 +134,10 @@ impl Interleaved {
         let float = |k: usize, v: f32| self.scales[k].linear(v.into());
         match &self.samples {
             Samples::U8(stored) => {
-                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor)
+                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor);
             }
             Samples::U16(stored) => {
-                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor)
+                self.visit_stored(stored, |k, v| integer(k, v.into()), columns, y, visitor);
             }
             Samples::F32(stored) => self.visit_stored(stored, float, columns, y, visitor),
             Samples::Light(light) => self.visit_stored(light, |_, v| v.into(), columns, y, visitor),

@@ -115,7 +115,7 @@ impl Table {
     }
 
     /// The same table with the spectra as channels of a camera, in their order.
-    pub(super) fn as_channels(mut self, path: &str) -> Result<Self> {
+    pub(super) fn into_channels(mut self, path: &str) -> Result<Self> {
         let (spectra, notes) = in_order(path, &self.spectra)?;
         self.notes.extend(notes);
         Ok(Self { spectra, ..self })
