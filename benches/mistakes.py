@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What becomes of mistakes: simulated photographs in which one thing is wrong, and what vestimate answers, as rows of a table.
 
-    mistakes.py TOOLS [--records FOLDER] [GROUP...]     TOOLS: folder of the tools
+    mistakes.py TOOLS [--records FOLDER] [GROUP...]     TOOLS: folder of the tools; FOLDER: for a JSON file per answer
 
 Every kind of mistake is made with eight matt sheets of the ColorChecker, 180 x 135 px with the noise of 20000 electrons at 1; kinds of a
 group share what is wrong and differ in how much. An answer is

@@ -179,15 +179,7 @@ fn beside(path: &Path) -> io::Result<Target> {
     // Temporary files are private by default; a result is for whom the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The error names the temporary file, which nobody asked for: its kind says what is wrong.
-    builder.tempfile_in(folder(path)).map(Target::Named).map_err(without_its_name)
-}
-
-/// The system's own error, without the name of a file that nobody gave.
-fn without_its_name(error: io::Error) -> io::Error {
-    let system = error.get_ref().and_then(|wrapped| wrapped.source());
-    let system = system.and_then(|source| source.downcast_ref::<io::Error>()?.raw_os_error());
-    system.map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
+    builder.tempfile_in(folder(path)).map(Target::Named)
 }
 
 fn temporary() -> tempfile::Builder<'static, 'static> {

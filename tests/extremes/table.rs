@@ -78,7 +78,10 @@ fn a_tenth_of_a_degree_undivided_is_refused() {
     for flags in ["-q", "-q --tolerance 1e-2"] {
         let run = Workdir::new().sh(&format!("vkernel --angle-deg 0.1 {flags}"));
         assert!(
-            run.status == 2 && run.stderr.contains("give a") && run.stdout.is_empty(),
+            run.status == 2
+                && run.stderr.contains("give more than 0.2°")
+                && run.stderr.lines().count() == 1
+                && run.stdout.is_empty(),
             "{flags}: {run:?}"
         );
     }

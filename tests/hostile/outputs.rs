@@ -79,7 +79,7 @@ fn names_that_are_no_utf_8() {
         vforward --reflectance cc24:red -q --render \"$name.exr\" -o \"$name.ndjson\" < \"$name.json\"
         vestimate --resume \"$name.estimates\" --spectra \"$name.csv\" < \"$name.ndjson\"
         vscore -o \"$name.scores\" < \"$name.estimates\"
-        ls | sed 's/x[^.]*/x/'");
+        ls | LC_ALL=C sed 's/x[^.]*/x/'");
     assert_eq!(run.stdout, "2\nx.csv\nx.estimates\nx.exr\nx.json\nx.ndjson\nx.scores\n", "{run:?}");
     assert!(run.status == 0 && run.stderr.lines().count() == 1 && run.stderr.contains("UTF-8"), "{run:?}");
 }

@@ -10,7 +10,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
 /// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO` and GNU parallel.
-const OTHERS: [&str; 12] = [
+const OTHERS: [&str; 13] = [
     "--bench",
     "--features",
     "--nocapture",
@@ -22,6 +22,7 @@ const OTHERS: [&str; 12] = [
     "--keep-order",
     "--pipe",
     "--sshlogin",
+    "--subimage",
     "--will-cite",
 ];
 

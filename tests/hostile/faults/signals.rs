@@ -52,7 +52,7 @@ fn no_record_that_was_written_is_lost() {
     let folder = ready();
     let runs = [
         ("vforward - --reflectance cc24", "cat scene.json", "cat scene.json |", 25),
-        ("sh extract -j 1 photo.exr photo.exr slow", "true", "cp photo.exr slow;", 3),
+        ("sh extract -j 1 photo.exr photo.exr slow", "true", "cp -p photo.exr slow;", 3),
         ("vestimate -", "head -n 9 samples.ndjson", "cat samples.ndjson |", 9),
         ("vscore -", "head -n 9 estimates.ndjson", "cat estimates.ndjson |", 9),
     ];
