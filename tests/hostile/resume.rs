@@ -57,7 +57,11 @@ END
             case("sh refused renamed.ndjson < samples.ndjson", 1, &[":4", "'cc24:sky'", "'cc24:blue-sky'"]),
             case("sh refused spaced.ndjson < samples.ndjson", 1, &["spaced.ndjson:5", "another way"]),
             case("sh refused gap.ndjson < samples.ndjson", 1, &["gap.ndjson:4", "'cc24:blue-sky'"]),
-            case("sh refused zeros.ndjson < samples.ndjson", 1, &["zeros.ndjson:4", "not the line that this run makes"]),
+            case(
+                "sh refused zeros.ndjson < samples.ndjson",
+                1,
+                &["zeros.ndjson:4", "not the line that this run makes"],
+            ),
             case("sh refused zeros-at-the-end.ndjson < samples.ndjson", 1, &[":4", "no part of a record"]),
             case("sh refused photo.jpg < samples.ndjson", 1, &["photo.jpg:2", "no part of a record"]),
             case("sh refused notes.txt < samples.ndjson", 1, &["notes.txt:1", "no part of a record"]),

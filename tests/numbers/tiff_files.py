@@ -149,7 +149,7 @@ def pictures():
     for kind, (name, (colours, extra)) in itertools.product(KINDS, SAMPLES.items()):
         light = random.uniform(0.02, 0.9, (HEIGHT, WIDTH, colours + len(extra)))
         # broad areas of one value, so that runs are packed and codes of LZW grow
-        light[:9, :14] = light[0, 0]
+        light[:9, :14] = 0.5 * light[0, 0]
         for k, what in enumerate(extra):
             if what:
                 light[:, :, colours + k] = 1

@@ -6,7 +6,8 @@ use super::plane_fit::Estimate;
 use crate::image::photograph::Pixel;
 
 /// Where a larger part of a facet's pixels is clipped, the others are those that noise left below the level: a tenth moves the mean by 0.2 of
-/// a pixel's standard deviation, a half by 0.8, which is many times the mean's own. Hot pixels are fewer.
+/// a pixel's standard deviation, a half by 0.8, which is many times the mean's own. Hot pixels are fewer; a single one
+/// says nothing of a small facet.
 const MOST_CLIPPED: f64 = 0.02;
 
 /// Pixels as they are found, a run at a time.
@@ -53,7 +54,7 @@ impl Tally {
             }
         }
         let clipped = self.clipped as f64;
-        let tells = clipped <= MOST_CLIPPED * (clipped + pixels);
+        let tells = clipped <= (MOST_CLIPPED * (clipped + pixels)).max(1.0);
         let estimates: Option<Vec<Estimate>> = (0..channels).map(|channel| sums.estimate(channel)).collect();
         let each = estimates.as_ref().filter(|_| tells);
         FacetMeasurement {
