@@ -19,6 +19,8 @@ const EXPOSURE_DOUBTFUL: f64 = 1.65;
 const EXPOSURE_WRONG: f64 = 3.25;
 /// A sheet that is darker than this in its brightest waveband is exposed longer: by the root of how much darker it is.
 const DARK_SHEET: f64 = 0.2;
+/// No sheet is darker than that in its brightest waveband.
+const DARKEST_SHEET: f64 = 0.03;
 /// Facets say another exposure than was stated if that leaves so small a part of the misfit, is so many standard deviations away, and by this
 /// logarithm of a factor.
 const EXPOSURE_BETTER: f64 = 0.8;
@@ -111,7 +113,7 @@ impl Verdict {
 /// - `is_stated`: whether somebody stated the exposure, which then is what to look at.
 #[must_use]
 pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
-    let brightest = estimate.reflectance.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let brightest = estimate.reflectance.iter().copied().fold(DARKEST_SHEET, f64::max);
     let longer = 0.5 * (DARK_SHEET / brightest).ln().max(0.0);
     let Normal { mean, sd } = EXPOSURE_OF_PHOTOGRAPH;
     let off = (estimate.exposure.ln() - mean - longer) / sd;

@@ -50,7 +50,10 @@ fn all_of_rawtoaces_data_are_known_by_their_pictures() {
     for (n, line) in CAMERAS.lines().enumerate() {
         let (make, model) = of(line);
         let run = folder.sh(&format!("mv {n}.tif photo.tif; sh extract"));
-        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{make} {model}");
+        // of this one there are two measurements, which is said
+        let is_twice = model == "Canon EOS 5D Mark II";
+        assert!(run.status == 0 && run.stderr.contains("another measurement") == is_twice, "{run:?}");
+        assert!(is_twice || run.stderr.is_empty(), "{make} {model}: {}", run.stderr);
         let camera = &scene(&run.stdout)["camera"];
         let name = camera["name"].as_str().unwrap();
         let plain = |text: &str| text.to_lowercase().replace([' ', '-', '.'], "");
@@ -108,10 +111,11 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     assert!(run.stderr.contains("the photograph names no camera"), "{}", run.stderr);
     let named = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract --camera nikon-d70");
     assert!(
-        named.stderr.is_empty() && scene(&named.stdout)["camera"]["stands_in"].is_null(),
+        named.stderr.lines().count() == 1 && named.stderr.contains("warning: EXIF of photo.tif says Leica"),
         "{}",
         named.stderr
     );
+    assert!(scene(&named.stdout)["camera"]["stands_in"].is_null());
 }
 
 /// A picture of the 24 patches as a compact camera sees them in direct sun, the gains of its channels and the exposure not being told.

@@ -115,7 +115,7 @@ fn few_channels_are_no_precision() {
         r"
         { echo wavelength,grey; for nm in $(seq 380 5 780); do echo $nm,1; done; } > one.csv
         { echo wavelength,short,long
-          for nm in $(seq 380 5 780); do echo $nm,$((nm < 560 ? 9 : 1)),$((nm < 560 ? 1 : 9)); done; } > two.csv",
+          for nm in $(seq 380 5 780); do echo $nm,$((nm < 560 ? 9 : 1)),$((nm < 560 ? 1 : 8)); done; } > two.csv",
     );
     assert_eq!((tables.status, tables.stderr.as_str()), (0, ""));
     for camera in ["one.csv", "two.csv"] {

@@ -177,7 +177,9 @@ fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
     println!(
         "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
     );
-    assert!(lamp[0] < 0.8 * alone[0] && lamp[1] > 0.9);
+    // Before the exposure of each had a prior, one alone was off by 0.043 and a lamp brought it to 0.029: what lamplight told was the
+    // exposure, which a photograph alone now knows as well.
+    assert!(alone[0] < 0.035 && lamp[0] < 0.035 && lamp[1] > 0.9);
     // where bars hold less, it is said
     for chip in chips {
         let doubts_one_light = |n: usize| {

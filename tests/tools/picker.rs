@@ -88,7 +88,8 @@ fn names_are_those_of_the_tools() {
             options.split("<option>").skip(1).map(|option| option.split('<').next().unwrap()).collect();
         let known = Workdir::new().sh(&format!("vextract --list {what}")).stdout;
         let known: Vec<&str> = known.lines().filter_map(|line| line.split_whitespace().next()).collect();
-        let known: Vec<&str> = known.into_iter().filter(|name| !name.contains(':')).collect();
+        let known: Vec<&str> =
+            known.into_iter().filter(|name| !name.contains(':') && *name != "2856K").collect();
         assert_eq!(listed, known, "share/picker.html, {what}");
     }
 }

@@ -186,10 +186,15 @@ fn composed_and_decomposed_names_are_one() {
 #[test]
 fn another_camera_in_exif_is_said_and_a_doubt() {
     let folder = Workdir::new();
+    let taken = folder.sh(
+        "vkernel --angle-deg 45 | vforward -q --reflectance cc24:orange --exposure 0.8 --photon-noise 0.007 \\
+        --render fold.tif --render-size 320x240 | tail -n 1 > corners.json",
+    );
+    assert_eq!(taken.status, 0, "{taken:?}");
     let of = |make: &str, model: &str, camera: &str| {
         let line = format!(
-            "halves --attrib Make '{make}' --attrib Model '{model}' -d uint16 -o a.tif
-            extract a.tif {camera} --illuminant D65 > sample.ndjson"
+            "oiiotool fold.tif --attrib Make '{make}' --attrib Model '{model}' -d uint16 -o a.tif
+            vkernel --angle-deg 45 | vextract a.tif {camera} --illuminant D65 --regions corners.json > sample.ndjson"
         );
         let run = sh(&folder, &line);
         assert_eq!(run.status, 0, "{run:?}");

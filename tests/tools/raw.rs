@@ -68,7 +68,7 @@ fn what_was_decided_is_told() {
 #[test]
 fn vextract_records_what_was_decided() {
     let run = Workdir::new().sh(&format!(
-        "vkernel --angle-deg 50 --facets 2x2 | vextract '{PHOTO}' --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2'"
+        "vkernel --angle-deg 50 --facets 2x2 | vextract -q '{PHOTO}' --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2'"
     ));
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();

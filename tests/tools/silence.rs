@@ -63,7 +63,7 @@ fn a_picture_that_was_developed_is_warned_of() {
         r#"{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}"#;
     folder.sh(&format!("echo '{undone}' > did.json"));
     let run = extract(&folder, JPEG, &format!("--illuminant D65 {PANELS} --undo did.json"));
-    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    assert!(run.status == 0 && !run.stderr.contains("developed"), "{run:?}");
     assert!(!folder.sh("cat out.ndjson").stdout.contains("\"developed\""));
 }
 

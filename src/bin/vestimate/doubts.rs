@@ -125,9 +125,6 @@ impl Estimator<'_> {
         let is_stated = self.exposure_of(sample)?.known().is_some();
         let is_by_chart = sample.fields.has("calibration");
         let mut doubts = unusual_findings(estimate);
-        if !is_by_chart {
-            doubts.extend(unusual_exposure(estimate, is_stated));
-        }
         if let Some(record) = &context.record {
             let model = &context.told.model;
             let sd = noise.deviations(model.facets(), rgb)?;
@@ -136,6 +133,9 @@ impl Estimator<'_> {
             let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
             let shading = Shading::new(grid, rgb, &sd);
             doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(&ideal, is_loose)));
+        }
+        if !is_by_chart {
+            doubts.extend(unusual_exposure(estimate, is_stated));
         }
         Ok(doubts)
     }

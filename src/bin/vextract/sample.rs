@@ -89,12 +89,13 @@ impl Setup<'_> {
             numbers::warnings(path, photograph.info(), processing, &facets)
                 .iter()
                 .for_each(|line| cli::say("vextract", line));
-            if let Ok(camera) = self.scene.camera()
-                && camera.stands_in.is_none()
-                && let Some(line) = camera::other_than(&camera.name, path, &photograph)
-            {
-                cli::say("vextract", &line);
-            }
+        }
+        // a warning, as that of curves that stand in
+        if let Ok(camera) = self.scene.camera()
+            && camera.stands_in.is_none()
+            && let Some(line) = camera::other_than(&camera.name, path, &photograph)
+        {
+            cli::say("vextract", &line);
         }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)

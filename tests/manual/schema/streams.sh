@@ -52,8 +52,8 @@ oiiotool card.tif --attrib Model unknown -o unknown.tif
 vextract unknown.tif "$@" --scene scene.ndjson -q -o stood-in.ndjson 2>said
 echo '{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1.6, -0.5, -0.1], [-0.2, 1.5, -0.3], [0, -0.5, 1.5]]}' > camera.json
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --undo camera.json --scene scene.ndjson \
-    --camera canon-5d-mark-ii -q -o developed.ndjson
+    --camera nikon-d5100 -q -o developed.ndjson
 # as the camera developed it, which leaves a doubt
-vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera canon-5d-mark-ii --illuminant D65 -q |
+vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
     vestimate -q -o doubtful.ndjson
 vestimate photographs.ndjson -q -o photographed.ndjson 2>said || [ $? = 3 ]
