@@ -92,7 +92,7 @@ fn few_files_may_be_open() {
     for files in 4..9 {
         for line in [
             "vkernel --facets 2x2 -o out --save kernel=k.npy --plot k.svg",
-            "vforward scene --reflectance cc24:red -o out --render r.exr",
+            "vforward -q scene --reflectance cc24:red -o out --render r.exr",
             "vestimate samples -o out --spectra a.csv --plot a.svg --trace t --save facet_rgb=f.npy",
             "vestimate samples --resume again",
             "vscore estimates --report r.html --plot x.png --save metrics.rmse=f.npy",
