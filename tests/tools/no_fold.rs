@@ -54,7 +54,7 @@ fn without_bounces_there_is_no_fold() {
 /// Under a dull sky a fold is darker at its crease.
 #[test]
 fn without_direct_sun_it_is_no_fold_either() {
-    for sheet in ["magenta", "neutral-8"] {
+    for sheet in ["magenta", "foliage"] {
         let (level, because) =
             verdict(&format!("take '--sky 5' '--reflectance cc24:{sheet}'; measure | vestimate -q"));
         assert!(level == "wrong" && because.contains("crease"), "{sheet}: {level}: {because}");

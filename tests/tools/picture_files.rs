@@ -218,7 +218,7 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
         ("Canon EOS R5", "--camera mine.csv"),
         ("", "--camera nikon-d850"),
     ] {
-        folder.sh("printf 'nm,R,G,B\n380,0,0.1,1\n550,0.3,1,0.2\n720,1,0,0\n' > mine.csv");
+        folder.sh("printf 'nm,R,G,B\n380,0,0.1,1\n550,0.3,0.9,0.2\n720,1,0,0\n' > mine.csv");
         let (said, because) = of("Canon", model, camera);
         assert!(
             said.is_empty() && !because.contains("took the picture"),

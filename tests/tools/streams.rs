@@ -181,7 +181,7 @@ fn a_byte_order_mark_is_skipped() {
         assert!(run.stdout == plain.stdout, "{marked}");
     }
     let scene = folder.sh("head -n 1 shade | LC_ALL=C sed 's/^/\\xef\\xbb\\xbf/' > scene.json
-         vforward scene.json --reflectance 0.5 --illuminant D65 --no-history | head -c 34");
+         vforward scene.json --reflectance 0.5 --illuminant D65 --no-history | head -c 33");
     assert_eq!(scene.stdout, "{\"kind\":\"scene\",\"format\":\"vfold/1", "{scene:?}");
 }
 

@@ -54,11 +54,12 @@ echo '{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1.6, -0.5,
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --undo camera.json --scene scene.ndjson \
     --camera nikon-d5100 -q -o developed.ndjson
 # black that was not subtracted, numbers that end below white, and a matrix, as pixels tell; panels of which half is marked
-vforward scene.ndjson -q --reflectance cc24:white --photon-noise 0.02 --render-size 480x360 --render noisy.tif | tail -n 1 > marked.ndjson
+vkernel --angle-deg 45 --facets 4x4 -o finer.ndjson
+vforward finer.ndjson -q --reflectance cc24:white --photon-noise 0.02 --render-size 480x360 --render noisy.tif | tail -n 1 > marked.json
 oiiotool noisy.tif --mulc 0.98 --addc 0.02 -d uint16 -o black.tif
 oiiotool noisy.tif --clamp:max=0.8 -d uint16 -o cut.tif
 oiiotool noisy.tif --ccmatrix 1.9,-0.2,0.05,-0.8,1.9,-0.75,-0.1,-0.7,1.7 -d uint16 -o matrix.tif
-vextract black.tif cut.tif matrix.tif --scene scene.ndjson --regions marked.ndjson --camera canon-5d-mark-ii --illuminant D65 -q \
+vextract black.tif cut.tif matrix.tif --scene finer.ndjson --regions marked.json --camera canon-5d-mark-ii --illuminant D65 -q \
     -o levels.ndjson 2>said || [ $? = 3 ]
 # as the camera developed it, which leaves a doubt
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
