@@ -1,4 +1,4 @@
-//! TIFF in every layout that the specification has for a picture: the numbers that OpenImageIO reads, or a refusal with the reason.
+//! TIFF in every layout that the specification has for a picture: the numbers that `OpenImageIO` reads, or a refusal with the reason.
 //! `TIFF=write` makes a page of what came out; without it the page is checked to say so.
 
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ struct Made {
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Came {
     Same,
-    /// The numbers that OpenImageIO reads of the same picture in another layout, but not in this one.
+    /// The numbers that `OpenImageIO` reads of the same picture in another layout, but not in this one.
     Right,
     Refused(String),
     Other(String),
@@ -55,7 +55,7 @@ fn made(folder: &Path) -> Vec<Made> {
     String::from_utf8(run.stdout).unwrap().lines().map(of_line).collect()
 }
 
-/// Has OpenImageIO read the files and write what it read, where it can.
+/// Has `OpenImageIO` read the files and write what it read, where it can.
 fn by_openimageio(folder: &Path, files: &[Made]) {
     let colours = |file: &Made| if file.is_grey { "0,0,0" } else { "0,1,2" };
     let convert = |files: &[Made]| {
@@ -139,10 +139,12 @@ fn every_layout_is_read_as_openimageio_does_or_refused() {
     );
 }
 
+/// How often files of a row and a column came out in each way.
+type Cells<'a> = BTreeMap<(&'a str, &'a str), BTreeMap<&'a Came, usize>>;
+
 fn page(files: &[Made], came: &[Came]) -> String {
     const COLUMNS: [&str; 4] = ["strips", "tiles", "planes in strips", "planes in tiles"];
-    let (mut rows, mut cells): (Vec<&str>, BTreeMap<(&str, &str), BTreeMap<&Came, usize>>) =
-        Default::default();
+    let (mut rows, mut cells): (Vec<&str>, Cells) = Default::default();
     for (file, came) in files.iter().zip(came) {
         if !rows.contains(&file.row.as_str()) {
             rows.push(&file.row);
