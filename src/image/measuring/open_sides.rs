@@ -84,6 +84,6 @@ mod tests {
         assert!(open(50.0, 40.0).is_empty());
         assert_eq!(open(50.0, 30.0), ["the outer side of panel 0"]);
         assert_eq!(open(35.0, 40.0), ["the side at crease end 1 of panel 0"]);
-        assert_eq!(open(75.0, 40.0), ["the side at crease end 1 of panel 0"]);
+        assert_eq!(open(66.0, 40.0), ["the side at crease end 1 of panel 0"]);
     }
 }
