@@ -1,5 +1,5 @@
 # Leaves a scene, samples, estimates, a photograph and a command that knows its corners.
-cp -p "$CARGO_MANIFEST_DIR/tests/data/photos/a_ideal_magenta_50.exr" photo.exr
+cp "$CARGO_MANIFEST_DIR/tests/data/photos/a_ideal_magenta_50.exr" photo.exr
 vkernel --angle-deg 50 --facets 2x2 -o scene.json
 vforward scene.json --reflectance cc24 --noise-sd 1e-3 -o samples.ndjson
 vestimate samples.ndjson -o estimates.ndjson
