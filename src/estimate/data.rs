@@ -194,8 +194,7 @@ impl<'a> FacetData<'a> {
     }
 
     /// How far an exposure is from the one that was expected, in standard deviations; 0 if none was.
-    #[must_use]
-    pub fn exposure_off(&self, exposure: f64) -> f64 {
+    fn exposure_off(&self, exposure: f64) -> f64 {
         match self.exposure {
             Exposure::Expected(Normal { mean, sd }) => (exposure.ln() - mean) / sd,
             Exposure::Known(_) | Exposure::Free | Exposure::Sum => 0.0,

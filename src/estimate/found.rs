@@ -179,7 +179,6 @@ impl Found {
             unknown: expected.unknown,
             value: self.point[column],
             sd: sd(column),
-            off: expected.off(self.point[column]),
             supported: sd(column) < SUPPORTED * prior_sd.abs(),
         });
         let (last, exposure) = (self.point.len() - 1, self.point[self.point.len() - 1]);
@@ -187,7 +186,6 @@ impl Found {
             unknown: &EXPOSURE,
             value: exposure,
             sd: sd(last),
-            off: data.exposure_off(exposure),
             supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
         });
         Estimate {

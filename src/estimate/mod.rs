@@ -109,8 +109,6 @@ pub struct Fitted {
     pub value: f64,
     /// Standard deviation, in the same unit.
     pub sd: f64,
-    /// How far the value is from what was known before, in standard deviations of that; 0 of one of which nothing was.
-    pub off: f64,
     /// Whether the facets say more of it than was known before.
     pub supported: bool,
 }

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::Setting;
 use crate::error::{Error, Result};
 use crate::estimate::measured::check_shape;
-use crate::estimate::unknowns::{Expected, SceneModel};
+use crate::estimate::unknowns::Unknown;
 use crate::forward::{FacetModel, FacetValues};
 use crate::stream::{EstimateRecord, Sample, Scene};
 
@@ -22,21 +22,14 @@ pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<FacetValues>> 
     }
     let (model, measured) = (Setting::of(scene)?.model_to_fit(&fit)?, sample.facet_rgb()?);
     let sd = sample.noise_of(&estimate)?.deviations(model.facets(), &measured)?;
-    let fitted = facets(&estimate, &at_fit(&estimate, &model))?;
+    let found =
+        |wanted: &Unknown| estimate.fitted().find(|(unknown, _)| *unknown == wanted).map(|(_, value)| value);
+    let fitted = facets(&estimate, &model.with_found(found))?;
     check_shape("facet_rgb", &measured, [fitted.nrows(), fitted.ncols()])?;
     Ok(Some(measured.map(|[facet, channel], value| {
         let sd = sd.get(facet, channel).unwrap_or_default().max(f64::MIN_POSITIVE);
         (value - fitted[(facet, channel)]) / sd
     })))
-}
-
-/// The model where the estimate is.
-fn at_fit(estimate: &EstimateRecord, model: &SceneModel) -> FacetModel {
-    let value = |expected: &Expected| {
-        let found = estimate.fitted().find(|(unknown, _)| *unknown == expected.unknown);
-        found.map_or(expected.at(0.0).0, |(_, value)| value)
-    };
-    model.with_values(&model.unknowns().iter().map(value).collect::<Vec<f64>>())
 }
 
 /// The facets of the estimate, facet by channel.

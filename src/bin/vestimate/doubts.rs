@@ -1,11 +1,10 @@
 //! What speaks against the estimate of a photograph: how it was taken, and what its facets show.
 
-use nalgebra::DMatrix;
 use vfold::Result;
 use vfold::estimate::Estimate;
 use vfold::estimate::noise::Noise;
 use vfold::estimate::shading::Shading;
-use vfold::estimate::unknowns::SceneModel;
+use vfold::estimate::unknowns::Unknown;
 use vfold::estimate::verdict::{Doubt, Level, unusual_exposure, unusual_findings};
 use vfold::forward::FacetValues;
 use vfold::image::Processing;
@@ -128,21 +127,19 @@ impl Estimator<'_> {
         if let Some(record) = &context.record {
             let model = &context.told.model;
             let sd = noise.deviations(model.facets(), rgb)?;
-            let ideal = ideal_facets(model, &estimate.reflectance);
+            let found = |unknown: &Unknown| {
+                let one = estimate.fitted.iter().find(|one| one.unknown == unknown);
+                one.map(|one| one.value)
+            };
+            let ideal = model.with_found(found).facet_rgb(&estimate.reflectance);
             let grid = FoldSetting::of(record)?.fold().facets();
             let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
-            let shading = Shading::new(grid, rgb, &sd);
-            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(&ideal, is_loose)));
+            let shading = Shading::new(grid, rgb, &sd, &ideal);
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(is_loose)));
         }
         if !is_by_chart {
             doubts.extend(unusual_exposure(estimate, is_stated));
         }
         Ok(doubts)
     }
-}
-
-/// The facets of an ideal fold, or another surface, of this reflectance, all that is unknown of the scene being as expected.
-fn ideal_facets(model: &SceneModel, reflectance: &[f64]) -> DMatrix<f64> {
-    let expected: Vec<f64> = model.unknowns().iter().map(|one| one.at(0.0).0).collect();
-    model.with_values(&expected).facet_rgb(reflectance)
 }

@@ -8,7 +8,7 @@ use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
-    FacetMeasurement, FlatField, Homography, Photograph, measure, open_sides, pixels_sharing_noise,
+    FacetMeasurement, FlatField, Grid, Homography, Photograph, measure, open_sides, pixels_sharing_noise,
     processing,
 };
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
@@ -79,7 +79,7 @@ impl Setup<'_> {
         }
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &sharing_noise)
             .with_processing(processing)
-            .with_open_sides(open_sides(&photograph, &placed.grids))
+            .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
             .with_placing(placed.distortion, placed.refinement.as_ref());
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
@@ -99,6 +99,12 @@ impl Setup<'_> {
         }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
+    }
+
+    /// Sides along which no edge of the sheet lies; of other surfaces than a fold, panels go on at more sides than one.
+    fn open_sides(&self, photograph: &Photograph, panels: &[Grid]) -> Result<Vec<String>> {
+        let is_fold = self.scene.fold_if_one()?.is_some();
+        Ok(if is_fold { open_sides(photograph, panels) } else { Vec::new() })
     }
 
     /// A photograph's sample, or that of one that cannot be measured among others that can.

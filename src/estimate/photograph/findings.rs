@@ -23,10 +23,12 @@ const UNUSUAL: f64 = 3.0;
 #[must_use]
 pub fn findings(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
     let found = |one: &Fitted| {
-        let symptom = one.unknown.photograph.as_ref()?.symptom.as_ref()?;
+        let effect = one.unknown.photograph.as_ref()?;
+        let (symptom, prior) = (effect.symptom.as_ref()?, (effect.prior)(told)?);
+        let from_usual = (one.unknown.scale.normal(one.value) - prior.mean).abs() / prior.sd;
         let off = (one.value - (symptom.ideal)(told)).abs();
         let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
-        is_found.then_some((off / one.sd, one.off.abs() > UNUSUAL, symptom))
+        is_found.then_some((off / one.sd, from_usual > UNUSUAL, symptom))
     };
     let mut all: Vec<_> = fitted.iter().filter_map(found).collect();
     all.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));

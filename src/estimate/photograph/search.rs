@@ -193,13 +193,7 @@ impl Maximum {
                 let (value, slope) = expected.at(w[n]);
                 let value = if expected.unknown == &EXPOSURE { exposure } else { value };
                 let sd = sd(member.place(n));
-                Fitted {
-                    unknown: expected.unknown,
-                    value,
-                    sd: sd * slope.abs(),
-                    off: w[n],
-                    supported: sd < SUPPORTED,
-                }
+                Fitted { unknown: expected.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
             });
             let values = member.model.values().norm().max(f64::MIN_POSITIVE);
             Seen {

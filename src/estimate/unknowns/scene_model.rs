@@ -28,13 +28,6 @@ impl Expected {
         (value, self.prior.sd * slope)
     }
 
-    /// How far `value` is from what is known before, in standard deviations of that; 0 of a number that is known after all.
-    #[must_use]
-    pub fn off(self, value: f64) -> f64 {
-        let Normal { mean, sd } = self.prior;
-        if sd > 0.0 { (self.unknown.scale.normal(value) - mean) / sd } else { 0.0 }
-    }
-
     /// The end of its range that `value` lies beyond, if it does.
     #[must_use]
     pub fn bound_of(self, value: f64) -> Option<f64> {
@@ -107,6 +100,13 @@ impl SceneModel {
                 .product()
         };
         self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
+    }
+
+    /// The model with its unknowns known to be as they were `found`, in their units, or as expected where they were not.
+    #[must_use]
+    pub fn with_found(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
+        let value = |one: &Expected| found(one.unknown).unwrap_or_else(|| one.at(0.0).0);
+        self.with_values(&self.unknowns.iter().map(value).collect::<Vec<f64>>())
     }
 
     /// Amounts of the sources at `w`, one standard normal number per unknown.
