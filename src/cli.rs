@@ -176,10 +176,11 @@ const STACK: u64 = 2 << 20;
 /// What any run takes besides: with less it would end without a word, somewhere.
 const LEAST_ROOM: u64 = 32 << 20;
 
-/// Starts so many threads, or one for each core.
+/// Starts so many threads, else as many as the environment says, else one for each core.
 fn start_threads(count: Option<u16>) -> Result<()> {
+    let in_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|count| *count > 0);
     let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
-    let count = count.map_or_else(all, usize::from);
+    let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
     // threads that run already end the program where the stack of a later one leaves them no room
     let room = LEAST_ROOM + STACK * count as u64;
     room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
@@ -285,9 +286,10 @@ pub fn light(text: &str) -> std::result::Result<String, String> {
     let number = text.trim();
     match number.parse() {
         Ok(value) if value > POWER_MAX && f64::is_finite(value) => {
+            let black_body = if (1000.0..=25000.0).contains(&value) { number } else { "2856" };
             let daylight = if (4000.0..=25000.0).contains(&value) { number } else { "5500" };
             Err(format!(
-                "a number may be a temperature ({number}K, a black body; daylight:{daylight}, daylight) or a flat spectrum (E, or 1): \
+                "a number may be a temperature ({black_body}K, a black body; daylight:{daylight}, daylight) or a flat spectrum (E, or 1): \
                  write which"
             ))
         }

@@ -1,5 +1,7 @@
 //! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed leaves none.
 
+pub(crate) mod forms;
+
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Write};

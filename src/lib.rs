@@ -46,7 +46,7 @@
 //! score, camera        -> colorimetry
 //! camera, colorimetry  -> spectrum
 //! spectrum             -> files, markup, message
-//! progress             -> message
+//! progress, markup     -> message
 //! ```
 //!
 //! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to [`stream`] alone, that of

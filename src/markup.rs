@@ -1,15 +1,17 @@
 //! Text within XML and HTML.
 
-/// A text without the characters that no XML may hold: control characters and what is not a character at all.
+use crate::message;
+
+/// A text that shows letter by letter where XML holds it: what [`message::printable`] escapes is escaped, and what is no character at all is
+/// replaced.
 ///
 /// # Example
 /// ```
-/// assert_eq!(vfold::markup::printable("a\0\u{1b}b"), "a\u{fffd}\u{fffd}b");
+/// assert_eq!(vfold::markup::printable("a\0\u{202e}b\u{ffff}"), "a\\u{0}\\u{202e}b\u{fffd}");
 /// ```
 #[must_use]
 pub fn printable(text: &str) -> String {
-    let no_letter = |letter: char| letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}');
-    text.replace(no_letter, "\u{fffd}")
+    message::printable(text).replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}")
 }
 
 /// A text as the content of an element or the value of an attribute.

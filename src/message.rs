@@ -38,6 +38,18 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     text.chars().map(shown).collect()
 }
 
+/// Whether a spreadsheet would take a text for a formula, and run it.
+///
+/// # Example
+/// ```
+/// use vfold::message::is_formula;
+/// assert!(is_formula("=1+1") && is_formula(" @sum") && !is_formula("5YR 7/12"));
+/// ```
+#[must_use]
+pub fn is_formula(text: &str) -> bool {
+    text.trim_start().starts_with(['=', '+', '-', '@'])
+}
+
 /// Whether a letter is none, but acts on those around it.
 fn misleads(letter: char) -> bool {
     let turns = matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}');

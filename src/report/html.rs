@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn text_stays_text() {
         let html = Html::element("p", &[("title", "\" onload=\"x")], "<script>&\0</script>");
-        let expected = "<p title=\"&quot; onload=&quot;x\">&lt;script&gt;&amp;\u{fffd}&lt;/script&gt;</p>";
+        let expected = "<p title=\"&quot; onload=&quot;x\">&lt;script&gt;&amp;\\u{0}&lt;/script&gt;</p>";
         assert_eq!(html.into_string(), expected);
     }
 }

@@ -6,8 +6,8 @@ use std::io::Read;
 
 use serde::de::DeserializeOwned;
 
-use super::forms::{other_form, without_mark};
 use crate::error::{Error, Result};
+use crate::files::forms::Text;
 
 /// A list of regions for a hundred thousand photographs is smaller.
 const MAX_BYTES: u64 = 64 << 20;
@@ -17,15 +17,15 @@ const MAX_BYTES: u64 = 64 << 20;
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds something else.
 pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> {
-    parse(path, &bytes(path, example)?, example)
+    parse(path, &text(path, example)?, example)
 }
 
 /// Reads what a JSON file holds.
 ///
 /// # Errors
 /// As [`read`].
-pub(super) fn parse<T: DeserializeOwned>(path: &str, bytes: &[u8], example: &str) -> Result<T> {
-    serde_json::from_slice(bytes).map_err(|error| fault(path, error.line(), &error, example))
+pub(super) fn parse<T: DeserializeOwned>(path: &str, text: &str, example: &str) -> Result<T> {
+    serde_json::from_str(text).map_err(|error| fault(path, error.line(), &error, example))
 }
 
 /// Reads a file of JSON values one after the other, such as NDJSON.
@@ -33,22 +33,24 @@ pub(super) fn parse<T: DeserializeOwned>(path: &str, bytes: &[u8], example: &str
 /// # Errors
 /// As [`read`].
 pub(super) fn read_all<T: DeserializeOwned>(path: &str, example: &str) -> Result<Vec<T>> {
-    let bytes = bytes(path, example)?;
-    let values = serde_json::Deserializer::from_slice(&bytes).into_iter();
+    let text = text(path, example)?;
+    let values = serde_json::Deserializer::from_str(&text).into_iter();
     values.map(|value| value.map_err(|error| fault(path, error.line(), &error, example))).collect()
 }
 
-fn bytes(path: &str, example: &str) -> Result<Vec<u8>> {
+fn text(path: &str, example: &str) -> Result<String> {
     let failed = |source| Error::file(path, source);
     let mut bytes = Vec::new();
     File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }
-    if let Some((form, remedy)) = other_form(&bytes) {
-        return Err(Error::Record { path: path.to_owned(), line: 1, problem: form, remedy });
-    }
-    Ok(without_mark(&bytes).to_vec())
+    let Text { text, is_unicode } = Text::decode(&bytes).map_err(|form| {
+        let (problem, remedy) = (format!("the file is {}", form.name), form.way_out());
+        let remedy = remedy.unwrap_or_else(|| format!("write {example}"));
+        Error::Record { path: path.to_owned(), line: 1, problem, remedy }
+    })?;
+    if is_unicode { Ok(text) } else { Err(fault(path, 1, "not text in UTF-8", example)) }
 }
 
 fn fault(path: &str, line: usize, problem: impl Display, example: &str) -> Error {

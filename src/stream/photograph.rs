@@ -263,6 +263,23 @@ struct FramingRecord {
     panels: Vec<Option<[[f64; 2]; 4]>>,
 }
 
+/// How a photograph was made, as its record says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Making {
+    /// Whether it was developed for the eye, it seems, and nothing of that was undone.
+    pub is_developed: bool,
+    /// What was done to its numbers, if their noise shows it.
+    pub processing: Option<Processing>,
+    /// Sides of the panels along which no edge of the sheet lies, in words.
+    pub open_sides: Vec<String>,
+    /// How far its darkest numbers are above black, white being 1, if they are alike in all channels: black was not subtracted, it seems.
+    pub unsubtracted_black: Option<f64>,
+    /// Maker and model of the camera, both empty where the photograph does not say so.
+    pub taken_by: (String, String),
+    /// Size and time of its file.
+    pub file: Option<FileStamp>,
+}
+
 /// What is read of how a photograph was made.
 #[derive(Deserialize)]
 struct MakingRecord {
@@ -293,62 +310,28 @@ impl MakingRecord {
     }
 }
 
+impl From<MakingRecord> for Making {
+    fn from(record: MakingRecord) -> Self {
+        let stamp = |bytes, modified_s| FileStamp { bytes, modified_s };
+        Self {
+            unsubtracted_black: record.darkest_part(),
+            is_developed: record.developed,
+            processing: record.processing.map(Processing::from),
+            open_sides: record.open_sides,
+            taken_by: (record.make, record.model),
+            file: record.file_bytes.zip(record.file_modified_s).map(|(bytes, s)| stamp(bytes, s)),
+        }
+    }
+}
+
 impl Sample {
-    /// Whether the photograph was developed for the eye, it seems, and nothing of that was undone.
+    /// How the photograph was made; of a sample without one nothing is known.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn is_developed(&self) -> Result<bool> {
+    pub fn making(&self) -> Result<Making> {
         let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.is_some_and(|record| record.developed))
-    }
-
-    /// What was done to the photograph's numbers, if their noise shows it.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn processing(&self) -> Result<Option<Processing>> {
-        let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.and_then(|record| record.processing).map(Processing::from))
-    }
-
-    /// Sides of the panels along which no edge of the sheet lies, in words.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn open_sides(&self) -> Result<Vec<String>> {
-        let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.map(|record| record.open_sides).unwrap_or_default())
-    }
-
-    /// How far the photograph's darkest numbers are above black, white being 1, if they are alike in all channels: black was not subtracted, it
-    /// seems.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn unsubtracted_black(&self) -> Result<Option<f64>> {
-        let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.and_then(|record| record.darkest_part()))
-    }
-
-    /// Maker and model of the camera that took the photograph, both empty where it does not say so.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn taken_by(&self) -> Result<(String, String)> {
-        let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.map(|record| (record.make, record.model)).unwrap_or_default())
-    }
-
-    /// Size and time of the file that the sample was measured in, if they were recorded.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
-    pub fn measured_file(&self) -> Result<Option<FileStamp>> {
-        let record: Option<MakingRecord> = self.fields.get("image")?;
-        Ok(record.and_then(|record| {
-            Some(FileStamp { bytes: record.file_bytes?, modified_s: record.file_modified_s? })
-        }))
+        Ok(record.map(Making::from).unwrap_or_default())
     }
 
     /// Where the panels are in the photograph; none if the sample is not one of two panels.

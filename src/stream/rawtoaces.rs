@@ -79,7 +79,7 @@ pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
 /// The spectra of a rawtoaces file.
 fn read(path: &str, text: &str) -> Result<Table> {
     let SpectraFile { spectral_data: SpectralData { units, index, data } } =
-        json_file::parse(path, text.as_bytes(), EXAMPLE)?;
+        json_file::parse(path, text, EXAMPLE)?;
     let refused = |problem: String| {
         let remedy = "give each wavelength, in nm, one number per spectrum".to_owned();
         Error::Spectrum { name: path.to_owned(), problem, remedy }

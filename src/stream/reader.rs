@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 
 use super::fields::problem;
-use super::forms::{other_form, without_mark};
 use super::{Fields, Sample, Scene};
 use crate::error::{Error, Result};
+use crate::files::forms::{other_form, without_mark};
 use crate::room;
 
 /// Longest line that is read: the scene of a 5° fold of 512 x 512 facets has 900 MB.
@@ -16,6 +16,9 @@ const LINE_MAX: u64 = 1 << 30;
 const BEGINNING: u64 = 1 << 16;
 
 const ONE_RECORD: &str = "each line must be one record";
+
+/// Fields that no other record has, at the beginning, in the middle and at the end of a scene.
+const OF_SCENES: [&str; 3] = ["\"geometry\"", "\"residues\"", "\"sensitivities\""];
 
 const NO_ROOM: &str =
     "no room for a line this long; take fewer facets or wavelengths, or allow more memory (ulimit -v)";
@@ -131,8 +134,9 @@ impl Reader {
     /// The fields of a line.
     fn fields(&self, line: &[u8]) -> Result<Fields> {
         let fields: Fields = serde_json::from_slice(without_mark(line)).map_err(|error| {
-            if let Some((form, remedy)) = other_form(line).filter(|_| self.line == 1) {
-                return self.wrong(&form, &remedy);
+            if let Some(form) = other_form(line).filter(|_| self.line == 1) {
+                let problem = format!("{}, not lines of JSON in UTF-8", form.name);
+                return self.wrong(&problem, form.way_out().as_deref().unwrap_or(ONE_RECORD));
             }
             let problem = format!("{}, column {}", problem(&error), error.column());
             self.wrong(&format!("not a JSON object ({problem})"), ONE_RECORD)
@@ -248,9 +252,12 @@ fn is_record(line: &[u8]) -> bool {
     without_mark(line).trim_ascii_start().starts_with(b"{")
 }
 
-/// Whether a line that cannot be read says that it is a scene.
+/// Whether a line that cannot be read says that it is a scene, or, having lost its beginning, holds what only a scene does.
 fn is_scene(line: &[u8]) -> bool {
     let line = String::from_utf8_lossy(line);
+    if OF_SCENES.iter().any(|name| line.contains(name)) {
+        return true;
+    }
     let kind = |rest: &str| {
         rest.trim_start().strip_prefix(':').map(|kind| kind.trim_start().starts_with("\"scene\""))
     };

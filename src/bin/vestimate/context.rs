@@ -1,5 +1,7 @@
 //! What the samples of one scene need.
 
+use std::sync::Arc;
+
 use vfold::Result;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{SUN_COLOUR, SceneModel, Unknown};
@@ -28,7 +30,8 @@ pub struct Context {
 
 /// The method on the wavelengths of a scene.
 pub enum SceneMethod {
-    Map(Prior),
+    /// The prior, which scenes on the same wavelengths share.
+    Map(Arc<Prior>),
     Smooth(Smoothness),
     Flat(FlatContext),
 }

@@ -11,38 +11,38 @@ use vfold::image::Processing;
 use vfold::scene::FoldSetting;
 use vfold::spectrum::library::{What, is_built_in};
 use vfold::spectrum::{have_one_peak, is_other_camera};
-use vfold::stream::{CameraRecord, Sample, Scene};
+use vfold::stream::{CameraRecord, Making, Sample, Scene};
 
 use super::context::Context;
 use super::estimator::Estimator;
 
 /// What speaks against an estimate from how the photograph was taken.
 pub fn doubts_of_taking(record: &Scene, sample: &Sample) -> Result<Vec<Doubt>> {
-    let camera = record.camera()?;
+    let (camera, making) = (record.camera()?, sample.making()?);
     let all = [
-        developed(sample)?,
-        processed(sample)?,
-        black(sample)?,
-        open_sides(sample)?,
+        developed(&making),
+        processed(&making),
+        black(&making),
+        open_sides(&making),
         scaled(&camera),
         stand_in(&camera),
-        another_camera(&camera, sample)?,
+        another_camera(&camera, &making),
     ];
     Ok(all.into_iter().flatten().collect())
 }
 
-fn developed(sample: &Sample) -> Result<Option<Doubt>> {
-    Ok(sample.is_developed()?.then(|| Doubt {
+fn developed(making: &Making) -> Option<Doubt> {
+    making.is_developed.then(|| Doubt {
         level: Level::Wrong,
         because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
             .to_owned(),
         remedy:
             "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
                 .to_owned(),
-    }))
+    })
 }
 
-fn processed(sample: &Sample) -> Result<Option<Doubt>> {
+fn processed(making: &Making) -> Option<Doubt> {
     let because = |processing| match processing {
         Processing::Curve => {
             "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's"
@@ -51,38 +51,38 @@ fn processed(sample: &Sample) -> Result<Option<Doubt>> {
             "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files"
         }
     };
-    Ok(sample.processing()?.map(|processing| Doubt {
+    making.processing.map(|processing| Doubt {
         level: Level::Wrong,
         because: because(processing).to_owned(),
         remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
-    }))
+    })
 }
 
-fn black(sample: &Sample) -> Result<Option<Doubt>> {
-    Ok(sample.unsubtracted_black()?.map(|part| {
+fn black(making: &Making) -> Option<Doubt> {
+    making.unsubtracted_black.map(|part| {
         let percent = 100.0 * part;
         Doubt::new(
             format!("the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"),
             "give vextract --black-level auto, or the camera's black level",
         )
-    }))
+    })
 }
 
-fn open_sides(sample: &Sample) -> Result<Option<Doubt>> {
-    let sides = sample.open_sides()?.join(", ");
-    Ok((!sides.is_empty()).then(|| {
+fn open_sides(making: &Making) -> Option<Doubt> {
+    let sides = making.open_sides.join(", ");
+    (!sides.is_empty()).then(|| {
         Doubt::new(
             format!("no edge of the sheet lies along {sides}: it goes on beyond the corners, or does not reach them"),
             "mark the corners of the whole panels, as vextract --overlay shows them",
         )
-    }))
+    })
 }
 
-/// Two built-in cameras were published so.
+/// Curves scaled one by one have lost what one channel's light is of another's. Built-in cameras that were published so (docs/spectra.md) say it
+/// where they are listed, and with every run.
 fn scaled(camera: &CameraRecord) -> Option<Doubt> {
-    let is_own = !is_built_in(What::Cameras, &camera.name);
-    let has_one_peak = is_own && have_one_peak(camera.sensitivities.iter().map(Vec::as_slice));
-    has_one_peak.then(|| {
+    let has_one_peak = have_one_peak(camera.sensitivities.iter().map(Vec::as_slice));
+    (has_one_peak && !is_built_in(What::Cameras, &camera.name)).then(|| {
         Doubt::new(
             format!("all channels of the camera {} have the same peak: scaled one by one, they have lost their ratios", camera.name),
             "give curves on one scale, or make them of a photograph of a colour chart (vextract --save-camera)",
@@ -100,16 +100,16 @@ fn stand_in(camera: &CameraRecord) -> Option<Doubt> {
 }
 
 /// A camera that EXIF says is another than the one that was stated.
-fn another_camera(camera: &CameraRecord, sample: &Sample) -> Result<Option<Doubt>> {
-    let (make, model) = sample.taken_by()?;
-    let is_other = camera.stands_in.is_none() && is_other_camera(&camera.name, &make, &model);
-    Ok(is_other.then(|| {
+fn another_camera(camera: &CameraRecord, making: &Making) -> Option<Doubt> {
+    let (make, model) = &making.taken_by;
+    let is_other = camera.stands_in.is_none() && is_other_camera(&camera.name, make, model);
+    is_other.then(|| {
         let took = format!("{make} {model}");
         Doubt::new(
             format!("EXIF says that {} took the picture, not {}", took.trim(), camera.name),
             "give the camera that took it (vextract --camera)",
         )
-    }))
+    })
 }
 
 impl Estimator<'_> {

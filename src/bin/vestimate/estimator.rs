@@ -1,5 +1,7 @@
 //! Estimates of the samples of a stream.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
@@ -11,7 +13,7 @@ use vfold::estimate::verdict::{Doubt, Verdict};
 use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
 use vfold::forward::FacetValues;
 use vfold::scene::Setting;
-use vfold::spectrum::{Outside, Spectrum};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
@@ -36,11 +38,14 @@ const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
 
 /// How spectra are estimated, from `--method` and `--prior`.
 enum Method {
-    /// Spectra of the prior, and their classes where they are known; none for the built-in one.
-    Map(Option<(Vec<Spectrum>, Option<Vec<usize>>)>),
+    /// What the prior is made of; none for the built-in one.
+    Map(Option<PriorSpectra>),
     Smooth(Smoothness),
     Flat(FlatEstimator),
 }
+
+/// Spectra of a prior, and their classes where they are known.
+type PriorSpectra = (Vec<Spectrum>, Option<Vec<usize>>);
 
 /// Estimates as the flags ask for.
 pub struct Estimator<'a> {
@@ -48,6 +53,8 @@ pub struct Estimator<'a> {
     method: Method,
     /// What is fitted beside the spectrum.
     fit: Vec<&'static Unknown>,
+    /// The prior of the scene before, with its wavelengths, nm.
+    last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
 }
 
 /// The paper's estimator fits an exposure and nothing else of the scene.
@@ -110,12 +117,7 @@ impl Transform for Estimator<'_> {
             scene.set_materials(&materials)?;
         }
         let method = match &self.method {
-            Method::Map(None) => SceneMethod::Map(Prior::built_in(grid.wavelengths_nm())?),
-            Method::Map(Some((spectra, classes))) => {
-                let on_grid: Vec<_> =
-                    spectra.iter().map(|s| s.on(&grid, Outside::Refuse)).collect::<Result<_>>()?;
-                SceneMethod::Map(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?)
-            }
+            Method::Map(spectra) => SceneMethod::Map(self.prior_on(&grid, spectra.as_ref())?),
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
             Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &Setting::of(scene)?.model()?)?),
         };
@@ -169,6 +171,7 @@ impl<'a> Estimator<'a> {
             args,
             method: method(args)?,
             fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
+            last_prior: Mutex::default(),
         })
     }
 
@@ -194,6 +197,28 @@ impl<'a> Estimator<'a> {
         let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
         let data = FacetData::new(&context.told.model, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
         Ok(map::estimate(&data, self.prior_of(context)?, context.start.as_deref()))
+    }
+
+    /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow each other on the same
+    /// wavelengths share it.
+    fn prior_on(&self, grid: &WavelengthGrid, spectra: Option<&PriorSpectra>) -> Result<Arc<Prior>> {
+        let wavelengths_nm = grid.wavelengths_nm();
+        let mut last = self.last_prior.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of_last_nm, prior)) = &*last
+            && of_last_nm == wavelengths_nm
+        {
+            return Ok(Arc::clone(prior));
+        }
+        let prior = Arc::new(match spectra {
+            None => Prior::built_in(wavelengths_nm)?,
+            Some((spectra, classes)) => {
+                let on_grid: Vec<_> =
+                    spectra.iter().map(|one| one.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
+                Prior::from_spectra(wavelengths_nm, &on_grid, classes.as_deref())?
+            }
+        });
+        *last = Some((wavelengths_nm.to_vec(), Arc::clone(&prior)));
+        Ok(prior)
     }
 
     /// What is known of reflectances before a scene.
@@ -278,20 +303,18 @@ impl<'a> Estimator<'a> {
         if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
     }
 
-    /// Adds what a photograph's share of an estimate from several is, all `ids` being theirs, and a `doubt` about all of them.
+    /// Adds what a photograph's share of an estimate from several is, all `ids` being theirs.
     pub fn joined(
         &self,
         context: &Context,
         sample: &mut Sample,
         estimate: &Estimate,
-        (doubt, ids): (Option<&Doubt>, &[String]),
+        ids: &[String],
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        let estimate = estimate.clone();
-        let mut doubts =
+        let doubts =
             context.record.as_ref().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
-        doubts.extend(doubt.cloned());
-        self.finish(context, sample, estimate, &how, (doubts, ids))
+        self.finish(context, sample, estimate.clone(), &how, (doubts, ids))
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.

@@ -6,9 +6,8 @@ use std::str::FromStr;
 use vfold::estimate::Exposure;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
-use vfold::estimate::verdict::Doubt;
 use vfold::files::composed;
-use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Scene, Together, pipe_together};
+use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Together, pipe_together};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -148,10 +147,9 @@ impl Together for Estimator<'_> {
             );
             return Err(Error::field("id", problem));
         }
-        let doubt = are_in_one_light(members)?.then(in_one_light);
         let estimates = members.iter_mut().zip(&together.photographs);
         let joined = |(one, estimate): (&mut Member<Context>, _)| {
-            self.joined(&one.context, &mut one.sample, estimate, (doubt.as_ref(), &ids))
+            self.joined(&one.context, &mut one.sample, estimate, &ids)
         };
         estimates.map(joined).collect()
     }
@@ -165,18 +163,4 @@ impl Together for Estimator<'_> {
             _ => together.iter().all(|one| joined(one).as_ref() == Some(&ids)),
         }
     }
-}
-
-fn are_in_one_light(members: &[Member<Context>]) -> Result<bool> {
-    let lights = members.iter().filter_map(|one| one.context.record.as_ref()).map(Scene::illuminants);
-    let lights: Vec<_> = lights.collect::<Result<_>>()?;
-    Ok(lights.windows(2).all(|two| two[0] == two[1]))
-}
-
-/// What photographs in one light have in common is not averaged away; tests/tools/joint.rs counts it.
-fn in_one_light() -> Doubt {
-    Doubt::new(
-        "all photographs were taken in one light, where 80 % of the values, not 95 %, were within two standard deviations",
-        "add a photograph in another light, as a lamp's, or estimate each alone",
-    )
 }

@@ -61,17 +61,23 @@ enum Sheets {
 }
 
 impl PlanArgs {
-    /// Writes a plan for every scene of `reader`, and no other record.
+    /// Writes a plan for every scene of `reader`, and no other record but samples that carry an error: one may stand for a scene that was lost.
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
         let mut first = None;
         while let Some(record) = reader.read()? {
-            if let Record::Scene(mut scene) = record {
-                self.complete(&mut scene, &estimator.args().common).map_err(|e| reader.at(e))?;
-                let planned = self.planned(estimator, scene).map_err(|e| reader.at(e))?;
-                out.fields(&self.plan(estimator, &planned, first.as_ref()).map_err(|e| reader.at(e))?)?;
-                if estimator.args().join.is_some() && first.is_none() {
-                    first = Some(planned);
+            let mut scene = match record {
+                Record::Scene(scene) => scene,
+                Record::Sample(sample) if sample.error().map_err(|e| reader.at(e))?.is_some() => {
+                    out.sample(&sample)?;
+                    continue;
                 }
+                Record::Sample(_) | Record::Other(_) => continue,
+            };
+            self.complete(&mut scene, &estimator.args().common).map_err(|e| reader.at(e))?;
+            let planned = self.planned(estimator, scene).map_err(|e| reader.at(e))?;
+            out.fields(&self.plan(estimator, &planned, first.as_ref()).map_err(|e| reader.at(e))?)?;
+            if estimator.args().join.is_some() && first.is_none() {
+                first = Some(planned);
             }
         }
         Ok(())

@@ -19,12 +19,11 @@ pub fn forget_replaced<'a>(images: &'a [PathBuf], out: &mut Output) -> Result<Op
     let mut kept = out.kept()?.all_known();
     kept.pass()?;
     for (n, path) in images.iter().enumerate() {
-        let Some(measured) = kept.sample(is_of(path))?.map(|sample| sample.measured_file()).transpose()?
-        else {
+        let Some(measured) = kept.sample(is_of(path))?.map(|sample| sample.making()).transpose()? else {
             continue;
         };
         let there = path.metadata().ok().and_then(|metadata| FileStamp::of(&metadata));
-        if measured.zip(there).is_some_and(|(measured, there)| measured != there) {
+        if measured.file.zip(there).is_some_and(|(measured, there)| measured != there) {
             out.keep(n + 1)?; // the scene is one of them
             return Ok(Some(path));
         }

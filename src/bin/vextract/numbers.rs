@@ -16,27 +16,30 @@ pub fn warnings(
     lines.into_iter().flatten().map(|line| format!("warning: {}{line}", path.display())).collect()
 }
 
-/// The error of a photograph none of whose facets has a pixel.
+/// The error of a photograph none of whose facets can be used.
 pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasurement]) -> Error {
-    match ends(info) {
-        Some(ends) if clipped_part(facets) > 0.0 => {
-            let problem = format!(
-                "no facet has a pixel that can be used: its numbers end at {ends}, where they are clipped"
-            );
-            Error::picture(path, problem, "expose it less")
-        }
-        _ => {
-            let remedy = "check the panels' corners, --margin and the white level";
-            Error::picture(path, "no facet has a pixel that can be used", remedy)
-        }
+    if clipped_part(facets) > 0.0 {
+        let where_to = ends(info).unwrap_or_else(|| "the white level".to_owned());
+        let problem = format!("no facet can be used: its numbers end at {where_to}, where they are clipped");
+        return Error::picture(path, problem, "expose it less, or check the white level");
     }
+    let remedy = "check the panels' corners and --margin";
+    Error::picture(path, "no facet has a pixel that can be used", remedy)
 }
 
+/// Numbers that end below white, or at it so often that facets are left out.
 fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String> {
-    let (ends, percent) = (ends(info)?, 100.0 * clipped_part(facets));
-    (percent > 0.0).then(|| {
-        format!(": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken as clipped; expose it less")
-    })
+    let (ends, percent) = (ends(info), 100.0 * clipped_part(facets));
+    let left_out = facets.iter().filter(|facet| facet.clipped > 0 && facet.mean.is_none()).count();
+    match ends {
+        Some(ends) if percent > 0.0 => Some(format!(
+            ": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken as clipped; expose it less"
+        )),
+        None if left_out > 0 => Some(format!(
+            ": {left_out} facets are left out, as more than 2 % of their pixels are clipped; expose it less"
+        )),
+        _ => None,
+    }
 }
 
 /// `4095 in R, G and B`.

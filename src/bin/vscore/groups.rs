@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use vfold::score::{Group, Summary};
-use vfold::stream::{Fields, Sample, Scene, Scenes};
+use vfold::stream::{Sample, Scene, Scenes};
 use vfold::{Error, Result};
 
 /// What samples without the field are grouped as.
@@ -12,7 +12,8 @@ const NONE: &str = "(none)";
 /// All samples, and those of each value of a field.
 pub struct Groups<'a> {
     field: Option<&'a str>,
-    scenes: Scenes<Fields>,
+    /// What each has in the field.
+    scenes: Scenes<Option<String>>,
     all: Summary,
     /// By value, in the order in which they came.
     groups: Vec<Group>,
@@ -27,10 +28,14 @@ impl<'a> Groups<'a> {
     }
 
     /// Takes a scene of samples that follow.
-    pub fn enter(&mut self, scene: &Scene) {
-        if self.field.is_some() {
-            self.scenes.enter(scene, scene.fields.clone());
+    ///
+    /// # Errors
+    /// [`Error::Field`] if its field is not one value.
+    pub fn enter(&mut self, scene: &Scene) -> Result<()> {
+        if let Some(field) = self.field {
+            self.scenes.enter(scene, scene.fields.text_at(field)?);
         }
+        Ok(())
     }
 
     /// Counts a sample and its scores.
@@ -41,7 +46,7 @@ impl<'a> Groups<'a> {
         let scene = self.scenes.of(sample).ok().flatten();
         let value = match sample.fields.text_at(field)? {
             Some(value) => Some(value),
-            None => scene.map_or(Ok(None), |scene| scene.text_at(field))?,
+            None => scene.cloned().flatten(),
         };
         self.found |= value.is_some();
         let value = value.unwrap_or_else(|| NONE.to_owned());

@@ -111,7 +111,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
         match &record {
             Record::Scene(scene) => {
-                groups.enter(scene);
+                groups.enter(scene)?;
                 gallery.iter_mut().for_each(|gallery| gallery.enter(scene));
             }
             Record::Sample(sample) => {

@@ -2,6 +2,7 @@
 
 use vfold::Result;
 use vfold::cli::one_line;
+use vfold::message::is_formula;
 use vfold::score::{Group, Metric, Statistics, Summary};
 use vfold::stream::{Output, Sample};
 
@@ -10,13 +11,10 @@ const WIDTH: usize = 80;
 /// Most and least columns for a sample's name.
 const NAME: [usize; 2] = [28, 12];
 
-/// How a cell begins that a spreadsheet takes for a formula.
-const FORMULA: [char; 4] = ['=', '+', '-', '@'];
-
 /// A name as text wherever the table is pasted.
 fn cell(name: &str) -> String {
     let name = one_line(name);
-    if name.trim_start().starts_with(FORMULA) { format!("'{name}") } else { name }
+    if is_formula(&name) { format!("'{name}") } else { name }
 }
 
 /// One column per score.

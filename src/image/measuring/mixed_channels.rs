@@ -12,7 +12,8 @@ const RUNS: usize = 1000;
 const FEW: usize = 30;
 /// Noise below this part of the light may be the light's own changes.
 const LEAST_NOISE: f64 = 1e-3;
-/// A correlation below this is none of a sensor's channels.
+/// A correlation below this is none of a sensor's channels: one of 26 pixels' second differences scatters by about 0.25, the median of [`FEW`] of
+/// them by 0.05.
 const OPPOSITE: f64 = -0.15;
 /// The square sum of the weights of a second difference.
 const SQUARES: f64 = 6.0;

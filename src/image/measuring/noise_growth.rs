@@ -17,8 +17,9 @@ const TELLING: [f64; 2] = [1e-3, 0.05];
 /// Powers of the light that the variance of a sensor's numbers is not in proportion to: all channels together, and within each.
 const NEVER: f64 = 0.0;
 const SELDOM: f64 = 0.7;
-/// How sure both must be, standard deviations: once in fifty where noise is the same everywhere, which no sensor's is, by chance.
-const SURE: f64 = 2.0;
+/// How sure both must be, standard deviations: noise that is the same everywhere, as in a dark picture that reading the sensor dominates, passes
+/// for falling once in 700 cases.
+const SURE: f64 = 3.0;
 
 /// Whether the noise of facets falls as they become brighter: their numbers are no sensor's, but have a curve such as sRGB's.
 ///

@@ -8,13 +8,14 @@ use crate::image::photograph::Photograph;
 use crate::image::placing::{Grid, Homography};
 
 /// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and how many pieces of them are compared.
-const STRIP: [f64; 2] = [0.03, 0.13];
+const STRIP: [f64; 2] = [0.03, 0.09];
 const ALONG: [f64; 2] = [0.05, 0.95];
 const PIECES: usize = 6;
 /// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes in one that is open.
 const SEEN_LEAST: usize = 4;
 const OPEN_SHARE: f64 = 0.75;
-/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet ends.
+/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet ends: on the sheet it changes by less
+/// over a tenth of a panel, but at the crease.
 const STEP_LEAST: f64 = 0.07;
 
 /// A panel's sides away from the crease.

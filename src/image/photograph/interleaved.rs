@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use image::DynamicImage;
 use ndarray::{Array3, ShapeError};
+use rayon::prelude::*;
 
 use super::orientation::Orientation;
 use super::pixel::Pixel;
@@ -105,11 +106,13 @@ impl Interleaved {
         match &mut self.samples {
             // these are light already, each number by a scale of its own
             Samples::Light(light) => {
-                for ((_, _, channel), light) in
-                    light.indexed_iter_mut().filter(|(_, light)| light.is_finite())
-                {
-                    *light = self.scales[channel].linear((*light).into()) as f32;
-                }
+                let scales = self.scales;
+                light.outer_iter_mut().into_par_iter().for_each(|mut row| {
+                    for ((_, channel), light) in row.indexed_iter_mut().filter(|(_, light)| light.is_finite())
+                    {
+                        *light = scales[channel].linear((*light).into()) as f32;
+                    }
+                });
                 self.scales = [Scale::LINEAR; 3];
             }
             _ => self.tables = [0, 1, 2].map(|k| self.scales[k].table().into()),

@@ -49,6 +49,12 @@ impl Photograph {
         let black: Vec<f64> =
             darkest.iter().enumerate().map(|(channel, stored)| self.number(channel, *stored)).collect();
         self.pixels.rescale(|channel, scale: Scale| scale.with_black(black[channel.min(black.len() - 1)]));
+        let white = |channel: usize| {
+            let (black, white, darkest) =
+                (self.black(channel), level(&self.info.white_level, channel), darkest[channel]);
+            if white > darkest { white } else { darkest + white - black }
+        };
+        self.info.white_level = (0..darkest.len()).map(white).collect();
         self.info.black_level = darkest;
         self
     }

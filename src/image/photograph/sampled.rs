@@ -1,5 +1,7 @@
 //! A channel's numbers, some of them from all over the picture: enough to see where they begin and end.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::pixels::Pixels;
@@ -20,19 +22,14 @@ pub(super) struct Sampled {
 impl Sampled {
     /// Those of each of a picture's channels, which are so many and of that width and height.
     pub fn of(pixels: &Pixels, channels: usize, (width, height): (usize, usize)) -> Vec<Self> {
-        // every so many rows, and of these every so many runs
-        let step = ((width * height) as f64 / NUMBERS as f64).sqrt().ceil().max(1.0) as usize;
-        let runs: Vec<_> = (0..height)
-            .step_by(step)
-            .flat_map(|y| (0..width).step_by(RUN_PX * step).map(move |x| (x..width.min(x + RUN_PX), y)))
-            .collect();
+        let runs: Vec<_> = runs((width, height)).collect();
         let sampled = |channel: usize| {
             Self::new(runs.iter().map(|(columns, y)| pixels.stored(channel, columns.clone(), *y)).collect())
         };
         (0..channels).into_par_iter().map(sampled).collect()
     }
 
-    /// Of these runs.
+    /// Of these runs of numbers.
     pub fn new(runs: Vec<Vec<f32>>) -> Self {
         let mut sorted: Vec<f32> = runs.iter().flatten().copied().collect();
         sorted.sort_unstable_by(f32::total_cmp);
@@ -49,5 +46,36 @@ impl Sampled {
     pub fn counts(&self) -> Vec<(f32, usize)> {
         let equal = self.sorted.chunk_by(|a, b| a.total_cmp(b).is_eq());
         equal.rev().map(|equal| (equal[0], equal.len())).collect()
+    }
+}
+
+/// Columns and row of the runs of a picture that are looked at: every so many rows, and of these every so many runs, in each row others than
+/// in the one before.
+fn runs((width, height): (usize, usize)) -> impl Iterator<Item = (Range<usize>, usize)> {
+    let step = ((width * height) as f64 / NUMBERS as f64).sqrt().ceil().max(1.0) as usize;
+    let in_row = width.div_ceil(RUN_PX);
+    (0..height).step_by(step).enumerate().flat_map(move |(n, y)| {
+        let first = n % step.min(in_row.max(1));
+        (first..in_row).step_by(step).map(move |run| (run * RUN_PX..width.min((run + 1) * RUN_PX), y))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_from_all_over_the_picture() {
+        for (width, height) in [(6000, 4000), (480, 360), (4000, 60), (60, 4000), (50, 1)] {
+            let all: Vec<_> = runs((width, height)).collect();
+            let met = |x: usize| all.iter().any(|(columns, _)| columns.contains(&x));
+            let bands = (0..width).step_by(RUN_PX).filter(|x| met(*x)).count();
+            let rows =
+                height.div_ceil(((width * height) as f64 / NUMBERS as f64).sqrt().ceil().max(1.0) as usize);
+            // a picture of few rows has not as many as bands
+            assert!(bands >= rows.min(width.div_ceil(RUN_PX)), "{width} x {height}: {bands} bands");
+            let count: usize = all.iter().map(|(columns, _)| columns.len()).sum();
+            assert!(count > 0 && count < 3 * NUMBERS, "{width} x {height}: {count} numbers");
+        }
     }
 }

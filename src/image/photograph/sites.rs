@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use ndarray::Array2;
+use rayon::prelude::*;
 
 use super::mosaic::Mosaic;
 use super::orientation::Orientation;
@@ -78,9 +79,12 @@ impl Sites {
     /// Changes what the light of each colour means.
     pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
         let scales = [0, 1, 2].map(|colour| change(colour, Scale::LINEAR));
-        for ((y, x), light) in self.light.indexed_iter_mut().filter(|(_, light)| light.is_finite()) {
-            *light = scales[self.mosaic.colour(x, y)].linear((*light).into()) as f32;
-        }
+        let mosaic = &self.mosaic;
+        self.light.outer_iter_mut().into_par_iter().enumerate().for_each(|(y, mut row)| {
+            for (x, light) in row.iter_mut().enumerate().filter(|(_, light)| light.is_finite()) {
+                *light = scales[mosaic.colour(x, y)].linear((*light).into()) as f32;
+            }
+        });
     }
 
     fn site(&self, x: usize, y: usize) -> f64 {

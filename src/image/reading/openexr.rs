@@ -68,10 +68,7 @@ fn not_read(header: &Header) -> Option<(String, &'static str)> {
 
 /// The eyes or cameras that one part has pictures of.
 fn views(header: &Header) -> Vec<String> {
-    match header.own_attributes.other.iter().find(|&(name, _)| name.eq("multiView")) {
-        Some((_, AttributeValue::TextVector(views))) => views.iter().map(ToString::to_string).collect(),
-        _ => Vec::new(),
-    }
+    header.own_attributes.multi_view_names.iter().flatten().map(ToString::to_string).collect()
 }
 
 /// That several parts are in colour, by their names or numbers.

@@ -31,12 +31,12 @@ impl PictureFile {
     ///
     /// # Example
     /// ```
-    /// use vfold::image::{Photograph, PictureFile, ReadOptions, is_preview, write_linear};
+    /// use vfold::image::{Photograph, PictureFile, ReadOptions, is_for_the_eye, write_linear};
     /// let folder = tempfile::tempdir().unwrap();
     /// let path = folder.path().join("pixel.exr");
     /// write_linear(&path, 1, 1, &[0.25, 0.5, 2.0])?;
     /// let mut file = PictureFile::open(&path)?;
-    /// assert!(!is_preview(&mut file));
+    /// assert!(!is_for_the_eye(&mut file));
     /// assert_eq!(Photograph::read(file, &ReadOptions::default())?.width(), 1);
     /// # Ok::<(), vfold::Error>(())
     /// ```

@@ -23,8 +23,9 @@ const ROUNDED_NM: f64 = 0.51;
 /// # Errors
 /// [`crate::Error::Table`] with the line that is wrong.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
-    let mut lines = text.lines().zip(1..).map(|(text, line)| (tokens(text), Place { path, line }));
+    let mut lines = text.lines().zip(1..).map(|(text, line)| (text, Place { path, line }));
     let (mut spectra, mut said, mut without_spectra) = (Vec::new(), Vec::new(), None);
+    let mut names = HashSet::new();
     while let Some(header) = Header::read(&mut lines, path) {
         let (rows, end) = rows(&mut lines, &header)?;
         let Some(columns) = Columns::new(&header)? else {
@@ -33,15 +34,14 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         };
         header.agrees("NUMBER_OF_SETS", rows.len(), "rows of data")?;
         for (row, at) in rows {
-            spectra.push(columns.spectrum(&header, &row, spectra.len() + 1, at)?);
+            let spectrum = columns.spectrum(&header, &words(row), spectra.len() + 1, at)?;
+            if !names.insert(spectrum.name().to_owned()) {
+                let problem = format!("two samples are called '{}'", spectrum.name());
+                return Err(at.fails(problem, "name every sample once"));
+            }
+            spectra.push(spectrum);
         }
         said.resize(spectra.len(), header.said());
-        let mut names = HashSet::new();
-        if let Some(twice) = spectra.iter().find(|one: &&Spectrum| !names.insert(one.name())) {
-            return Err(
-                end.fails(format!("two samples are called '{}'", twice.name()), "name every sample once")
-            );
-        }
         if spectra.is_empty() {
             return Err(
                 end.fails("no samples between BEGIN_DATA and END_DATA", "export them with their spectra")
@@ -60,10 +60,10 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     }
 }
 
-/// The words of a line, and where it is.
-type Line<'a> = (Vec<String>, Place<'a>);
+/// A line, and where it is.
+type Line<'a> = (&'a str, Place<'a>);
 
-/// The rows up to `END_DATA`, and where that is.
+/// The rows up to `END_DATA`, and where that is: lines as they stand, whose words take many times their memory.
 fn rows<'a>(
     lines: &mut impl Iterator<Item = Line<'a>>,
     header: &Header<'a>,
@@ -71,7 +71,8 @@ fn rows<'a>(
     let (mut rows, mut end) = (Vec::new(), header.at);
     for (row, at) in lines {
         end = at;
-        match row.first().map(String::as_str) {
+        let before_comment = row.split('#').next().unwrap_or_default();
+        match before_comment.split_whitespace().next() {
             None => {}
             Some("END_DATA") => return Ok((rows, at)),
             Some(_) => rows.push((row, at)),
@@ -95,7 +96,8 @@ impl<'a> Header<'a> {
     fn read(lines: &mut impl Iterator<Item = Line<'a>>, path: &'a str) -> Option<Self> {
         let mut header = Self { keywords: HashMap::new(), fields: Vec::new(), at: Place { path, line: 1 } };
         let mut in_format = false;
-        for (words, at) in lines {
+        for (line, at) in lines {
+            let words = words(line);
             header.at = at;
             match words.first().map(String::as_str) {
                 None => {}
@@ -206,7 +208,7 @@ fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
 }
 
 /// The words of a line: separated by blanks unless quoted; `#` begins a comment.
-fn tokens(line: &str) -> Vec<String> {
+fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quoted) = (Vec::new(), None::<String>, false);
     for letter in line.chars() {
         match letter {

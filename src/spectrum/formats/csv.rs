@@ -10,6 +10,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::{MAX_SPECTRA, Place, Said, Scale, Spectrum, Table, finite, units};
 use crate::error::Result;
+use crate::message::is_formula;
 
 /// Ending of the column beside `red` that has the standard deviation of `red`.
 pub(super) const SD_ENDING: &str = "_sd";
@@ -19,8 +20,6 @@ const DEVIATIONS: [&str; 7] = ["sd", "std", "stdev", "stddev", "stderr", "sigma"
 /// What may separate cells. A comma stands last: in the others' tables it is a decimal comma.
 const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
 
-/// With these a spreadsheet begins a formula.
-const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 /// What a spreadsheet has before a text that it should take for nothing else.
 const LITERAL: char = '\'';
 
@@ -158,7 +157,7 @@ fn name(cell: &str) -> &str {
 /// Whether a name begins as a formula does, or says a unit; marks before it do not count.
 fn is_misread(name: &str) -> bool {
     let name = name.trim_start_matches(LITERAL);
-    name.starts_with(FORMULA) || units::scale(name) != Scale::Unsaid
+    is_formula(name) || units::scale(name) != Scale::Unsaid
 }
 
 /// Whether a row has the units of the columns above it: that of wavelengths, and no number.

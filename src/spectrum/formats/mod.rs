@@ -4,7 +4,6 @@
 
 mod cgats;
 mod csv;
-mod encoding;
 mod quantity;
 mod tm27;
 mod units;
@@ -22,8 +21,8 @@ use super::Spectrum;
 use super::channels::in_order;
 use super::names::What;
 use crate::error::{Error, Result};
+use crate::files::forms::{Form, Text};
 use crate::message::printable;
-use encoding::Text;
 use quantity::Quantity;
 use units::Scale;
 
@@ -141,7 +140,7 @@ fn wanted(what: What) -> &'static str {
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Table`] with the line that is wrong, or as `json`.
 pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
-    let Text { text, is_unicode } = Text::decode(path, &read_bytes(path)?)?;
+    let Text { text, is_unicode } = Text::decode(&read_bytes(path)?).map_err(|form| no_table(path, &form))?;
     let not_unicode = || Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8");
     let mut table = if has_ending(path, &["json"]) {
         json(path, &text)
@@ -174,6 +173,13 @@ fn read_bytes(path: &str) -> Result<Vec<u8>> {
         return Err(at.fails("the file is larger than 64 MiB", "split it into smaller tables"));
     }
     Ok(bytes)
+}
+
+/// That a file is something else than text.
+fn no_table(path: &str, form: &Form) -> Error {
+    const EXPORT: &str = "save the table as CSV in UTF-8";
+    let remedy = form.way_out().map_or(EXPORT.to_owned(), |way_out| format!("{way_out}, or {EXPORT}"));
+    Place { path, line: 1 }.fails(format!("the file is {}", form.name), remedy)
 }
 
 /// Whether a file's name ends in one of these, in any case.

@@ -11,7 +11,6 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::{Place, Quantity, Said, Spectrum, Table, finite, units};
 use crate::error::Result;
 use crate::markup::escaped;
-use crate::message::printable;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
@@ -125,7 +124,7 @@ pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectanc
          \x20   <SpectralQuantity>reflectance</SpectralQuantity>\n\
          {data}\x20 </SpectralDistribution>\n\
          </IESTM2714>\n",
-        escaped(&printable(name))
+        escaped(name)
     )
 }
 

@@ -27,6 +27,8 @@ const PANELS: [[[f64; 2]; 4]; 2] = [
 const STRIPS: [u16; 2] = [273, 279];
 const TILES: [u16; 2] = [324, 325];
 const SUB_DIRECTORIES: u16 = 330;
+/// By how many rows and columns are interleaved.
+const INTERLEAVE: [u16; 2] = [50975, 52547];
 
 fn light(x: usize, colour: usize) -> f64 {
     LIGHT[usize::from(x >= WIDTH / 2)][colour]
@@ -344,6 +346,18 @@ fn packed_numbers_with_a_linearization() {
     assert_written(&tiff(raw, false), 1e-3);
 }
 
+/// A quarter of the picture for each site of the mosaic's square, as they are before JPEG XL: even rows first, even columns to the left.
+#[test]
+fn a_mosaic_in_quarters() {
+    let numbers = sites(WIDTH, HEIGHT, |_, _, light| 4000.0 * light);
+    let place = |at: usize, size: usize| at % (size / 2) * 2 + at / (size / 2);
+    let quarters: Vec<u16> = (0..WIDTH * HEIGHT)
+        .map(|n| numbers[place(n / WIDTH, HEIGHT) * WIDTH + place(n % WIDTH, WIDTH)])
+        .collect();
+    let raw = with(plain(&quarters), INTERLEAVE.map(|tag| (tag, Short(vec![2]))).to_vec());
+    assert_written(&tiff(raw, false), 1.0 / 4000.0);
+}
+
 /// Black is the sum of a pattern's level, the column's and the row's; white is one above the highest of them.
 #[test]
 fn black_levels_by_column_and_row() {
@@ -421,6 +435,7 @@ fn a_mamiya() {
 fn what_is_not_read_is_said_to_be_that() {
     let numbers = sites(WIDTH, HEIGHT, |_, _, light| 4000.0 * light);
     let changed = |tags: Directory| tiff(with(plain(&numbers), tags), false);
+    let quarters = |tags: Directory| [INTERLEAVE.map(|tag| (tag, Short(vec![2]))).to_vec(), tags].concat();
     let pages = vec![(SUB_DIRECTORIES, Directories(vec![plain(&numbers)]))];
     for (tags, says) in [
         (vec![(254, Long(vec![1]))], "without a picture"),
@@ -434,7 +449,11 @@ fn what_is_not_read_is_said_to_be_that() {
         (vec![(50707, Byte(vec![1, 8, 0, 0]))], "version 1.8"),
         (vec![(50711, Short(vec![2]))], "CFALayout"),
         (vec![(50974, Short(vec![2, 2]))], "SubTileBlockSize"),
-        (vec![(50975, Short(vec![3]))], "interleaved"),
+        (vec![(INTERLEAVE[0], Short(vec![3]))], "interleaved"),
+        (quarters(vec![(258, Short(vec![32])), (339, Short(vec![3]))]), "interleaved"),
+        (quarters(vec![(262, Short(vec![LINEAR])), (277, Short(vec![3]))]), "interleaved"),
+        (quarters(vec![(256, Long(vec![WIDTH as u32 - 1]))]), "interleaved"),
+        (quarters(vec![(257, Long(vec![HEIGHT as u32 - 1]))]), "interleaved"),
         (
             vec![(262, Short(vec![LINEAR])), (277, Short(vec![3])), (284, Short(vec![2]))],
             "PlanarConfiguration 2",

@@ -16,10 +16,13 @@ use super::opcodes::Opcodes;
 use super::tiff_directories::{Directory, Tiff};
 use super::{ELSEWHERE, damaged, unread};
 use crate::image::photograph::Mosaic;
+use crate::image::reading::tiff::tags::{DNG_VERSION, NEW_SUBFILE_TYPE, PHOTOMETRIC};
 use crate::{Error, Result};
 
 /// What a DNG says of its sensor's numbers.
 pub(super) struct Dng {
+    /// Columns and rows of the whole sensor.
+    pub size: Dim2,
     pub samples: usize,
     /// `16-bit` or `float`.
     pub kind: String,
@@ -35,11 +38,8 @@ pub(super) struct Dng {
     pub shown: Shown,
 }
 
-const NEW_SUBFILE_TYPE: u16 = 254;
-const PHOTOMETRIC: u16 = 262;
 /// Rows and columns of filters that repeat, and their colours.
 const FILTERS: [u16; 2] = [33421, 33422];
-const DNG_VERSION: u16 = 50706;
 /// The oldest version whose readers can read the file.
 const BACKWARD_VERSION: u16 = 50707;
 const LINEARIZATION: u16 = 50712;
@@ -81,6 +81,7 @@ impl Dng {
         let full_scale = if layout.is_float { 1.0 } else { 2_f64.powi(layout.bits as i32) - 1.0 };
         let linearization = directory.numbers(LINEARIZATION).filter(|_| !layout.is_float);
         Ok(Some(Self {
+            size: layout.size,
             samples: layout.samples,
             kind: if layout.is_float { "float".to_owned() } else { format!("{}-bit", layout.bits) },
             area,

@@ -7,36 +7,24 @@ use std::path::Path;
 
 use rawler::imgop::Dim2;
 
-use super::super::jpeg::Jpeg;
 use super::tiff_directories::{Directory, Tiff};
 use super::{check_size, damaged, unread};
 use crate::Result;
+use crate::image::reading::jpeg::Jpeg;
+use crate::image::reading::tiff::tags;
+use crate::image::reading::tiff::written::{long, written};
 
-/// Tags of the layout.
-mod tag {
-    pub const WIDTH: u16 = 256;
-    pub const HEIGHT: u16 = 257;
-    pub const BITS: u16 = 258;
-    pub const COMPRESSION: u16 = 259;
-    pub const PHOTOMETRIC: u16 = 262;
-    pub const FILL_ORDER: u16 = 266;
-    /// Where strips are, and how long.
-    pub const STRIPS: [u16; 2] = [273, 279];
-    pub const SAMPLES: u16 = 277;
-    pub const ROWS_PER_STRIP: u16 = 278;
-    pub const PLANAR: u16 = 284;
-    pub const PREDICTOR: u16 = 317;
-    /// Width and height of tiles,
-    pub const TILE_SIZE: [u16; 2] = [322, 323];
-    /// where they are, and how long.
-    pub const TILES: [u16; 2] = [324, 325];
-    pub const SAMPLE_FORMAT: u16 = 339;
-    pub const FILTERS_LAYOUT: u16 = 50711;
-    pub const SUB_TILE: u16 = 50974;
-    /// By how many rows and columns are interleaved.
-    pub const INTERLEAVE: [u16; 2] = [50975, 52547];
-    pub const JXL_DISTANCE: u16 = 52553;
-}
+/// Where strips are, and how long.
+const STRIPS: [u16; 2] = [tags::STRIP_OFFSETS, tags::STRIP_BYTE_COUNTS];
+/// Width and height of tiles,
+const TILE_SIZE: [u16; 2] = [tags::TILE_WIDTH, tags::TILE_LENGTH];
+/// where they are, and how long.
+const TILES: [u16; 2] = [tags::TILE_OFFSETS, tags::TILE_BYTE_COUNTS];
+const FILTERS_LAYOUT: u16 = 50711;
+const SUB_TILE: u16 = 50974;
+/// By how many rows and columns are interleaved.
+const INTERLEAVE: [u16; 2] = [50975, 52547];
+const JXL_DISTANCE: u16 = 52553;
 
 /// Make, model, orientation, directories of EXIF and GPS, version and colours: what the decoder is shown of the first directory.
 const OF_CAMERA: [u16; 10] = [271, 272, 274, 34665, 34853, 50706, 50721, 50722, 50778, 50779];
@@ -63,6 +51,8 @@ impl Shown {
     /// Makes a file what the decoder shall see.
     pub fn to(&self, file: &mut Vec<u8>) {
         file[4..8].copy_from_slice(&self.first);
+        // a file of hundreds of megabytes should not be given twice its room
+        file.reserve_exact(self.added.len());
         file.extend(&self.added);
     }
 }
@@ -92,11 +82,11 @@ impl Layout {
     /// [`Error::Picture`] if that is none that the decoder unpacks rightly, or the file is cut short.
     pub fn read(path: &Path, tiff: Tiff, directory: &Directory) -> Result<Self> {
         let number = |tag, default: usize| directory.number(tag).map_or(default, |number| number as usize);
-        let size = Dim2::new(number(tag::WIDTH, 0), number(tag::HEIGHT, 0));
-        let samples = number(tag::SAMPLES, 1);
+        let size = Dim2::new(number(tags::WIDTH, 0), number(tags::HEIGHT, 0));
+        let samples = number(tags::SAMPLES_PER_PIXEL, 1);
         check_size(path, size, samples)?;
-        let all_bits = directory.numbers(tag::BITS).unwrap_or_else(|| vec![1.0]);
-        let formats = directory.numbers(tag::SAMPLE_FORMAT).unwrap_or_else(|| vec![1.0]);
+        let all_bits = directory.numbers(tags::BITS_PER_SAMPLE).unwrap_or_else(|| vec![1.0]);
+        let formats = directory.numbers(tags::SAMPLE_FORMAT).unwrap_or_else(|| vec![1.0]);
         let differ = |numbers: &[f64]| numbers.windows(2).any(|pair| pair[0] as usize != pair[1] as usize);
         if differ(&all_bits) || differ(&formats) {
             return Err(unread(path, "whose samples differ in their bits or format"));
@@ -106,25 +96,27 @@ impl Layout {
             samples,
             bits: all_bits[0] as usize,
             is_float: formats[0] as usize == 3,
-            compression: number(tag::COMPRESSION, UNCOMPRESSED),
-            predictor: number(tag::PREDICTOR, 1),
-            interleave: tag::INTERLEAVE.map(|tag| number(tag, 1)),
+            compression: number(tags::COMPRESSION, UNCOMPRESSED),
+            predictor: number(tags::PREDICTOR, 1),
+            interleave: INTERLEAVE.map(|tag| number(tag, 1)),
             segments: Segments::read(path, directory, size, samples)?,
         };
-        let sub_tile = directory.numbers(tag::SUB_TILE).unwrap_or_default();
-        let planar = samples > 1 && number(tag::PLANAR, 1) != 1;
+        let sub_tile = directory.numbers(SUB_TILE).unwrap_or_default();
+        let planar = samples > 1 && number(tags::PLANAR_CONFIGURATION, 1) != 1;
         let oddity = if !layout.is_float && formats[0] as usize != 1 {
             Some("of signed numbers")
         } else if planar {
             Some("whose colours are stored one after another (PlanarConfiguration 2)")
-        } else if number(tag::FILL_ORDER, 1) != 1 {
+        } else if number(tags::FILL_ORDER, 1) != 1 {
             Some("whose bits are stored in reversed order (FillOrder 2)")
-        } else if number(tag::FILTERS_LAYOUT, 1) != 1 {
+        } else if number(FILTERS_LAYOUT, 1) != 1 {
             Some("whose colour filters stand in staggered rows or columns (CFALayout above 1)")
         } else if sub_tile.iter().any(|size| *size as usize != 1) {
             Some("whose numbers are stored in blocks (SubTileBlockSize)")
-        } else if ![[1, 1], [2, 2]].contains(&layout.interleave) {
-            Some("whose rows or columns are interleaved by other factors than 2 and 2")
+        } else if !layout.is_deinterleaved() {
+            Some(
+                "interleaved otherwise than by 2 rows and columns of one integer a pixel, an even number each",
+            )
         } else {
             None
         };
@@ -133,6 +125,16 @@ impl Layout {
         }
         layout.check_compression(path, tiff, directory)?;
         Ok(layout)
+    }
+
+    /// Whether its decoder brings interleaved rows and columns to their places. It does so by halves of the numbers, and not with floats.
+    fn is_deinterleaved(&self) -> bool {
+        let Dim2 { w, h } = self.size;
+        match self.interleave {
+            [1, 1] => true,
+            [2, 2] => self.samples == 1 && !self.is_float && w.is_multiple_of(2) && h.is_multiple_of(2),
+            _ => false,
+        }
     }
 
     /// # Errors
@@ -145,7 +147,7 @@ impl Layout {
             UNCOMPRESSED => (1..=16).contains(bits) && row_bits.is_multiple_of(8),
             LOSSLESS_JPEG => !is_float,
             DEFLATE => *is_float && FLOAT_PREDICTORS.contains(&self.predictor) && [16, 24, 32].contains(bits),
-            JPEG_XL if directory.number(tag::JXL_DISTANCE).is_none_or(|distance| distance.abs() > 0.0) => {
+            JPEG_XL if directory.number(JXL_DISTANCE).is_none_or(|distance| distance.abs() > 0.0) => {
                 return Err(unread(path, "compressed as lossy JPEG XL"));
             }
             JPEG_XL => !is_float && [8, 16].contains(bits),
@@ -209,59 +211,40 @@ impl Layout {
     pub fn shown(&self, tiff: Tiff, root: &Directory) -> Shown {
         let Self { size, segments, .. } = self;
         let are_tiles = segments.are_tiles || self.compression != UNCOMPRESSED;
-        let (offsets, lengths) =
-            if are_tiles { (tag::TILES[0], tag::TILES[1]) } else { (tag::STRIPS[0], tag::STRIPS[1]) };
+        let [offsets, lengths] = if are_tiles { TILES } else { STRIPS };
         let length = |n: usize| match self.compression {
             UNCOMPRESSED => segments.rows(n, *size) * self.row_bits() / 8,
             _ => segments.lengths[n],
         };
-        let mut numbers = vec![
-            (tag::WIDTH, vec![size.w]),
-            (tag::HEIGHT, vec![size.h]),
-            (tag::BITS, vec![self.bits]),
-            (tag::COMPRESSION, vec![self.compression]),
-            (tag::PHOTOMETRIC, vec![LINEAR]),
-            (tag::SAMPLES, vec![self.samples]),
-            (tag::PREDICTOR, vec![self.predictor]),
-            (tag::SAMPLE_FORMAT, vec![if self.is_float { 3 } else { 1 }]),
-            (tag::INTERLEAVE[0], vec![self.interleave[0]]),
-            (tag::INTERLEAVE[1], vec![self.interleave[1]]),
-            (offsets, segments.offsets.clone()),
-            (lengths, (0..segments.lengths.len()).map(length).collect()),
+        let number = |tag: u16, number: usize| (tag, tags::LONG, vec![number as u64]);
+        let mut entries = vec![
+            number(tags::WIDTH, size.w),
+            number(tags::HEIGHT, size.h),
+            number(tags::BITS_PER_SAMPLE, self.bits),
+            number(tags::COMPRESSION, self.compression),
+            number(tags::PHOTOMETRIC, LINEAR),
+            number(tags::SAMPLES_PER_PIXEL, self.samples),
+            number(tags::PREDICTOR, self.predictor),
+            number(tags::SAMPLE_FORMAT, if self.is_float { 3 } else { 1 }),
+            number(INTERLEAVE[0], self.interleave[0]),
+            number(INTERLEAVE[1], self.interleave[1]),
+            (offsets, tags::LONG, segments.offsets.iter().map(|offset| *offset as u64).collect()),
+            (lengths, tags::LONG, (0..segments.lengths.len()).map(|n| length(n) as u64).collect()),
         ];
         if are_tiles {
-            numbers.push((tag::TILE_SIZE[0], vec![segments.size.w]));
-            numbers.push((tag::TILE_SIZE[1], vec![segments.size.h]));
+            entries.push(number(TILE_SIZE[0], segments.size.w));
+            entries.push(number(TILE_SIZE[1], segments.size.h));
         } else {
-            numbers.push((tag::ROWS_PER_STRIP, vec![segments.size.h]));
+            entries.push(number(tags::ROWS_PER_STRIP, segments.size.h));
         }
-        let of_camera = OF_CAMERA.into_iter().filter_map(|tag| Some((tag, root.stored(tag)?)));
-        let mut entries: Vec<_> = of_camera.map(|(tag, entry)| (tag, entry.to_vec())).collect();
+        let of_camera: Vec<_> =
+            OF_CAMERA.into_iter().filter_map(|tag| Some((tag, root.stored(tag)?))).collect();
         // directories begin at even places
         let pad = tiff.file().len() % 2;
-        let at = tiff.file().len() + pad;
-        let mut beyond = Vec::new();
-        let arrays = at + 2 + 12 * (entries.len() + numbers.len()) + 4;
-        for (tag, numbers) in numbers {
-            const LONG: u16 = 4;
-            let values = numbers.iter().flat_map(|number| tiff.long(*number as u32));
-            let count = tiff.long(numbers.len() as u32);
-            let place = tiff.long((arrays + beyond.len()) as u32);
-            let value: Vec<u8> = if numbers.len() == 1 {
-                values.collect()
-            } else {
-                beyond.extend(values);
-                place.to_vec()
-            };
-            entries.push((tag, [&tiff.short(tag)[..], &tiff.short(LONG), &count, &value].concat()));
-        }
-        entries.sort_by_key(|(tag, _)| *tag);
-        let mut bytes = vec![0; pad];
-        bytes.extend(tiff.short(entries.len() as u16));
-        bytes.extend(entries.into_iter().flat_map(|(_, entry)| entry));
-        bytes.extend([0; 4]);
-        bytes.extend(beyond);
-        Shown { first: tiff.long(at as u32), added: bytes }
+        let at = (tiff.file().len() + pad) as u64;
+        let mut added = vec![0; pad];
+        added.extend(written(tiff.is_little(), &entries, &of_camera, at));
+        Shown { first: long(tiff.is_little(), at), added }
     }
 }
 
@@ -271,12 +254,12 @@ impl Segments {
             directory.numbers(tag).unwrap_or_default().into_iter().map(|number| number as usize).collect()
         };
         let first = |tag: u16, default: usize| whole(tag).first().copied().unwrap_or(default);
-        let are_tiles = directory.has_tag(tag::TILES[0]);
-        let [offsets, lengths] = if are_tiles { tag::TILES } else { tag::STRIPS }.map(whole);
+        let are_tiles = directory.has_tag(TILES[0]);
+        let [offsets, lengths] = if are_tiles { TILES } else { STRIPS }.map(whole);
         let size = if are_tiles {
-            Dim2::new(first(tag::TILE_SIZE[0], 0), first(tag::TILE_SIZE[1], 0))
+            Dim2::new(first(TILE_SIZE[0], 0), first(TILE_SIZE[1], 0))
         } else {
-            Dim2::new(picture.w, first(tag::ROWS_PER_STRIP, picture.h).min(picture.h))
+            Dim2::new(picture.w, first(tags::ROWS_PER_STRIP, picture.h).min(picture.h))
         };
         if size.w == 0 || size.h == 0 {
             return Err(damaged(path, "its strips or tiles have no size"));

@@ -126,16 +126,26 @@ impl Levels {
     /// The black level of a sample at a column and row of the whole sensor.
     #[inline]
     pub fn black(&self, x: usize, y: usize, sample: usize) -> f64 {
+        self.of_pattern(x, y, sample) + self.of_column(x) + self.of_row(y)
+    }
+
+    #[inline]
+    fn of_pattern(&self, x: usize, y: usize, sample: usize) -> f64 {
         let (rows, columns, samples) = self.black.dim();
         // before the origin the pattern goes on
         let column = (x + columns - self.origin.x % columns) % columns;
         let row = (y + rows - self.origin.y % rows) % rows;
-        let delta = |deltas: &[f64], at: usize, origin: usize| {
-            at.checked_sub(origin).and_then(|at| deltas.get(at)).copied().unwrap_or(0.0)
-        };
         self.black[[row, column, sample.min(samples - 1)]]
-            + delta(&self.by_column, x, self.origin.x)
-            + delta(&self.by_row, y, self.origin.y)
+    }
+
+    #[inline]
+    fn of_column(&self, x: usize) -> f64 {
+        x.checked_sub(self.origin.x).and_then(|at| self.by_column.get(at)).copied().unwrap_or(0.0)
+    }
+
+    #[inline]
+    fn of_row(&self, y: usize) -> f64 {
+        y.checked_sub(self.origin.y).and_then(|at| self.by_row.get(at)).copied().unwrap_or(0.0)
     }
 
     /// The white level of a sample.
@@ -156,22 +166,42 @@ impl Levels {
         levels.indexed_iter().map(at).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The black level of a sample in the mean over a rectangle of the whole sensor's sites that `counts` picks.
-    pub fn mean_black(&self, area: Rect, sample: usize, counts: impl Fn(usize, usize) -> bool) -> f64 {
-        let sites = (0..area.d.h).flat_map(|row| (0..area.d.w).map(move |column| (column, row)));
-        let (mut sum, mut count) = (0.0, 0.0);
-        for (column, row) in sites.filter(|(column, row)| counts(*column, *row)) {
-            sum += self.black(area.p.x + column, area.p.y + row, sample);
-            count += 1.0;
-        }
-        sum / count
-    }
-
-    /// Columns and rows after which black levels repeat; none if they do not.
-    pub fn repeat(&self) -> Option<(usize, usize)> {
+    /// The black level of a sample in the mean over an area's sites that `counts` picks by column and row of the area, and again after
+    /// `side` columns or rows.
+    ///
+    /// That of the pattern, of the columns and of the rows are means by themselves, of as few sites as repeat: a photograph has tens of millions.
+    pub fn mean_black(
+        &self,
+        area: Rect,
+        sample: usize,
+        side: usize,
+        counts: impl Fn(usize, usize) -> bool,
+    ) -> f64 {
+        let Rect { p: corner, d: size } = area;
         let (rows, columns, _) = self.black.dim();
-        (self.by_column.is_empty() && self.by_row.is_empty()).then_some((columns, rows))
+        let pattern = mean_of(side * columns, side * rows, &counts, |x, y| {
+            self.of_pattern(corner.x + x, corner.y + y, sample)
+        });
+        let by_column = mean_of(size.w.max(side), side, &counts, |x, _| self.of_column(corner.x + x));
+        let by_row = mean_of(side, size.h.max(side), &counts, |_, y| self.of_row(corner.y + y));
+        pattern + by_column + by_row
     }
+}
+
+/// The mean of the levels of those sites that count.
+fn mean_of(
+    width: usize,
+    height: usize,
+    counts: impl Fn(usize, usize) -> bool,
+    level: impl Fn(usize, usize) -> f64,
+) -> f64 {
+    let sites = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (x, y) in sites.filter(|(x, y)| counts(*x, *y)) {
+        sum += level(x, y);
+        count += 1.0;
+    }
+    sum / count
 }
 
 /// A number for each sample of each site, from one for all, for each sample, for each site, or for each of both.
@@ -185,5 +215,31 @@ fn spread(numbers: Vec<f64>, sites: usize, samples: usize, default: f64) -> Opti
             Some(numbers.into_iter().flat_map(|number| std::iter::repeat_n(number, samples)).collect())
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rawler::imgop::Dim2;
+
+    use super::*;
+
+    #[test]
+    fn the_mean_black_is_that_of_all_sites() {
+        let levels = Levels {
+            black: Array3::from_shape_fn((2, 3, 1), |(row, column, _)| (10 * row + column * column) as f64),
+            origin: Point::new(1, 2),
+            by_column: (0..12).map(|x| f64::from(x % 2 * 8 + x)).collect(),
+            by_row: (0..12).map(|y| f64::from(y % 4 * 25)).collect(),
+            white: vec![1000.0],
+        };
+        let area = Rect::new(levels.origin, Dim2::new(12, 12));
+        // the sites of three colours of a Bayer mosaic
+        for colour in 0..3 {
+            let counts = |x: usize, y: usize| x % 2 + y % 2 == colour;
+            let all = mean_of(12, 12, counts, |x, y| levels.black(1 + x, 2 + y, 0));
+            let mean = levels.mean_black(area, 0, 2, counts);
+            assert!((mean - all).abs() < 1e-9, "{colour}: {mean}, not {all}");
+        }
     }
 }

@@ -6,11 +6,12 @@
 use std::path::Path;
 
 use ndarray::{Array3, Axis};
-use rawler::imgop::{Dim2, Point, Rect};
+use rawler::imgop::{Point, Rect};
 use rawler::rawimage::RawPhotometricInterpretation;
 use rawler::{RawImage, RawImageData};
 use rayon::prelude::*;
 
+use super::damaged;
 use super::dng::Dng;
 use super::levels::Levels;
 use super::opcodes::Opcodes;
@@ -74,9 +75,17 @@ impl Sensor {
     /// The sensor of a DNG, of which the decoder unpacked the numbers.
     ///
     /// # Errors
-    /// As [`Sensor::of_camera`].
+    /// As [`Sensor::of_camera`]; [`Error::Picture`] also if the decoder found a picture of another size.
     pub fn of_dng(path: &Path, image: RawImage, dng: Dng, options: &ReadOptions) -> Result<Self> {
-        let Dng { samples, kind, area, mosaic, levels, linearization, opcodes, .. } = dng;
+        let Dng { size, samples, kind, area, mosaic, levels, linearization, opcodes, .. } = dng;
+        if (image.dim(), image.cpp) != (size, samples) {
+            let RawImage { width, height, cpp, .. } = image;
+            let problem = format!(
+                "its decoder found {width} x {height} px of {cpp} numbers, its tags say {} x {} of {samples}",
+                size.w, size.h
+            );
+            return Err(damaged(path, problem));
+        }
         let (numbers, width, levels) = (image.data, image.width, levels.given(options)?);
         Self { numbers, width, samples, kind, area, mosaic, levels, linearization, opcodes }.checked(path)
     }
@@ -164,18 +173,16 @@ impl Sensor {
     /// Of each channel the black level, in the mean over the area, and the white level.
     fn levels(&self) -> [Vec<f64>; 2] {
         let levels = &self.levels;
-        let side = self.mosaic.as_ref().map_or(1, Mosaic::side);
-        let repeated = levels.repeat().map(|(width, height)| Dim2::new(side * width, side * height));
-        let area = Rect::new(self.area.p, repeated.unwrap_or(self.area.d));
+        let mean = |sample: usize, side: usize, counts: &dyn Fn(usize, usize) -> bool| {
+            levels.mean_black(self.area, sample, side, counts)
+        };
         match &self.mosaic {
             None => [
-                (0..self.samples).map(|sample| levels.mean_black(area, sample, |_, _| true)).collect(),
+                (0..self.samples).map(|sample| mean(sample, 1, &|_, _| true)).collect(),
                 (0..self.samples).map(|sample| levels.white(sample)).collect(),
             ],
             Some(mosaic) => [
-                (0..3)
-                    .map(|colour| levels.mean_black(area, 0, |x, y| mosaic.colour(x, y) == colour))
-                    .collect(),
+                (0..3).map(|colour| mean(0, mosaic.side(), &|x, y| mosaic.colour(x, y) == colour)).collect(),
                 vec![levels.white(0); 3],
             ],
         }

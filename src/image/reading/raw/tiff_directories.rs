@@ -3,15 +3,12 @@
 //! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than there is gives no error to
 //! catch: the program ends. A decoder that follows directories in a circle never ends.
 
-/// Entries that lead to further directories: `SubIFDs`, EXIF and GPS.
-const POINTERS: [u16; 3] = [330, 34665, 34853];
-/// Bytes of a value, by type from 1 on.
-const SIZES: [u64; 13] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4];
-/// A camera writes a dozen directories,
-const DIRECTORIES_MAX: usize = 64;
-/// and entries that lead out of the file are rare.
+use crate::image::reading::tiff::tags::{DIRECTORIES_MAX, ENTRY_BYTES, SUB_DIRECTORIES, value_bytes};
+
+/// Entries that lead to further directories: those within, EXIF and GPS.
+const POINTERS: [u16; 3] = [SUB_DIRECTORIES, 34665, 34853];
+/// Entries that lead out of the file are rare.
 const ASTRAY_MAX: usize = 4;
-const ENTRY_BYTES: usize = 12;
 
 /// A TIFF file, whatever its mark.
 #[derive(Clone, Copy)]
@@ -74,14 +71,9 @@ impl<'a> Tiff<'a> {
         self.file
     }
 
-    /// Two bytes as the file orders them.
-    pub fn short(self, value: u16) -> [u8; 2] {
-        if self.is_little { value.to_le_bytes() } else { value.to_be_bytes() }
-    }
-
-    /// Four bytes as the file orders them.
-    pub fn long(self, value: u32) -> [u8; 4] {
-        if self.is_little { value.to_le_bytes() } else { value.to_be_bytes() }
+    /// Whether the small end of a number comes first.
+    pub fn is_little(self) -> bool {
+        self.is_little
     }
 
     fn u16(self, at: usize) -> Option<u16> {
@@ -126,27 +118,24 @@ impl<'a> Tiff<'a> {
 }
 
 impl Entry {
-    fn size(&self) -> u64 {
-        *SIZES.get(usize::from(self.kind).wrapping_sub(1)).unwrap_or(&1)
-    }
-
     fn bytes(&self) -> u64 {
-        self.size() * u64::from(self.count)
+        value_bytes(self.kind) * u64::from(self.count)
     }
 }
 
 impl<'a> Directory<'a> {
     /// The numbers of a tag; none if it is not there, has none, or they are not in the file.
     pub fn numbers(&self, tag: u16) -> Option<Vec<f64>> {
-        let entry = self.entry(tag).filter(|entry| self.has(entry) && entry.count > 0)?;
+        let entry = self.filled(tag)?;
         let first = self.first(&entry)?;
-        let at = |n: u32| first.checked_add(n as usize * entry.size() as usize);
+        let at = |n: u32| first.checked_add(n as usize * value_bytes(entry.kind) as usize);
         (0..entry.count).map(|n| self.tiff.number(entry.kind, at(n)?)).collect()
     }
 
     /// The first number of a tag.
     pub fn number(&self, tag: u16) -> Option<f64> {
-        self.numbers(tag)?.first().copied()
+        let entry = self.filled(tag)?;
+        self.tiff.number(entry.kind, self.first(&entry)?)
     }
 
     /// The bytes of a tag's values.
@@ -175,6 +164,11 @@ impl<'a> Directory<'a> {
         }
         let astray = self.entries().filter(|entry| !self.has(entry)).count();
         (astray > ASTRAY_MAX).then(|| "a directory leads out of the file".to_owned())
+    }
+
+    /// The entry of a tag that has values, all in the file.
+    fn filled(&self, tag: u16) -> Option<Entry> {
+        self.entry(tag).filter(|entry| self.has(entry) && entry.count > 0)
     }
 
     fn entry(&self, tag: u16) -> Option<Entry> {

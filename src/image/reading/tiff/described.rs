@@ -2,15 +2,15 @@
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-use super::directory::{
+use super::layout::{Cut, Layout};
+use super::tags::{
     BITS_PER_SAMPLE, COMPRESSION, HEIGHT, JPEG_TABLES, LONG, PHOTOMETRIC, PREDICTOR, ROWS_PER_STRIP,
     SAMPLE_FORMAT, SAMPLES_PER_PIXEL, SHORT, STRIP_BYTE_COUNTS, STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH,
-    TILE_OFFSETS, TILE_WIDTH, WIDTH,
+    TILE_OFFSETS, TILE_WIDTH, UNDEFINED, WIDTH,
 };
-use super::layout::{Cut, Layout};
+use super::written::{long, written};
 
 const HEAD_BYTES: u64 = 8;
-const UNDEFINED: u16 = 7;
 
 /// A file of which the first bytes lead to a directory that seems to lie behind its end. No strip or tile reaches there.
 pub(super) struct Described<R> {
@@ -69,7 +69,7 @@ impl<R: Read + Seek> Seek for Described<R> {
     }
 }
 
-/// A directory that begins at `end`, values that do not fit into their entries behind it.
+/// A directory that begins at `end`.
 fn directory(layout: &Layout, chunks: &[(u64, u64)], end: u64) -> Vec<u8> {
     let (offsets, counts): (Vec<u64>, Vec<u64>) = chunks.iter().copied().unzip();
     let number = |tag: u16, number: u64| (tag, LONG, vec![number]);
@@ -102,40 +102,5 @@ fn directory(layout: &Layout, chunks: &[(u64, u64)], end: u64) -> Vec<u8> {
     if !tables.is_empty() {
         entries.push((JPEG_TABLES, UNDEFINED, tables));
     }
-    entries.sort_by_key(|(tag, ..)| *tag);
-    written(layout.is_little, &entries, end)
-}
-
-fn written(is_little: bool, entries: &[(u16, u16, Vec<u64>)], end: u64) -> Vec<u8> {
-    let mut bytes = short(is_little, entries.len() as u64).to_vec();
-    let mut behind = Vec::new();
-    let behind_at = end + 2 + 12 * entries.len() as u64 + 4;
-    for (tag, kind, numbers) in entries {
-        bytes.extend(short(is_little, (*tag).into()));
-        bytes.extend(short(is_little, (*kind).into()));
-        bytes.extend(long(is_little, numbers.len() as u64));
-        let mut values: Vec<u8> = match *kind {
-            SHORT => numbers.iter().flat_map(|number| short(is_little, *number)).collect(),
-            LONG => numbers.iter().flat_map(|number| long(is_little, *number)).collect(),
-            _ => numbers.iter().map(|number| *number as u8).collect(),
-        };
-        if values.len() <= 4 {
-            values.resize(4, 0);
-            bytes.extend(values);
-        } else {
-            bytes.extend(long(is_little, behind_at + behind.len() as u64));
-            behind.extend(values);
-        }
-    }
-    bytes.extend([0; 4]);
-    bytes.extend(behind);
-    bytes
-}
-
-fn short(is_little: bool, number: u64) -> [u8; 2] {
-    if is_little { (number as u16).to_le_bytes() } else { (number as u16).to_be_bytes() }
-}
-
-fn long(is_little: bool, number: u64) -> [u8; 4] {
-    if is_little { (number as u32).to_le_bytes() } else { (number as u32).to_be_bytes() }
+    written(layout.is_little, &entries, &[], end)
 }

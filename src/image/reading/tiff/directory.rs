@@ -3,32 +3,13 @@
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
-pub(super) const NEW_SUBFILE_TYPE: u16 = 254;
-pub(super) const WIDTH: u16 = 256;
-pub(super) const HEIGHT: u16 = 257;
-pub(super) const BITS_PER_SAMPLE: u16 = 258;
-pub(super) const COMPRESSION: u16 = 259;
-pub(super) const PHOTOMETRIC: u16 = 262;
-pub(super) const FILL_ORDER: u16 = 266;
-pub(super) const STRIP_OFFSETS: u16 = 273;
-pub(super) const SAMPLES_PER_PIXEL: u16 = 277;
-pub(super) const ROWS_PER_STRIP: u16 = 278;
-pub(super) const STRIP_BYTE_COUNTS: u16 = 279;
-pub(super) const PLANAR_CONFIGURATION: u16 = 284;
-pub(super) const TRANSFER_FUNCTION: u16 = 301;
-pub(super) const PREDICTOR: u16 = 317;
-pub(super) const WHITE_POINT: u16 = 318;
-pub(super) const PRIMARIES: u16 = 319;
-pub(super) const TILE_WIDTH: u16 = 322;
-pub(super) const TILE_LENGTH: u16 = 323;
-pub(super) const TILE_OFFSETS: u16 = 324;
-pub(super) const TILE_BYTE_COUNTS: u16 = 325;
-pub(super) const SUB_DIRECTORIES: u16 = 330;
-pub(super) const EXTRA_SAMPLES: u16 = 338;
-pub(super) const SAMPLE_FORMAT: u16 = 339;
-pub(super) const JPEG_TABLES: u16 = 347;
-pub(super) const PROFILE: u16 = 34675;
-pub(super) const DNG_VERSION: u16 = 50706;
+use super::tags::{
+    BITS_PER_SAMPLE, BYTE, COMPRESSION, DIRECTORIES_MAX, DNG_VERSION, DOUBLE, ENTRY_BYTES, EXTRA_SAMPLES,
+    FILL_ORDER, FLOAT, HEIGHT, JPEG_TABLES, LONG, NEW_SUBFILE_TYPE, PHOTOMETRIC, PLANAR_CONFIGURATION,
+    PREDICTOR, PRIMARIES, PROFILE, RATIONAL, ROWS_PER_STRIP, SAMPLE_FORMAT, SAMPLES_PER_PIXEL, SHORT,
+    STRIP_BYTE_COUNTS, STRIP_OFFSETS, SUB_DIRECTORIES, TILE_BYTE_COUNTS, TILE_LENGTH, TILE_OFFSETS,
+    TILE_WIDTH, TRANSFER_FUNCTION, WHITE_POINT, WIDTH, value_bytes,
+};
 
 /// The tags whose values are read.
 const READ: [u16; 25] = [
@@ -59,18 +40,6 @@ const READ: [u16; 25] = [
     DNG_VERSION,
 ];
 
-/// Types of values.
-const BYTE: u16 = 1;
-pub(super) const SHORT: u16 = 3;
-pub(super) const LONG: u16 = 4;
-const RATIONAL: u16 = 5;
-const FLOAT: u16 = 11;
-const DOUBLE: u16 = 12;
-/// Bytes of a value, by type from 1 on.
-const SIZES: [u64; 13] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4];
-/// More pages than a file of photographs has; a chain of them may lead back to itself.
-const DIRECTORIES_MAX: usize = 64;
-
 /// What a directory says.
 #[derive(Default)]
 pub(super) struct Directory {
@@ -80,7 +49,7 @@ pub(super) struct Directory {
     next: u32,
 }
 
-/// The values of a tag; no bytes if they lie beyond the end of the file.
+/// The values of a tag; no bytes if they lie beyond the end of the file, or there would be more of all tags together than the file has.
 struct Values {
     kind: u16,
     bytes: Vec<u8>,
@@ -95,9 +64,10 @@ pub(super) fn read_all(file: &mut (impl Read + Seek), length: u64) -> io::Result
     let mut place = u32_of(is_little, [head[4], head[5], head[6], head[7]]);
     let mut places = Vec::new();
     let mut directories = Vec::new();
+    let mut taken = 0;
     while place != 0 && !places.contains(&place) && directories.len() < DIRECTORIES_MAX {
         places.push(place);
-        match Directory::read(file, length, is_little, place) {
+        match Directory::read(file, (length, &mut taken), is_little, place) {
             Ok(directory) => {
                 place = directory.next;
                 directories.push(directory);
@@ -110,23 +80,29 @@ pub(super) fn read_all(file: &mut (impl Read + Seek), length: u64) -> io::Result
 }
 
 impl Directory {
-    fn read(file: &mut (impl Read + Seek), length: u64, is_little: bool, place: u32) -> io::Result<Self> {
+    /// Of a tag that stands there twice the first counts.
+    fn read(
+        file: &mut (impl Read + Seek),
+        (length, taken): (u64, &mut u64),
+        is_little: bool,
+        place: u32,
+    ) -> io::Result<Self> {
         file.seek(SeekFrom::Start(place.into()))?;
         let mut count = [0; 2];
         file.read_exact(&mut count)?;
-        let mut table = vec![0; 12 * usize::from(u16_of(is_little, count)) + 4];
+        let mut table = vec![0; ENTRY_BYTES * usize::from(u16_of(is_little, count)) + 4];
         file.read_exact(&mut table)?;
         let (entries, next) = table.split_at(table.len() - 4);
         let next = u32_of(is_little, [next[0], next[1], next[2], next[3]]);
         let mut directory = Self { is_little, next, ..Self::default() };
-        for entry in entries.chunks_exact(12) {
+        for entry in entries.chunks_exact(ENTRY_BYTES) {
             let tag = u16_of(is_little, [entry[0], entry[1]]);
             directory.has_sub_directories |= tag == SUB_DIRECTORIES;
-            if READ.contains(&tag) {
+            if READ.contains(&tag) && !directory.has(tag) {
                 let kind = u16_of(is_little, [entry[2], entry[3]]);
                 let count = u32_of(is_little, [entry[4], entry[5], entry[6], entry[7]]);
                 let inline = [entry[8], entry[9], entry[10], entry[11]];
-                let bytes = bytes(file, length, is_little, (kind, count), inline)?;
+                let bytes = bytes(file, (length, &mut *taken), is_little, (kind, count), inline)?;
                 directory.values.insert(tag, Values { kind, bytes });
             }
         }
@@ -189,22 +165,24 @@ impl Directory {
     }
 }
 
-/// The bytes of so many values of a kind, which lie in the entry itself if there is room.
+/// The bytes of so many values of a kind, which lie in the entry itself if there is room. `taken` counts those that do not: entries may share
+/// their values, and a small file could claim any number of them.
 fn bytes(
     file: &mut (impl Read + Seek),
-    length: u64,
+    (length, taken): (u64, &mut u64),
     is_little: bool,
     (kind, count): (u16, u32),
     inline: [u8; 4],
 ) -> io::Result<Vec<u8>> {
-    let size = SIZES.get(usize::from(kind).wrapping_sub(1)).unwrap_or(&1) * u64::from(count);
+    let size = value_bytes(kind) * u64::from(count);
     if size <= 4 {
         return Ok(inline[..size as usize].to_vec());
     }
     let place = u64::from(u32_of(is_little, inline));
-    if place + size > length {
+    if place + size > length || *taken + size > length {
         return Ok(Vec::new());
     }
+    *taken += size;
     let mut bytes = vec![0; size as usize];
     file.seek(SeekFrom::Start(place))?;
     file.read_exact(&mut bytes)?;
@@ -254,6 +232,20 @@ mod tests {
         assert_eq!(directories[0].numbers(BITS_PER_SAMPLE), Some(vec![16; 3]));
         assert_eq!(directories[0].bytes(PROFILE), Some(&[][..]), "it claims more than the file has");
         assert!(directories[0].numbers(HEIGHT).is_none());
+    }
+
+    #[test]
+    fn values_are_no_longer_than_the_file() {
+        // two directories of 30 and 18 bytes, the first with a tag twice; a file of 60 bytes
+        let mut whole = file(&[&[(PROFILE, 7, 20, 0), (PROFILE, 7, 30, 0)], &[(PROFILE, 7, 30, 0)]]);
+        whole.resize(60, 0);
+        let lengths = |bytes: &[u8]| {
+            let directories = read(bytes).unwrap();
+            directories.iter().map(|directory| directory.bytes(PROFILE).unwrap().len()).collect::<Vec<_>>()
+        };
+        assert_eq!(lengths(&whole), [20, 30]);
+        whole[14] = 31; // 31 and 30 bytes of 60
+        assert_eq!(lengths(&whole)[1], 0);
     }
 
     #[test]

@@ -5,8 +5,9 @@ use std::path::Path;
 use image::ColorType;
 
 use super::damaged;
-use super::directory::{
-    BITS_PER_SAMPLE, COMPRESSION, Directory, EXTRA_SAMPLES, FILL_ORDER, HEIGHT, JPEG_TABLES, PHOTOMETRIC,
+use super::directory::Directory;
+use super::tags::{
+    BITS_PER_SAMPLE, COMPRESSION, EXTRA_SAMPLES, FILL_ORDER, HEIGHT, JPEG_TABLES, PHOTOMETRIC,
     PLANAR_CONFIGURATION, PREDICTOR, ROWS_PER_STRIP, SAMPLE_FORMAT, SAMPLES_PER_PIXEL, STRIP_BYTE_COUNTS,
     STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH, TILE_OFFSETS, TILE_WIDTH, WIDTH,
 };
@@ -320,7 +321,7 @@ fn kind(path: &Path, page: &Directory) -> Result<Kind> {
 fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Result<Option<usize>> {
     const ASSOCIATED: u64 = 1;
     const UNASSOCIATED: u64 = 2;
-    if samples < colours {
+    if !(colours..=u16::MAX.into()).contains(&samples) {
         return Err(damaged(path, format!("{samples} samples a pixel are not {colours} colours")));
     }
     let extra = page.numbers(EXTRA_SAMPLES);
@@ -380,4 +381,30 @@ fn cut(path: &Path, page: &Directory, height: u64) -> Result<Cut> {
 /// Of what a whole file may have and is not read here.
 fn unread(path: &Path, what: &str, remedy: &str) -> Error {
     Error::picture(path, format!("this vfold does not read TIFF with {what}"), remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::directory::{file, read_all};
+    use super::super::tags::{LONG, SHORT};
+    use super::*;
+
+    /// `SamplesPerPixel` has sixteen bits, of which these are three.
+    #[test]
+    fn more_samples_than_there_may_be_are_damage() {
+        let entries = [
+            (WIDTH, SHORT, 1, 4),
+            (HEIGHT, SHORT, 1, 4),
+            (BITS_PER_SAMPLE, SHORT, 1, 8),
+            (PHOTOMETRIC, SHORT, 1, 2),
+            (SAMPLES_PER_PIXEL, LONG, 1, (1 << 16) + 3),
+        ];
+        let bytes = file(&[&entries]);
+        let pages = read_all(&mut std::io::Cursor::new(&bytes), bytes.len() as u64).unwrap();
+        let Err(error) = Layout::of(Path::new("a.tif"), &pages[0], bytes.len() as u64) else {
+            panic!("it was read")
+        };
+        let message = error.to_string();
+        assert!(message.contains("65539 samples a pixel") && message.contains("damaged"), "{message}");
+    }
 }

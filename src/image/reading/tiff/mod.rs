@@ -10,6 +10,8 @@ mod layout;
 mod pages;
 mod pixels;
 mod statements;
+pub(super) mod tags;
+pub(super) mod written;
 
 use std::io::{self, BufRead, Seek};
 use std::path::Path;

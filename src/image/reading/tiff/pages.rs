@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::directory::{DNG_VERSION, Directory, HEIGHT, NEW_SUBFILE_TYPE, PHOTOMETRIC, WIDTH};
+use super::directory::Directory;
+use super::tags::{DNG_VERSION, HEIGHT, NEW_SUBFILE_TYPE, PHOTOMETRIC, WIDTH};
 use crate::{Error, Result};
 
 const MOSAIC: u64 = 32803;
@@ -63,7 +64,8 @@ fn is_full(directory: &Directory) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::directory::{LONG, SHORT, SUB_DIRECTORIES, file, read_all};
+    use super::super::directory::{file, read_all};
+    use super::super::tags::{LONG, SHORT, SUB_DIRECTORIES};
     use super::*;
 
     type Entry = (u16, u16, u32, u32);

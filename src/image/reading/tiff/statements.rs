@@ -1,6 +1,7 @@
 //! What a directory says of its page's numbers.
 
-use super::directory::{Directory, PRIMARIES, PROFILE, TRANSFER_FUNCTION, WHITE_POINT};
+use super::directory::Directory;
+use super::tags::{PRIMARIES, PROFILE, TRANSFER_FUNCTION, WHITE_POINT};
 use crate::image::numbers::Transfer;
 use crate::image::reading::icc;
 use crate::image::reading::primaries::{SRGB, are_srgb};
@@ -50,10 +51,9 @@ fn has_other_primaries(page: &Directory) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::directory::{SHORT, file, read_all};
+    use super::super::directory::{file, read_all};
+    use super::super::tags::{RATIONAL, SHORT};
     use super::*;
-
-    const RATIONAL: u16 = 5;
 
     /// What a page of one tag says, whose values are these bytes.
     fn of(tag: u16, kind: u16, count: u32, bytes: &[u8]) -> Vec<Statement> {
