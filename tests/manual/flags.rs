@@ -42,7 +42,7 @@ fn known() -> BTreeMap<&'static str, BTreeSet<String>> {
 fn flags(text: &str) -> Vec<String> {
     let is_of_a_word = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
     let starts = text.match_indices("--").filter(|(at, _)| {
-        !text[..*at].ends_with(|before: char| before.is_alphanumeric() || matches!(before, '-' | '_' | '('))
+        !text[..*at].ends_with(|before: char| before.is_alphanumeric() || matches!(before, '-' | '_'))
     });
     let words = starts.map(|(at, _)| {
         let rest = &text[at + 2..];
