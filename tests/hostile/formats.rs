@@ -44,7 +44,7 @@ END
             case("sh forward cut.sp", 1, &["cut.sp:6", "END_DATA is missing"]),
             case("sh forward film.sp", 1, &["film.sp", "transmittances, not reflectances"]),
             case("sh forward second.ti3", 1, &["second.ti3:13", "1 values", "2 columns"]),
-            case("sh forward twice.sp", 1, &["twice.sp:16", "two samples are called 'a'"]),
+            case("sh forward twice.sp", 1, &["twice.sp:15", "two samples are called 'a'"]),
             case("sh forward quote.sp", 1, &["quote.sp:1", "not a CGATS table"]),
             case("sh forward binary.sp", 1, &["binary.sp"]),
             case("sh forward empty.ti3", 1, &["empty.ti3:1", "not a CGATS table"]),

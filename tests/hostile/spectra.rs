@@ -93,8 +93,12 @@ fn files_that_are_something_else() {
         printf 'sep=;\nnm;r\n400;x\n700;1\n' > sep.csv
         printf 'wavelength,r\nnm,%%\n400,x\n700,1\n' > units.csv",
         &[
-            case("vforward scene.json --reflectance gzip.csv", 1, &["gzip.csv:1", "gzip", "unpack"]),
-            case("vforward scene.json --reflectance paint.csv.gz", 1, &["paint.csv.gz:1", "gzip", "unpack"]),
+            case("vforward scene.json --reflectance gzip.csv", 1, &["gzip.csv:1", "gzip", "gzip -dc first"]),
+            case(
+                "vforward scene.json --reflectance paint.csv.gz",
+                1,
+                &["paint.csv.gz:1", "gzip", "gzip -dc first"],
+            ),
             case("vforward scene.json --reflectance 0.5 --camera gzip.json", 1, &["gzip.json:1", "gzip"]),
             case("vforward scene.json --reflectance book.csv", 1, &["book.csv:1", "spreadsheet", "CSV"]),
             case("vforward scene.json --reflectance book.xlsx", 1, &["book.xlsx:1", "spreadsheet", "CSV"]),

@@ -68,23 +68,22 @@ mod tests {
     use super::*;
     use crate::image::placing::Point;
 
-    /// A sheet of 40 x 30 px on a dark table, of which the panel is marked to `right` and `bottom`.
+    /// A sheet of 160 x 120 px on a dark table, of which the panel is marked to `right` and `bottom`.
     fn open(right: f64, bottom: f64) -> Vec<String> {
-        let light =
-            |n: usize| if (10..50).contains(&(n % 80)) && (10..40).contains(&(n / 80)) { 0.5 } else { 0.1 };
-        let light: Vec<f32> = (0..80 * 60).flat_map(|n| [light(n); 3]).collect();
-        let photograph = Photograph::from_light(80, 60, light).unwrap();
+        let is_sheet = |n: usize| (40..200).contains(&(n % 320)) && (40..160).contains(&(n / 320));
+        let light: Vec<f32> = (0..320 * 240).flat_map(|n| [if is_sheet(n) { 0.5 } else { 0.1 }; 3]).collect();
+        let photograph = Photograph::from_light(320, 240, light).unwrap();
         let corners =
-            [(10., 10.), (right, 10.), (right, bottom), (10., bottom)].map(|(x, y)| Point::new(x, y));
+            [(40., 40.), (right, 40.), (right, bottom), (40., bottom)].map(|(x, y)| Point::new(x, y));
         let outline = Homography::from_unit_square(corners).unwrap();
         open_sides(&photograph, &[Grid::of_panel(0, outline, &[0.0, 1.0], &[0.0, 1.0])])
     }
 
     #[test]
     fn a_panel_ends_where_it_is_marked() {
-        assert!(open(50.0, 40.0).is_empty());
-        assert_eq!(open(50.0, 30.0), ["the outer side of panel 0"]);
-        assert_eq!(open(35.0, 40.0), ["the side at crease end 1 of panel 0"]);
-        assert_eq!(open(66.0, 40.0), ["the side at crease end 1 of panel 0"]);
+        assert!(open(200.0, 160.0).is_empty());
+        assert_eq!(open(200.0, 120.0), ["the outer side of panel 0"]);
+        assert_eq!(open(140.0, 160.0), ["the side at crease end 1 of panel 0"]);
+        assert_eq!(open(264.0, 160.0), ["the side at crease end 1 of panel 0"]);
     }
 }
