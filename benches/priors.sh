@@ -24,7 +24,7 @@ rows() {
     machine "$bin/vkernel"
     echo
     echo '45°, 10 x 10 facets a panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE. "Chips alone" are the Munsell chips as the prior.'
-    echo 'docs/priors.md has more of these sets.'
+    echo 'sets.md has more sets, through more cameras.'
     echo
     echo '| set | facet noise | chips alone | all kinds |'
     echo '|---|---|---|---|'

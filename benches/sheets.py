@@ -71,26 +71,37 @@ def set_of(tools, cameras, path):
         return list(several.map(sheet, drawn))
 
 
-def estimated(tools, records, truth, flags):
-    """RMSE, errors in standard deviations, ms."""
+def estimated(tools, records, flags):
+    """Wavelengths, estimate and ms of the only sample, by one thread."""
     said, ms = tools.run("vestimate", "-q", "-j", 1, *flags, given=records)
     scene, record = (json.loads(line) for line in said.splitlines())
-    nm, estimate = scene["wavelengths_nm"], record["estimate"]
-    off = [
-        abs(r - truth[n]) / sd
-        for n, r, sd in zip(nm, estimate["reflectance"], estimate["reflectance_sd"], strict=True)
-        if n in truth
-    ]
-    return rmse({**record, "wavelengths_nm": nm}, truth), off, ms
+    return scene["wavelengths_nm"], record["estimate"], ms
+
+
+def errors(nm, estimate, truth):
+    """RMSE, and errors in standard deviations."""
+    found = zip(nm, estimate["reflectance"], estimate["reflectance_sd"], strict=True)
+    off = [abs(r - truth[n]) / sd for n, r, sd in found if n in truth]
+    return rmse({"estimate": estimate, "wavelengths_nm": nm}, truth), off
+
+
+def within(off):
+    """Per cent of errors within one and two standard deviations."""
+    return " / ".join(f"{100 * statistics.fmean(z < most for z in off):.0f}" for most in (1, 2))
+
+
+def measured(tools, records, truth, flags):
+    """RMSE, errors in standard deviations, ms."""
+    nm, estimate, ms = estimated(tools, records, flags)
+    return *errors(nm, estimate, truth), ms
 
 
 def row(tools, name, photographs):
-    measured = [estimated(tools, *one) for one in photographs]
-    off = [z for _, of_one, _ in measured for z in of_one]
-    within = " / ".join(f"{100 * statistics.fmean(z < most for z in off):.0f}" for most in (1, 2))
-    errors, ms = [one[0] for one in measured], statistics.median(one[2] for one in measured)
-    far = sum(error > FAR for error in errors)
-    print(f"| {name} | {len(measured)} | {statistics.fmean(errors):.4f} | {far} | {within} | {ms:.0f} |", flush=True)
+    all_of_them = [measured(tools, *one) for one in photographs]
+    off = [z for _, of_one, _ in all_of_them for z in of_one]
+    each, ms = [one[0] for one in all_of_them], statistics.median(one[2] for one in all_of_them)
+    far = sum(error > FAR for error in each)
+    print(f"| {name} | {len(each)} | {statistics.fmean(each):.4f} | {far} | {within(off)} | {ms:.0f} |", flush=True)
 
 
 def main(folder, shared, *sets):

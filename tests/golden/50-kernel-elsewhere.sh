@@ -32,4 +32,4 @@ for r, ours in cases:
 END
 colours="--illuminant D65 --illuminant A"
 vforward --kernel K.npy --irradiance E0.npy --reflectance cc24:red cc24:cyan $colours --noise-sd 1e-3 |
-    grep '"sample"' | vestimate --kernel K.npy --irradiance E0.npy $colours | vscore | tail -n 1
+    grep '"sample"' | vestimate --kernel K.npy --irradiance E0.npy $colours | vscore | tail -n 1 | below RMSE=0.03 CIEDE2000=0.6 PD=0.005

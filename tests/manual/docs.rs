@@ -1,12 +1,17 @@
 //! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with no file that no page
-//! makes; links lead to files. What needs pictures or machines of the reader's stands in blocks of `console`.
+//! makes; links lead to files; tables between marks are those of benches/results. What needs pictures or machines of the reader's stands in blocks
+//! of `console`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::common::{Ended, Workdir};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// By how many lines of text a curve in a plot that a page shows may be off from what is printed now: a change of the prior moves it a little.
+const LINES_OFF: usize = 1;
 
 /// A clone, as far as pages need it: nothing that they do not make themselves.
 const SETUP: &str = r#"
@@ -51,7 +56,55 @@ fn the_readme_shows_what_is_printed() {
     let page = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
     let shown = blocks(&page, "text");
     let run = read_along(&page);
-    assert!(!shown.is_empty() && shown.iter().all(|text| run.stderr.contains(text)), "{}", run.stderr);
+    assert!(!shown.is_empty() && shown.iter().all(|text| is_printed(text, &run.stderr)), "{}", run.stderr);
+}
+
+/// Whether a plot is printed as a page shows it: frame, axes and letters exactly, the curve in each column within [`LINES_OFF`], bars
+/// anyhow.
+fn is_printed(shown: &str, printed: &str) -> bool {
+    let shown: Vec<&str> = shown.lines().collect();
+    let printed: Vec<&str> = printed.lines().collect();
+    printed.windows(shown.len()).any(|lines| {
+        let frames = shown.iter().zip(lines).all(|(shown, line)| frame(shown) == frame(line));
+        frames && curve_is_near(&shown, lines) && curve_is_near(lines, &shown)
+    })
+}
+
+/// Of a line of a plot all but what is drawn in it.
+fn frame(line: &str) -> &str {
+    match line.find(['┤', '│']) {
+        Some(axis) => &line[..axis],
+        None => line,
+    }
+}
+
+/// Dots of a curve, by line and column.
+fn dots(plot: &[&str]) -> Vec<(usize, usize)> {
+    let in_line = |(row, line): (usize, &&str)| {
+        let is_dot = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
+        let columns = line[frame(line).len()..].chars().enumerate();
+        columns.filter(|(_, letter)| is_dot(*letter)).map(|(column, _)| (row, column)).collect::<Vec<_>>()
+    };
+    plot.iter().enumerate().flat_map(in_line).collect()
+}
+
+/// Whether each dot of a plot has one of another's in its column, or beside it, at most so many lines away.
+fn curve_is_near(plot: &[&str], other: &[&str]) -> bool {
+    let there = dots(other);
+    dots(plot).into_iter().all(|(row, column)| {
+        there.iter().any(|at| at.0.abs_diff(row) <= LINES_OFF && at.1.abs_diff(column) <= 1)
+    })
+}
+
+#[test]
+fn tables_between_marks_are_those_of_the_results() {
+    let check = Command::new("python3")
+        .args(["-B", "benches/figures.py", "--check"])
+        .current_dir(ROOT)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&check.stdout) + String::from_utf8_lossy(&check.stderr);
+    assert!(check.status.success(), "benches/all figures writes them anew: {said}");
 }
 
 #[test]
