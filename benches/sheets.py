@@ -42,7 +42,7 @@ def simulated(tools, cameras, spec, draw, work):
     surface = ["--gloss", draw.uniform(0, 0.5), "--gloss-roughness", draw.uniform(0.38, 0.55), "--body-roughness-deg", draw.uniform(0, 20)]
     noise = ["--noise-sd", 1e-3, "--photon-noise", 1e-2, "--seed", draw.randrange(10000)]
     picture = ["--exposure", exposure, *noise, "--render", work / "sheet.tif", "--render-size", "400x300"]
-    said, _ = tools.run("vforward", "-q", "--reflectance", spec, "--camera", true_camera, *light, *surface, *picture, given=scene)
+    said, _ = tools.run("vforward", "-q", "--percent=no", "--reflectance", spec, "--camera", true_camera, *light, *surface, *picture, given=scene)
     sample = json.loads(said.splitlines()[-1])
     truth = dict(zip(sample["truth"]["wavelengths_nm"], sample["truth"]["reflectance"], strict=True))
     moved = {}

@@ -3,14 +3,15 @@
 //! A panel that is marked whole ends at its outer sides: what lies beyond has another brightness or colour. Where nothing changes across
 //! a side, the sheet goes on beyond the corners, or does not reach them.
 
-use super::facets::measure;
-use crate::image::photograph::Photograph;
-use crate::image::placing::{Grid, Homography};
+use crate::image::photograph::{Photograph, Pixel};
+use crate::image::placing::Grid;
 
 /// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and how many pieces of them are compared.
 const STRIP: [f64; 2] = [0.03, 0.09];
 const ALONG: [f64; 2] = [0.05, 0.95];
 const PIECES: usize = 6;
+/// Points of a piece that are looked at, along and across.
+const POINTS: [usize; 2] = [12, 4];
 /// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes in one that is open.
 const SEEN_LEAST: usize = 4;
 const OPEN_SHARE: f64 = 0.75;
@@ -48,17 +49,35 @@ fn is_open(photograph: &Photograph, panel: &Grid, side: usize) -> bool {
     steps.len() >= SEEN_LEAST && alike as f64 >= OPEN_SHARE * steps.len() as f64
 }
 
-/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer side, or along the crease.
-fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<Vec<f64>>> {
-    let (u, v, pieces) = if side == 0 { (ALONG, across, [1, PIECES]) } else { (across, ALONG, [PIECES, 1]) };
-    let strip = Homography::from_unit_square(panel.outline.rectangle(u, v));
-    // what does not lie in the picture cannot be measured
-    let measured = strip.and_then(|strip| measure(photograph, &[Grid::even(strip, pieces)], 0.0));
-    measured.unwrap_or_default().into_iter().map(|piece| piece.mean).collect()
+/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer side, or along the crease; none of a
+/// piece that lies outside the picture, or is clipped, by half.
+fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<[f64; 3]>> {
+    let place =
+        |[from, to]: [f64; 2], n: usize, count: usize| from + (to - from) * (n as f64 + 0.5) / count as f64;
+    let light = |along: usize, across_it: usize| {
+        let along = place(ALONG, along, PIECES * POINTS[0]);
+        let across = place(across, across_it, POINTS[1]);
+        let (u, v) = if side == 0 { (along, across) } else { (across, along) };
+        let point = panel.outline.to_image(u, v);
+        let is_seen = (0.0..photograph.width() as f64).contains(&point.x)
+            && (0.0..photograph.height() as f64).contains(&point.y);
+        match is_seen.then(|| photograph.pixel(point.x as usize, point.y as usize)) {
+            Some(Pixel::Light(light)) => Some(light),
+            Some(Pixel::Clipped | Pixel::NotFinite) | None => None,
+        }
+    };
+    let piece = |piece: usize| {
+        let along = piece * POINTS[0]..(piece + 1) * POINTS[0];
+        let points = along.flat_map(|along| (0..POINTS[1]).map(move |across| (along, across)));
+        let seen: Vec<[f64; 3]> = points.filter_map(|(along, across)| light(along, across)).collect();
+        let mean = |k: usize| seen.iter().map(|one| one[k]).sum::<f64>() / seen.len() as f64;
+        (2 * seen.len() > POINTS[0] * POINTS[1]).then(|| [0, 1, 2].map(mean))
+    };
+    (0..PIECES).map(piece).collect()
 }
 
 /// The greatest change of a channel, as a logarithm.
-fn step(inside: &[f64], outside: &[f64]) -> Option<f64> {
+fn step(inside: &[f64; 3], outside: &[f64; 3]) -> Option<f64> {
     let change = |(a, b): (&f64, &f64)| if *a > 0.0 && *b > 0.0 { (a / b).ln().abs() } else { f64::INFINITY };
     inside.iter().zip(outside).map(change).reduce(f64::max)
 }

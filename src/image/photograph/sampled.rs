@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::pixels::Pixels;
 
-/// Numbers that are looked at: a plateau of a thousandth is 33 of them, and a large picture takes no longer.
-const NUMBERS: usize = 1 << 15;
+/// Numbers that are looked at: a plateau of a thousandth is 16 of them, and a large picture takes no longer.
+const NUMBERS: usize = 1 << 14;
 /// Pixels beside each other.
 const RUN_PX: usize = 64;
 
