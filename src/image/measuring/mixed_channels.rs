@@ -8,7 +8,7 @@ use crate::image::placing::{Homography, Quadrilateral};
 
 /// Pixels side by side whose noise is compared, and how many such runs are looked at; fewer tell nothing.
 const RUN_PX: usize = 26;
-const RUNS: usize = 150;
+const RUNS: usize = 400;
 const FEW: usize = 30;
 /// Noise below this part of the light may be the light's own changes.
 const LEAST_NOISE: f64 = 1e-3;

@@ -85,7 +85,7 @@ fn step(inside: &[f64; 3], outside: &[f64; 3]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::placing::Point;
+    use crate::image::placing::{Homography, Point};
 
     /// A sheet of 160 x 120 px on a dark table, of which the panel is marked to `right` and `bottom`.
     fn open(right: f64, bottom: f64) -> Vec<String> {
