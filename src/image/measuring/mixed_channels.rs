@@ -6,9 +6,9 @@
 use crate::image::photograph::{Layer, Photograph, Pixel};
 use crate::image::placing::{Homography, Quadrilateral};
 
-/// Pixels side by side whose noise is compared, and how many such runs are looked at; fewer tell nothing.
+/// Pixels side by side whose noise is compared, and how many such runs of a panel are enough; fewer than some tell nothing.
 const RUN_PX: usize = 26;
-const RUNS: usize = 400;
+const ENOUGH: usize = 150;
 const FEW: usize = 30;
 /// Noise below this part of the light may be the light's own changes.
 const LEAST_NOISE: f64 = 1e-3;
@@ -36,18 +36,19 @@ fn median(mut all: Vec<f64>) -> f64 {
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Correlations of red with green, red with blue and green with blue in runs of pixels all over a panel.
+/// Correlations of red with green, red with blue and green with blue in as many runs of pixels all over a panel as are enough.
 fn runs(layer: Layer, panel: &Homography) -> Vec<[f64; 3]> {
     let (width, height) = layer.size();
     let outline = Quadrilateral::new(panel.corners());
-    let (rows, columns) = (outline.rows(height), outline.columns(width));
-    let step = (rows.len() * columns.len() / (RUN_PX * RUNS)).max(1);
     let in_row = |y: usize| {
         let whole = outline.whole_columns(y, width);
         (0..whole.len() / RUN_PX).map(move |run| (whole.start + run * RUN_PX, y))
     };
-    let places = rows.flat_map(in_row).step_by(step);
-    places.filter_map(|(x, y)| correlations(layer, x, y)).collect()
+    let places: Vec<_> = outline.rows(height).flat_map(in_row).collect();
+    // every so many first: where many cannot be used, those between follow
+    let step = places.len().div_ceil(ENOUGH).max(1);
+    let in_turn = (0..step).flat_map(|first| places.iter().skip(first).step_by(step));
+    in_turn.filter_map(|(x, y)| correlations(layer, *x, *y)).take(ENOUGH).collect()
 }
 
 /// Those of the run that begins at (x, y); none if a pixel is not usable or noise does not show.
