@@ -6,7 +6,7 @@ use crate::common::Workdir;
 
 /// How far what the tools print may be from a page, relative to it: pages are measured once after several changes of prior or estimator, of
 /// which each moves figures by a few per cent.
-const BEHIND: f64 = 0.25;
+const BEHIND: f64 = 0.1;
 
 /// A cell of a page: the heading above its table, how its row begins, its column from 0, and the samples and
 /// estimates whose mean RMSE it has, and whose mean CIEDE2000, if the page says it.

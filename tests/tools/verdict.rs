@@ -110,6 +110,12 @@ fn what_facets_do_not_show_is_said_to_be_told() {
     assert!(light.level == "good" && light.because.contains("the light D50"), "{light:?}");
     let camera = judged("nikon-d5100 for canon-5d-mark-ii", Told { camera: "nikon-d5100", ..AS_IT_IS });
     assert!(camera.level != "good" || camera.because.contains("the camera nikon-d5100"), "{camera:?}");
+    let run = Workdir::new().sh("for camera in nikon-d5100 canon-5d-mark-ii; do
+            vkernel --facets 4x4 | vforward -q --reflectance cc24:red --camera $camera | vestimate | tail -n 1
+        done");
+    let said: Vec<bool> =
+        run.stdout.lines().map(|sample| sample.contains("scaled to the same peak")).collect();
+    assert_eq!(said, [true, false], "{run:?}");
 }
 
 #[test]

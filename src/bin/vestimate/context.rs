@@ -6,7 +6,7 @@ use vfold::Result;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{SUN_COLOUR, SceneModel, Unknown};
 use vfold::scene::Setting;
-use vfold::spectrum::WavelengthGrid;
+use vfold::spectrum::{WavelengthGrid, have_one_peak};
 use vfold::stream::{Sample, Scene};
 
 use super::flat::FlatContext;
@@ -89,5 +89,11 @@ fn untold(scene: &Scene) -> Result<String> {
     let lights = scene.illuminants()?;
     let names: Vec<_> = lights.iter().map(|light| light.name.as_str()).collect();
     let whose = if scene.is_daylight_assumed()? { ", which nobody told," } else { "" };
-    Ok(format!("the light {}{whose} and the camera {}", names.join(", "), scene.camera()?.name))
+    let camera = scene.camera()?;
+    let scaled = if have_one_peak(camera.sensitivities.iter().map(Vec::as_slice)) {
+        ", whose channels are each scaled to the same peak,"
+    } else {
+        ""
+    };
+    Ok(format!("the light {}{whose} and the camera {}{scaled}", names.join(", "), camera.name))
 }

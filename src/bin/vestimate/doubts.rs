@@ -78,8 +78,8 @@ fn open_sides(making: &Making) -> Option<Doubt> {
     })
 }
 
-/// Curves scaled one by one have lost what one channel's light is of another's. Built-in cameras that were published so (docs/spectra.md) say it
-/// where they are listed, and with every run.
+/// Curves scaled one by one have lost what one channel's light is of another's. Of built-in cameras that were published so (docs/spectra.md) the
+/// verdict says it without a doubt: the paper, and samples simulated by them, take them as they are.
 fn scaled(camera: &CameraRecord) -> Option<Doubt> {
     let has_one_peak = have_one_peak(camera.sensitivities.iter().map(Vec::as_slice));
     (has_one_peak && !is_built_in(What::Cameras, &camera.name)).then(|| {
