@@ -18,8 +18,10 @@ pub fn warnings(
 
 /// The error of a photograph none of whose facets can be used.
 pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasurement]) -> Error {
+    // Facets of a panel that was not marked have no pixels at all.
+    let seen = facets.iter().filter(|facet| facet.pixels > 0.0 || facet.clipped > 0).count();
     let clipped = facets.iter().filter(|facet| facet.clipped > 0).count();
-    if 2 * clipped > facets.len() {
+    if 2 * clipped > seen {
         let where_to = ends(info).unwrap_or_else(|| "the white level".to_owned());
         let problem = format!("no facet can be used: its numbers end at {where_to}, where they are clipped");
         return Error::picture(path, problem, "expose it less, or check the white level");
