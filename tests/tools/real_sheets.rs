@@ -346,6 +346,9 @@ fn of_real(path: &Path) -> Outcome {
     );
     let folder = Workdir::new();
     let sample = sample(path, &folder.sh(&script));
+    for found in ["ends_at", "darkest", "processing", "open_sides"] {
+        assert!(sample["image"].get(found).is_none(), "{}: {found}", path.display());
+    }
     let covariance = fs::read(folder.path().join("covariance.npy")).unwrap();
     let covariance: Vec<f64> = npyz::NpyFile::new(&covariance[..]).unwrap().into_vec().unwrap();
     let expected = expected_delta_e(&numbers(&sample["estimate"]["reflectance"]), &covariance);
