@@ -9,7 +9,7 @@ use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
     FacetMeasurement, FlatField, Grid, Homography, Photograph, measure, open_sides, pixels_sharing_noise,
-    processing,
+    processing, with_rounding,
 };
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
@@ -53,8 +53,10 @@ impl Setup<'_> {
         let sharing_noise = pixels_sharing_noise(&photograph, &outlines);
         let measured = measure(&photograph, &placed.grids, margin)?;
         let processing = processing(&photograph, &outlines, &measured);
-        let mut measured: Vec<_> =
-            measured.into_iter().map(|facet| facet.with_shared_noise(&sharing_noise)).collect();
+        let with_errors = |facet: FacetMeasurement| {
+            with_rounding(facet.with_shared_noise(&sharing_noise), photograph.info())
+        };
+        let mut measured: Vec<_> = measured.into_iter().map(with_errors).collect();
         if let Some(sight) = &self.sight {
             let hidden = panels.hidden(sight, &placed.grids, placed.lens);
             let of_hidden = measured.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden);

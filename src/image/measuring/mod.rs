@@ -9,6 +9,7 @@ mod outliers;
 mod patches;
 mod plane_fit;
 mod processing;
+mod rounding;
 mod shared_noise;
 mod tally;
 
@@ -17,4 +18,5 @@ pub use measurement::{FacetMeasurement, PixelRun};
 pub use open_sides::open_sides;
 pub use patches::{corner_orders, measure_patches};
 pub use processing::{Processing, processing};
+pub use rounding::with_rounding;
 pub use shared_noise::pixels_sharing_noise;

@@ -58,6 +58,18 @@ impl Development {
             .then(|| [0, 1, 2].map(|channel| balanced[channel] / gains[channel]))
     }
 
+    /// Standard errors of camera RGB, each number of linear sRGB having an error of its own, as large as `of_number` says.
+    pub(in crate::image) fn errors(&self, camera_rgb: [f64; 3], of_number: impl Fn(f64) -> f64) -> [f64; 3] {
+        let gains = self.white_balance_gains;
+        let balanced = Vector3::from_fn(|channel, _| gains[channel] * camera_rgb[channel]);
+        let linear_srgb = Matrix3::from(self.camera_to_linear_srgb).transpose() * balanced;
+        let errors = linear_srgb.map(of_number);
+        [0, 1, 2].map(|channel| {
+            let row = self.linear_srgb_to_balanced.row(channel).transpose();
+            row.component_mul(&errors).norm() / gains[channel]
+        })
+    }
+
     /// The factors of camera red, green and blue.
     #[must_use]
     pub fn white_balance_gains(&self) -> [f64; 3] {
@@ -90,6 +102,16 @@ mod tests {
         let development = Development::new([2.0, 1.0, 1.5], MATRIX).unwrap();
         let got = development.camera_rgb([0.2, 0.3, 0.4]).unwrap();
         let want = [0.12603591160220995, 0.31837016574585636, 0.25];
+        assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() < 1e-14), "{got:?}");
+    }
+
+    /// NumPy 2: `np.sqrt((np.linalg.inv(M)**2) @ (.01 * np.array([.2, .3, .4]))**2)/[2, 1, 1.5]`.
+    #[test]
+    fn errors_agree_with_numpy() {
+        let development = Development::new([2.0, 1.0, 1.5], MATRIX).unwrap();
+        let camera_rgb = development.camera_rgb([0.2, 0.3, 0.4]).unwrap();
+        let got = development.errors(camera_rgb, |light| 0.01 * light);
+        let want = [0.0007693732819249438, 0.0023257605615795555, 0.0020615528128088306];
         assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() < 1e-14), "{got:?}");
     }
 

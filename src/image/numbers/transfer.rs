@@ -29,6 +29,15 @@ impl Transfer {
         if self == Self::Srgb { srgb_to_linear(stored) } else { stored }
     }
 
+    /// How much more light a stored value has that is a little larger, at this linear light.
+    pub(in crate::image) fn slope(self, light: f64) -> f64 {
+        match self {
+            Self::Srgb if light > 0.04045 / 12.92 => 2.4 / 1.055 * light.powf(1.4 / 2.4),
+            Self::Srgb => 1.0 / 12.92,
+            Self::Auto | Self::Linear => 1.0,
+        }
+    }
+
     /// The name on the command line and in records.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -94,6 +103,15 @@ mod tests {
         ] {
             let got = srgb_to_linear(f64::from(code) / 255.0);
             assert!((got - linear).abs() < 1e-14, "{code}: {got} {linear}");
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_curve() {
+        for stored in [0.01, 0.03, 0.1, 0.5, 0.9] {
+            let [below, above] = [-1e-6, 1e-6].map(|step| srgb_to_linear(stored + step));
+            let got = Transfer::Srgb.slope(srgb_to_linear(stored));
+            assert!((got / ((above - below) / 2e-6) - 1.0).abs() < 1e-8, "{stored}: {got}");
         }
     }
 

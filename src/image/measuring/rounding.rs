@@ -1,0 +1,66 @@
+//! What rounding adds to the errors of facets in a JPEG.
+//!
+//! A JPEG has no noise left by which the rounding of one pixel is another than its neighbour's: it was smoothed away, and a block of pixels is
+//! stored as a few waves, themselves rounded. So rounding moves a block as a whole, which neither the spread of pixels nor that of their means over
+//! smaller blocks shows.
+
+use super::measurement::FacetMeasurement;
+use crate::image::photograph::PhotographInfo;
+
+/// Pixels that are rounded alike: of colours, which most JPEGs store for two rows and columns at once, 16 x 16 (ITU-T T.81, section A.1.1).
+const ALIKE: f64 = 256.0;
+
+/// A facet with the error of rounding among its standard errors, if the picture is a JPEG.
+#[must_use]
+pub fn with_rounding(facet: FacetMeasurement, info: &PhotographInfo) -> FacetMeasurement {
+    let (Some(mean), Some(errors)) = (&facet.mean, &facet.standard_error) else { return facet };
+    if !info.format.starts_with("JPEG") {
+        return facet;
+    }
+    // a number that is rounded is off by up to half a step, and by nothing more often than by anything else
+    let off = 1.0 / ((info.white_level[0] - info.black_level[0]) * 12_f64.sqrt());
+    let of_stored = |light: f64| off * info.transfer_used.slope(light);
+    let of_block = match (&info.undone, mean.as_slice()) {
+        (Some(development), &[red, green, blue]) => {
+            development.errors([red, green, blue], of_stored).to_vec()
+        }
+        _ => mean.iter().copied().map(of_stored).collect(),
+    };
+    let blocks = (facet.pixels / ALIKE).max(1.0);
+    let both = |(error, of_block): (&f64, f64)| error.hypot(of_block / blocks.sqrt());
+    let errors = errors.iter().zip(of_block).map(both).collect();
+    FacetMeasurement { standard_error: Some(errors), ..facet }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::{CameraNotes, Transfer};
+
+    fn facet() -> FacetMeasurement {
+        FacetMeasurement {
+            mean: Some(vec![0.214_041_140_482_232; 3]),
+            standard_error: Some(vec![1e-3; 3]),
+            pixels: 1024.0,
+            ..FacetMeasurement::NOTHING
+        }
+    }
+
+    fn info(format: &str) -> PhotographInfo {
+        let new = PhotographInfo::new(CameraNotes::default(), (640, 480), format.to_owned());
+        PhotographInfo { transfer_used: Transfer::Srgb, white_level: vec![255.0], ..new }
+    }
+
+    /// At half of the way to white the curve of sRGB has a slope of 0.9256: 0.9256 / 255 / sqrt(12) is halved by four blocks.
+    #[test]
+    fn blocks_are_rounded_alike() {
+        let errors = with_rounding(facet(), &info("JPEG, 8-bit, RGB")).standard_error.unwrap();
+        let want = (1e-6_f64 + (0.5_f64 * 0.925_583 / 255.0).powi(2) / 12.0_f64).sqrt();
+        assert!(errors.iter().all(|error| (error - want).abs() < 1e-8), "{errors:?} {want}");
+    }
+
+    #[test]
+    fn noise_of_other_pictures_is_rounded_at_random() {
+        assert_eq!(with_rounding(facet(), &info("PNG, 8-bit, RGB")), facet());
+    }
+}
