@@ -199,6 +199,7 @@ impl Found {
             exposure,
             residual_rms: self.residual_rms,
             unexplained: self.unexplained,
+            without_bounces: 0.0,
             iterations: self.iterations() as u32,
             trace: self.trace,
             termination: self.termination,

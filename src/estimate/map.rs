@@ -39,15 +39,6 @@ const LONG: usize = 10;
 const ANOTHER_LIMIT: usize = 20;
 /// The best search is carried on for so many iterations where none has come to the facets.
 const CARRIED_ON: usize = 40;
-/// A glance at the misfit ends this near to the maximum, after most so many iterations; spectra are so many standard deviations from the mean
-/// at most, in the mean over all coordinates.
-const GLANCE_TOLERANCE: f64 = 0.3;
-const GLANCE_LIMIT: usize = 60;
-const FURTHEST: f64 = 2.0;
-/// By how many times [`least_misfit`] may be too much: of computed facets, glossy and not, it is by 1.15 for the ColorChecker at most, and by
-/// 1.21 for Munsell's chips.
-pub const CAUTION: f64 = 1.25;
-
 /// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from instead of the
 /// prior's mean; at a maximum of more evidence than all others it makes no difference.
 ///
@@ -65,43 +56,6 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Estim
             trace.extend(on_bound.trace);
             Found { spread, prior_sd, trace, ..on_bound }.into_estimate(data)
         }
-    }
-}
-
-/// A misfit, in units of the noise, below which no spectrum leaves the facets, if what facets are made of is as the data have it; found in a
-/// small part of the time of an estimate; 0 where the search is not at its end by then.
-///
-/// It may be too much by up to a share of itself, [`CAUTION`]: the search ends near to its maximum, and classes reach a little further than
-/// all spectra do.
-/// With the noise inflated κ times, no point has less than `κ⁻²|ρ|² + |w|²` of the maximum there, and spectra are within `FURTHEST`.
-#[must_use]
-pub fn least_misfit(data: &FacetData, prior: &Prior) -> f64 {
-    let all = Facets { data, gaussian: prior.broad() };
-    let coarse = (SORTING_NOISE * data.peak()).max(1.0);
-    let mean = DVector::zeros(all.unknowns());
-    let first = first_inflation(&all, &mean, coarse);
-    let found = maximise(&all, mean, (first, coarse), GLANCE_TOLERANCE, GLANCE_LIMIT);
-    let within = FURTHEST * FURTHEST * found.w.len() as f64;
-    let count = data.size().1 as f64;
-    let least = data.rms(&found.at.residuals).powi(2)
-        + coarse * coarse * (found.w.norm_squared() - within).min(0.0) / count;
-    match found.termination {
-        Termination::Converged { .. } => least.max(0.0).sqrt(),
-        Termination::NoProgress { .. } | Termination::IterationLimit => 0.0,
-    }
-}
-
-/// What facets tell of spectrum and scene under all spectra as one Gaussian, in a small part of the time of an estimate: within a third of a
-/// standard deviation of the maximum. None if the search is not at its end by then.
-#[must_use]
-pub fn glance(data: &FacetData, prior: &Prior) -> Option<Estimate> {
-    let all = Facets { data, gaussian: prior.broad() };
-    let mean = DVector::zeros(all.unknowns());
-    let first = first_inflation(&all, &mean, 1.0);
-    let found = maximise(&all, mean, (first, 1.0), GLANCE_TOLERANCE, GLANCE_LIMIT);
-    match found.termination {
-        Termination::Converged { .. } => Some(Found::new(&all, &found, 0.0).into_estimate(data)),
-        Termination::NoProgress { .. } | Termination::IterationLimit => None,
     }
 }
 

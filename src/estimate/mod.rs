@@ -91,6 +91,8 @@ pub struct Estimate {
     pub residual_rms: f64,
     /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
     pub unexplained: f64,
+    /// Probability that no light bounces between the panels, as far as that is weighed.
+    pub without_bounces: f64,
     /// Iterations.
     pub iterations: u32,
     /// What happened in them, by runs: under all spectra, under the likeliest class to where classes are told apart, then under each class that

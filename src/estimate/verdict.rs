@@ -4,13 +4,18 @@
 //! how much of the spectrum they leave open. What facets cannot show, the colour of the light and the camera's curves, is said to be as it
 //! was told.
 
-use super::unknowns::{EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
+use std::iter;
+
+use super::unknowns::{ANGLE, EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
 use super::{Estimate, Exposure, Fitted, MISFIT};
 
 /// Residuals, in units of their expected size, up to which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
 /// Mean standard deviation of the reflectance from which on the facets leave too much open.
 const OPEN: f64 = 0.06;
+/// Probability of no bounces from which on an estimate is doubtful, and wrong.
+const PROBABLY_NO_FOLD: f64 = 0.5;
+const NO_FOLD: f64 = 0.9;
 /// Standard deviations of the sum of squared residuals beyond which chance does not explain it.
 const CHANCE: f64 = 5.0;
 /// An exposure is doubtful that is brighter than nineteen in twenty, in standard deviations of those that people take, and wrong if it is this
@@ -21,10 +26,8 @@ const EXPOSURE_WRONG: f64 = 3.25;
 const DARK_SHEET: f64 = 0.2;
 /// No sheet is darker than that in its brightest waveband.
 const DARKEST_SHEET: f64 = 0.03;
-/// Facets say another exposure than was stated if that leaves so small a part of the misfit, is so many standard deviations away, and by this
-/// logarithm of a factor.
-const EXPOSURE_BETTER: f64 = 0.8;
-const EXPOSURE_SURE: f64 = 3.0;
+/// Facets say something else than was stated if that is so many standard deviations away; an exposure also by this logarithm of a factor.
+const SURE: f64 = 3.0;
 const EXPOSURE_APART: f64 = 0.1;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
@@ -86,15 +89,27 @@ impl Verdict {
     /// The verdict on an estimate that knows its errors.
     ///
     /// # Arguments
-    /// - `doubts`: what speaks against it beside its own numbers; what stands first among the gravest is the verdict's reason.
+    /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the gravest is the verdict's reason, and
+    ///   what stands first of all is said too, as it may be the cause.
     /// - `untold`: what the facets cannot show, in words: light and camera as they were told.
     #[must_use]
     pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, untold: &str) -> Self {
-        let own = [misfit(estimate), open(estimate)];
+        let own = [without_bounces(estimate), misfit(estimate), open(estimate)];
         let all: Vec<Doubt> = doubts.into_iter().chain(own.into_iter().flatten()).collect();
         let gravest = all.iter().map(|doubt| doubt.level).max().unwrap_or(Level::Good);
-        match all.into_iter().find(|doubt| doubt.level == gravest) {
-            Some(Doubt { level, because, remedy }) => Self { level, because, remedy: Some(remedy) },
+        let first = all.first().filter(|doubt| doubt.level < gravest);
+        match all.iter().find(|doubt| doubt.level == gravest) {
+            Some(reason) => {
+                let said = |of: fn(&Doubt) -> &str, between: &str| {
+                    let all: Vec<_> = iter::once(reason).chain(first).map(of).collect();
+                    all.join(between)
+                };
+                Self {
+                    level: gravest,
+                    because: said(|doubt| &doubt.because, "; also, "),
+                    remedy: Some(said(|doubt| &doubt.remedy, "; ")),
+                }
+            }
             None => Self {
                 level: Level::Good,
                 because: format!(
@@ -110,15 +125,16 @@ impl Verdict {
 /// An exposure that people do not take: white that faces the sun too many times as bright as the white level of the picture.
 ///
 /// # Arguments
-/// - `is_stated`: whether somebody stated the exposure, which then is what to look at.
+/// - `stated`: the exposure that somebody stated, which then is what to look at.
 #[must_use]
-pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
+pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doubt> {
+    let exposure = stated.unwrap_or(estimate.exposure);
     let brightest = estimate.reflectance.iter().copied().fold(DARKEST_SHEET, f64::max);
     let longer = 0.5 * (DARK_SHEET / brightest).ln().max(0.0);
     let Normal { mean, sd } = EXPOSURE_OF_PHOTOGRAPH;
-    let off = (estimate.exposure.ln() - mean - longer) / sd;
+    let off = (exposure.ln() - mean - longer) / sd;
     let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
-    let remedy = if is_stated {
+    let remedy = if stated.is_some() {
         "state the exposure as a fraction of the picture's white level, such as 0.8"
     } else {
         "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
@@ -126,31 +142,37 @@ pub fn unusual_exposure(estimate: &Estimate, is_stated: bool) -> Option<Doubt> {
     (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
-            "white that faces the sun would be {:.3} times the white level of the picture, which people do not expose to",
-            estimate.exposure
+            "white that faces the sun would be {exposure:.3} times the white level of the picture, which people do not expose to"
         ),
         remedy: remedy.to_owned(),
     })
 }
 
-/// An exposure that was stated where the facets of the fold as it was told say another.
-///
-/// # Arguments
-/// - `told`: what facets tell with the exposure as stated, none if the search did not come to its end; `free`: if it is unknown.
+/// An exposure that was stated where the facets say another.
 #[must_use]
-pub fn other_exposure(stated: Exposure, told: Option<&Estimate>, free: &Estimate) -> Option<Doubt> {
-    let Fitted { value, sd, .. } = free.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
+pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
+    let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
     let stated = stated.known()?;
     let apart = (value / stated).ln().abs();
-    let is_better = free.residual_rms < EXPLAINED
-        && told.is_none_or(|told| free.residual_rms < EXPOSURE_BETTER * told.residual_rms);
-    (is_better && apart > EXPOSURE_APART && apart * value > EXPOSURE_SURE * sd).then(|| {
+    (apart > EXPOSURE_APART && apart * value > SURE * sd).then(|| {
         let because =
             format!("the facets are those of an exposure of {value:.2} ± {sd:.2}, not {stated} as stated");
         Doubt::new(
             because,
             "leave --exposure out, or measure it again with a white card or chart in the sheet's light",
         )
+    })
+}
+
+/// An angle that was told where the facets say another, which the estimate does not take.
+#[must_use]
+pub fn other_angle(found: &Estimate, told_deg: f64) -> Option<Doubt> {
+    let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &ANGLE)?;
+    ((value - told_deg).abs() > SURE * sd).then(|| {
+        let because = format!(
+            "a fold open by {value:.1} ± {sd:.1}°, not {told_deg}° as told, explains the facets better"
+        );
+        Doubt::new(because, "measure the angle again, or leave --fit out")
     })
 }
 
@@ -161,6 +183,18 @@ pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     unusual
         .map(|finding| Doubt::new(format!("{}, more than is usual", finding.what), finding.remedy))
         .collect()
+}
+
+/// Panels between which no light bounces, probably.
+fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
+    let level = if estimate.without_bounces > NO_FOLD { Level::Wrong } else { Level::Doubtful };
+    (estimate.without_bounces > PROBABLY_NO_FOLD).then(|| Doubt {
+        level,
+        because: "the facets are those of panels between which no light bounces: a flat sheet, corners elsewhere than at the crease, or an \
+                  exposure that is not true"
+            .to_owned(),
+        remedy: "check that the sheet is folded, the corners and the exposure; put a white card or a chart in the picture".to_owned(),
+    })
 }
 
 /// Facets that are not those of the scene.
@@ -179,12 +213,6 @@ fn too_open(estimate: &Estimate) -> Option<f64> {
     let sd = estimate.reflectance_sd()?;
     let mean = sd.iter().sum::<f64>() / sd.len() as f64;
     (mean > OPEN).then_some(mean)
-}
-
-/// Whether facets that are further from the model than chance has it do not tell the spectrum either: another scene may explain both.
-#[must_use]
-pub fn is_loose(estimate: &Estimate, values: usize) -> bool {
-    too_open(estimate).is_some() && beyond_chance(estimate, values).is_some()
 }
 
 /// A spectrum of which the facets tell little.
@@ -227,6 +255,7 @@ mod tests {
             skipped: Vec::new(),
             residual_rms,
             unexplained: 0.0,
+            without_bounces: 0.0,
             iterations: 1,
             trace: Vec::new(),
             termination: Termination::IterationLimit,
@@ -246,13 +275,8 @@ mod tests {
             wrong.level == Level::Wrong && wrong.because.starts_with("facets are 6.0 times"),
             "{wrong:?}"
         );
+        assert!(wrong.because.ends_with("; also, another"), "{wrong:?}");
         assert_eq!(of(0.9, 0.1, vec![Doubt::new("another", "remedy")]).because, "another");
-    }
-
-    #[test]
-    fn loose_is_what_neither_fits_nor_tells() {
-        let of = |rms, sd| is_loose(&estimate(rms, sd), 600);
-        assert_eq!([of(1.2, 0.1), of(1.2, 0.01), of(1.0, 0.1), of(1.0, 0.01)], [true, false, false, false]);
     }
 
     #[test]

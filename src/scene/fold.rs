@@ -45,6 +45,14 @@ impl<'a> FoldSetting<'a> {
         Ok(self.scene.sky_illuminant()?.is_some())
     }
 
+    /// Whether its light is daylight that was assumed, as nobody told it.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if that is neither true nor false.
+    pub fn is_daylight_assumed(&self) -> Result<bool> {
+        self.scene.is_daylight_assumed()
+    }
+
     /// The fold and its facets.
     #[must_use]
     pub fn fold(&self) -> &Fold {

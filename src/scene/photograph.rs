@@ -23,8 +23,10 @@ use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
 use crate::stream::{Framing, Sample};
 
-/// Sizes at which changes of the fold are known: more degrees between the panels, radii of the crease, degrees of bow.
-const ANGLES_DEG: [f64; 2] = [-2.0, 2.0];
+/// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may have erred by, as a share of the angle
+/// at most; radii of the crease, degrees of bow.
+const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
+const ANGLE_MOST: f64 = 0.3;
 const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 /// Sine of the height of a sun of which nothing is known: 42°.
@@ -123,6 +125,7 @@ impl<'a> PhotographedFold<'a> {
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),
             daylight: eye::daylight(&eye.daylight, &eye.sun),
+            is_daylight_assumed: setting.is_daylight_assumed()?,
             has_sky_illuminant: setting.has_sky_illuminant()?,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
@@ -134,6 +137,11 @@ impl<'a> PhotographedFold<'a> {
             sd: bins.sd().clone(),
             values: values.clone(),
             sun: lit,
+            told_sky: if light.sky() > 0.0 {
+                Some(bins.pool(&self.exact(ModeLight::Sky(light.sky()))?))
+            } else {
+                None
+            },
             sky,
             ground,
             sun_height: up.dot(&sun),
@@ -147,18 +155,21 @@ impl<'a> PhotographedFold<'a> {
         let [even, odd] = self.setting.light()?.even_and_odd(fold);
         let angle_deg = fold.angle_deg();
         let ideal = self.bent(BentFold::ideal(angle_deg), sun, view)?;
-        let change = |sizes: [f64; 2], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
-            let of = |size| Ok(bins.pool(&(self.bent(bend(size), sun, view)? - &ideal)));
-            Ok(Change { sizes, radiance: [of(sizes[0])?, of(sizes[1])?] })
+        let change = |sizes: &[f64], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
+            let of = |size: &f64| Ok((*size, bins.pool(&(self.bent(bend(*size), sun, view)? - &ideal))));
+            Ok(Change { known: sizes.iter().map(of).collect::<Result<_>>()? })
         };
         let flat = BentFold::ideal(angle_deg);
+        let part = (ANGLE_MOST * angle_deg.min(180.0 - angle_deg) / ANGLES_DEG[3]).min(1.0);
         Ok(Sunlit {
             even: bins.pool(&self.exact(ModeLight::Sun([even, even]))?),
             odd: bins.pool(&self.exact(ModeLight::Sun([odd, -odd]))?),
-            angle_deg: change(ANGLES_DEG, &|more| BentFold::ideal(angle_deg + more))?,
-            crease_radius: change(CREASE_RADII, &|crease_radius| BentFold { crease_radius, ..flat })?,
-            bow_deg: change(BOWS_DEG, &|bow| BentFold { bow_deg: [bow, bow], ..flat })?,
-            bow_difference_deg: change(BOWS_DEG, &|bow| BentFold { bow_deg: [bow, -bow], ..flat })?,
+            angle_deg: change(&ANGLES_DEG.map(|size| part * size), &|more| {
+                BentFold::ideal(angle_deg + more)
+            })?,
+            crease_radius: change(&CREASE_RADII, &|crease_radius| BentFold { crease_radius, ..flat })?,
+            bow_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, bow], ..flat })?,
+            bow_difference_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, -bow], ..flat })?,
         })
     }
 

@@ -18,7 +18,6 @@ mod image_statements;
 mod image_tiff;
 mod kernel_methods;
 mod laws;
-mod least_misfit;
 mod lights;
 mod mesh;
 mod photograph;

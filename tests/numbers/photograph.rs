@@ -3,8 +3,9 @@
 use nalgebra::DVector;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::error::ModelError;
+use vfold::estimate::photograph::imperfection::Imperfection;
 use vfold::estimate::photograph::kinds::{Kind, Kinds};
-use vfold::estimate::photograph::model::PhotographModel;
+use vfold::estimate::photograph::model::{Hypothesis, PhotographModel};
 use vfold::estimate::photograph::parts::Eye;
 use vfold::estimate::photograph::{Parts, Told};
 use vfold::estimate::prior::Prior;
@@ -40,8 +41,13 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let kinds = Kinds::of(&parts).remove(0);
     let whitening =
         ModelError::OF_PHOTOGRAPHS.whitening(&parts[0].places, &parts[0].values, &parts[0].sd).unwrap();
-    for kind in Kind::ALL {
-        let model = PhotographModel::new(&parts[0], &kinds, kind, prior.broad(), &whitening);
+    let [usual, angle, camera, _] = Imperfection::ALL;
+    let fold = |kind, imperfection| Hypothesis { kind, imperfection, has_bounces: true };
+    let flat = Hypothesis { has_bounces: false, ..fold(Kind::Matt, usual) };
+    let of_kinds = Kind::ALL.map(|kind| fold(kind, usual));
+    let others = [fold(Kind::Matt, angle), fold(Kind::Matt, camera), flat];
+    for hypothesis in of_kinds.into_iter().chain(others) {
+        let model = PhotographModel::new(&parts[0], &kinds, hypothesis, prior.broad(), &whitening);
         // away from where all is as it is told
         let w = DVector::from_fn(model.unknowns(), |n, _| 0.3 * (n as f64 + 1.0).sin());
         let jacobian = model.linearise(&w).jacobian;
@@ -59,7 +65,7 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
             let off = (jacobian.column(n) - &expected).norm();
             assert!(
                 off < 2e-3 * (1.0 + expected.norm()),
-                "{kind:?} {n} {name:?}: {off} of {}",
+                "{hypothesis:?} {n} {name:?}: {off} of {}",
                 expected.norm()
             );
         }

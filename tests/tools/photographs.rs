@@ -14,7 +14,8 @@ const COPIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
 const ALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos");
 
 /// What a picture must reach: facet means, percent rms; RMSE and CIEDE2000 with the exposure known, with it free, and with the
-/// light fitted as well of which nothing is told. Scores are half as large again as measured.
+/// light fitted as well of which nothing is told. Scores are half as large again as measured; an exposure that somebody states is believed
+/// to 2 %, and a camera and a light that are told as far as two of a kind agree, which is what the colours of the fifth are off by.
 struct Bounds {
     picture: &'static str,
     facets_percent: f64,
@@ -29,7 +30,7 @@ const BOUNDS: [Bounds; 8] = [
     Bounds { picture: "b", facets_percent: 0.5, known: [0.0177, 0.163], free: [0.0080, 0.306], fitted: [0.0104, 0.485] },
     Bounds { picture: "c", facets_percent: 0.5, known: [0.0362, 0.476], free: [0.0380, 0.785], fitted: [0.0369, 0.612] },
     Bounds { picture: "d", facets_percent: 0.5, known: [0.0125, 0.118], free: [0.0167, 0.247], fitted: [0.0258, 0.829] },
-    Bounds { picture: "e", facets_percent: 0.5, known: [0.0136, 0.085], free: [0.0099, 0.355], fitted: [0.0137, 1.350] },
+    Bounds { picture: "e", facets_percent: 0.5, known: [0.0136, 0.134], free: [0.0102, 0.630], fitted: [0.0137, 1.350] },
     Bounds { picture: "f", facets_percent: 0.6, known: [0.0480, 0.725], free: [0.0294, 0.639], fitted: [0.0503, 0.644] },
     Bounds { picture: "h", facets_percent: 0.2, known: [0.0139, 0.037], free: [0.0136, 0.187], fitted: [0.0142, 0.357] },
     Bounds { picture: "g", facets_percent: 0.5, known: [0.0097, 0.083], free: [0.0098, 0.085], fitted: [0.0080, 0.118] },

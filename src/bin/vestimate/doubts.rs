@@ -121,11 +121,11 @@ impl Estimator<'_> {
         (rgb, noise): (&FacetValues, &Noise),
         estimate: &Estimate,
     ) -> Result<Vec<Doubt>> {
-        let is_stated = self.exposure_of(sample)?.known().is_some();
+        let stated = self.exposure_of(sample)?.known();
         let is_by_chart = sample.fields.has("calibration");
         let mut doubts = unusual_findings(estimate);
         if let Some(record) = &context.record {
-            let model = &context.told.model;
+            let model = &context.told;
             let sd = noise.deviations(model.facets(), rgb)?;
             let found = |unknown: &Unknown| {
                 let one = estimate.fitted.iter().find(|one| one.unknown == unknown);
@@ -133,12 +133,11 @@ impl Estimator<'_> {
             };
             let ideal = model.with_found(found).facet_rgb(&estimate.reflectance);
             let grid = FoldSetting::of(record)?.fold().facets();
-            let is_loose = estimate.total.is_some() && !is_stated && !is_by_chart;
             let shading = Shading::new(grid, rgb, &sd, &ideal);
-            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(is_loose)));
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts()));
         }
         if !is_by_chart {
-            doubts.extend(unusual_exposure(estimate, is_stated));
+            doubts.extend(unusual_exposure(estimate, stated));
         }
         Ok(doubts)
     }

@@ -130,7 +130,7 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        Context::new(scene, method, start, (&self.fit, self.is_auto()))
+        Context::new(scene, method, start, &self.fit)
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
@@ -140,18 +140,17 @@ impl Transform for Estimator<'_> {
         let (estimate, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 let exposure = if sample.is_photograph() { exposure.of_photograph() } else { exposure };
-                let believed = context.believed(sample);
-                let deviations = Deviations::of(&noise, believed.model.facets(), &rgb)?;
+                let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
                 let measured = Measured { rgb: &rgb, sd: &deviations.sd };
-                let data = FacetData::new(&believed.model, &measured, exposure, CUTOFF)?;
+                let data = FacetData::new(&context.told, &measured, exposure, CUTOFF)?;
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                let given = Given { measured: &measured, exposure, data: &data, believed };
+                let given = Given { measured: &measured, exposure, data: &data };
                 (self.by_prior(context, sample, &given, prior, &mut doubts)?, how)
             }
             SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
-                let sheet = FlatSheet::new(context.told.model.facets(), &measured, exposure)?;
+                let sheet = FlatSheet::new(context.told.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, flat.to_string())
             }
         };
@@ -195,7 +194,7 @@ impl<'a> Estimator<'a> {
         exposure: Exposure,
     ) -> Result<Estimate> {
         let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
-        let data = FacetData::new(&context.told.model, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
+        let data = FacetData::new(&context.told, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
         Ok(map::estimate(&data, self.prior_of(context)?, context.start.as_deref()))
     }
 
@@ -327,13 +326,13 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
         let measured = Measured { rgb, sd: &alike(rgb) };
-        let data = FacetData::new(&context.told.model, &measured, exposure, SMOOTH_CUTOFF)?;
+        let data = FacetData::new(&context.told, &measured, exposure, SMOOTH_CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = Deviations::of(noise, context.told.model.facets(), rgb)?;
+                let noise = Deviations::of(noise, context.told.facets(), rgb)?;
                 (
                     smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
                     format!("as allowed by {noise}"),
@@ -366,7 +365,7 @@ fn refuse_unexplained(
     let noise = match context.method {
         SceneMethod::Map(_) => 1.0,
         SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
-            Deviations::of(noise, context.told.model.facets(), rgb)?.rms()
+            Deviations::of(noise, context.told.facets(), rgb)?.rms()
         }
     };
     if estimate.residual_rms <= MISFIT * noise {

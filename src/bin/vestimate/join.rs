@@ -132,11 +132,12 @@ impl Together for Estimator<'_> {
             members.split_first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         rest.iter().try_for_each(|other| check_wavelengths(&first.context, &other.context))?;
         let prior = self.prior_of(&first.context)?;
-        let together = photograph::estimate(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
+        let together = photograph::estimate_usual(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
         let mut apart = 0.0;
         for one in &photographs {
-            apart += photograph::estimate(std::slice::from_ref(one), prior, ModelError::OF_PHOTOGRAPHS)?
-                .ln_evidence;
+            apart +=
+                photograph::estimate_usual(std::slice::from_ref(one), prior, ModelError::OF_PHOTOGRAPHS)?
+                    .ln_evidence;
         }
         let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
         let more = apart - together.ln_evidence;

@@ -6,7 +6,6 @@ mod drawing;
 mod estimator;
 mod flat;
 mod join;
-mod other_angle;
 mod photographed;
 mod plan;
 mod said;

@@ -1,4 +1,6 @@
-//! Which model of a photograph is believed: the fold as it was told, the same with another angle, or a real sheet.
+//! Estimates of photographs, and what their facets say of what was told.
+
+use std::slice;
 
 use vfold::cli;
 use vfold::estimate::data::FacetData;
@@ -6,22 +8,16 @@ use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::Parts;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::ANGLE;
-use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, is_loose, other_exposure};
-use vfold::estimate::{Estimate, Exposure, Fitted, map, photograph};
+use vfold::estimate::verdict::{Doubt, EXPLAINED, beyond_chance, other_angle, other_exposure};
+use vfold::estimate::{Estimate, Exposure, map, photograph};
 use vfold::scene::{FoldSetting, PhotographedFold, Unmodelled};
 use vfold::stream::{Sample, Scene};
 use vfold::{Error, Result};
 
-use super::context::{Believed, Context};
+use super::context::Context;
 use super::doubts::doubts_of_taking;
-use super::estimator::{CUTOFF, Estimator};
+use super::estimator::Estimator;
 use super::said::Deviations;
-
-/// Misfit of a fold as it was told up to which another angle is tried at once: what sets real sheets apart from ideal ones mostly makes more.
-const NEAR: f64 = 8.0;
-/// Where it makes more, another angle is tried if that of a real sheet is further than that from the one that was told, degrees.
-const PULLED_DEG: f64 = 2.4;
 
 /// The facets of a sample.
 pub struct Given<'a> {
@@ -31,8 +27,6 @@ pub struct Given<'a> {
     pub exposure: Exposure,
     /// As data of the scene.
     pub data: &'a FacetData<'a>,
-    /// The scene.
-    pub believed: &'a Believed,
 }
 
 impl Estimator<'_> {
@@ -53,85 +47,46 @@ impl Estimator<'_> {
         }
         let Some(record) = &context.record else { return Ok(ideal()) };
         doubts.extend(doubts_of_taking(record, sample)?);
-        let told = self.of_fold(context, sample, given, prior, doubts)?;
-        if given.exposure.known().is_some() && !sample.fields.has("calibration") {
-            let exposure = Exposure::Free.of_photograph();
-            let free = FacetData::new(&given.believed.model, given.measured, exposure, CUTOFF)?;
-            let (told, free) = (map::glance(given.data, prior), map::glance(&free, prior));
-            doubts.extend(free.and_then(|free| other_exposure(given.exposure, told.as_ref(), &free)));
+        // estimates by sums are those of ideal folds
+        let is_by_sum = given.exposure == Exposure::Sum;
+        let parts = if is_by_sum { None } else { Some(self.parts(record, sample, given.measured)?) };
+        let real = match &parts {
+            Some(Ok(parts)) => {
+                photograph::estimate(slice::from_ref(parts), prior, ModelError::OF_PHOTOGRAPHS)?
+                    .photographs
+                    .pop()
+            }
+            Some(Err(_)) | None => None,
+        };
+        if let Some(found) = &real
+            && !sample.fields.has("calibration")
+        {
+            doubts.extend(other_exposure(given.exposure, found));
         }
-        Ok(told)
+        match (real, parts) {
+            (Some(real), _) if self.is_auto() => Ok(real),
+            (Some(real), Some(Ok(parts))) => {
+                doubts.extend(other_angle(&real, parts.told.angle_deg));
+                Ok(Estimate { without_bounces: real.without_bounces, ..ideal() })
+            }
+            (_, Some(Err(why))) if self.is_auto() => {
+                let ideal = ideal();
+                self.say_unmodelled(sample, &ideal, why);
+                Ok(ideal)
+            }
+            _ => Ok(ideal()),
+        }
     }
 
-    /// The estimate of a photographed fold: as it was told, with another angle, or of a real sheet.
-    fn of_fold(
-        &self,
-        context: &Context,
-        sample: &Sample,
-        given: &Given,
-        prior: &Prior,
-        doubts: &mut Vec<Doubt>,
-    ) -> Result<Estimate> {
-        let ideal = || map::estimate(given.data, prior, context.start.as_deref());
-        let Some(record) = &context.record else { return Ok(ideal()) };
-        let other_angle = |misfit: f64| {
-            let Believed { fit, other_angle, .. } = given.believed;
-            other_angle.better(misfit, record, fit, (given.measured, given.exposure), prior)
-        };
-        if !self.is_auto() {
-            let ideal = ideal();
-            doubts.extend(other_angle(ideal.residual_rms)?.map(|turned| turned.doubt_if_kept()));
-            return Ok(ideal);
-        }
-        let stands_in = record.camera()?.stands_in.map(|one| one.camera);
-        // A little gloss taken for bounces leaves little of the facets and no spectrum.
-        let is_loose = |estimate: &Estimate| is_loose(estimate, given.data.size().1);
-        let mut misfit = map::least_misfit(given.data, prior);
-        let told = (misfit < map::CAUTION * EXPLAINED).then(ideal);
-        misfit = told.as_ref().map_or(misfit, |told| told.residual_rms);
-        if misfit < NEAR
-            && stands_in.is_none()
-            && let Some(turned) = other_angle(misfit)?
-            && !is_loose(&turned.estimate)
-        {
-            return Ok(turned.into_estimate(doubts));
-        }
-        let is_ideal = misfit < EXPLAINED && stands_in.is_none() && !told.as_ref().is_some_and(is_loose);
-        let told = || told.unwrap_or_else(ideal);
-        if is_ideal || given.exposure == Exposure::Sum {
-            return Ok(told());
-        }
-        match self.parts(record, sample, given.measured)? {
-            Ok(parts) => {
-                let told_deg = parts.told.angle_deg;
-                let found = photograph::estimate(&[parts], prior, ModelError::OF_PHOTOGRAPHS)?;
-                let real = found.photographs.into_iter().next().unwrap_or_else(told);
-                let is_pulled =
-                    |one: &Fitted| one.unknown == &ANGLE && (one.value - told_deg).abs() > PULLED_DEG;
-                if misfit >= NEAR
-                    && real.fitted.iter().any(is_pulled)
-                    && let Some(turned) = other_angle(misfit)?
-                {
-                    return Ok(turned.into_estimate(doubts));
-                }
-                Ok(real)
-            }
-            Err(why) => {
-                if !self.args().common.quiet {
-                    let what = match stands_in {
-                        Some(camera) if misfit < EXPLAINED => {
-                            format!("the curves of {camera} are another camera's")
-                        }
-                        _ => format!("misfit {misfit:.1}: this is no ideal fold"),
-                    };
-                    let text = format!(
-                        "{}: {what}, and as {why}, what that changes is not estimated; expect errors beyond the bars",
-                        sample.id()
-                    );
-                    cli::say("vestimate", &text);
-                }
-                Ok(told())
-            }
+    /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.
+    fn say_unmodelled(&self, sample: &Sample, ideal: &Estimate, why: Unmodelled) {
+        let misfit = ideal.residual_rms;
+        if misfit >= EXPLAINED && !self.args().common.quiet {
+            let text = format!(
+                "{}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what that changes is not estimated; expect errors beyond the bars",
+                sample.id()
+            );
+            cli::say("vestimate", &text);
         }
     }
 
@@ -146,7 +101,7 @@ impl Estimator<'_> {
         };
         let Some(record) = &context.record else { return Err(alone("the scene is no fold".to_owned())) };
         let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
-        let deviations = Deviations::of(&noise, context.believed(sample).model.facets(), &rgb)?;
+        let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
         let measured = Measured { rgb: &rgb, sd: &deviations.sd };
         self.parts(record, sample, &measured)?.map_err(|why| alone(why.to_string()))
     }

@@ -186,7 +186,7 @@ impl Planned {
                 };
                 let of = |(n, own): (usize, &Parts)| {
                     let pictures: Vec<Parts> = others.get(n).into_iter().chain([own]).cloned().collect();
-                    let mut found = photograph::estimate(&pictures, prior, ModelError::OF_PHOTOGRAPHS)?;
+                    let mut found = photograph::estimate_usual(&pictures, prior, ModelError::OF_PHOTOGRAPHS)?;
                     found.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))
                 };
                 sheets.par_iter().enumerate().map(of).collect()

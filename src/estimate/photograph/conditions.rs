@@ -19,6 +19,8 @@ pub struct Conditions {
     pub sun_mired: Option<f64>,
     /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being 1.
     pub sky: f64,
+    /// Share of the sky that was told, which is alike in all directions.
+    pub told_sky: f64,
     /// Reciprocal colour temperature of the sky, 1e-6/K; none if its colour is given.
     pub sky_mired: Option<f64>,
     /// Reflectance of the ground at 550 nm.
@@ -60,6 +62,8 @@ pub struct Told {
     pub tilt_deg: f64,
     /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground are.
     pub daylight: Option<Daylight>,
+    /// Whether that was assumed, as nobody told it.
+    pub is_daylight_assumed: bool,
     /// Whether the sky's colour is given.
     pub has_sky_illuminant: bool,
 }

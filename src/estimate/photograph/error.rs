@@ -40,10 +40,25 @@ impl ModelError {
     pub const OF_PHOTOGRAPHS: Self =
         Self { shared: 0.015, own: 0.01, white: 0.004, at_crease: 0.05, at_outer_side: 0.03, corner: 0.008 };
 
+    /// The same in a photograph that is so many times as far from an ideal one.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        let &Self { shared, own, white, at_crease, at_outer_side, corner } = self;
+        Self {
+            shared: by * shared,
+            own: by * own,
+            white: by * white,
+            at_crease: by * at_crease,
+            at_outer_side: by * at_outer_side,
+            corner: by * corner,
+        }
+    }
+
     /// What makes errors of all values standard normal; none if their covariance is not finite.
     ///
     /// # Arguments
-    /// - `places`: of the facets; `values`, `sd`: facet by channel, the values and the standard deviations of their noise.
+    /// - `places`: of the facets; `values`, `sd`: facet by channel, the values as they are predicted and the standard deviations of their noise.
+    ///   Of measured values those that chance made too small would count for more (R. W. Peelle, Oak Ridge National Laboratory, 1987).
     #[must_use]
     pub fn whitening(&self, places: &[Place], values: &DMatrix<f64>, sd: &DMatrix<f64>) -> Option<Whitening> {
         let facets = values.nrows();
@@ -76,19 +91,27 @@ impl ModelError {
             column[0] = 1.0;
             factor.view((n, n), (count - n, count - n)).solve_lower_triangular_mut(&mut column);
         }
-        Some(Whitening { inverse })
+        let ln_determinant = inverse.diagonal().iter().map(|value| value.ln()).sum();
+        Some(Whitening { inverse, ln_determinant })
     }
 }
 
 /// What makes errors of all values standard normal: the inverse of the Cholesky factor of their covariance.
 pub struct Whitening {
     inverse: DMatrix<f64>,
+    ln_determinant: f64,
 }
 
 /// Rows that are multiplied at once: of a triangle, half of the work is saved but for these.
 const ROWS: usize = 48;
 
 impl Whitening {
+    /// Logarithm of the factor by which it makes volumes of errors larger.
+    #[must_use]
+    pub fn ln_determinant(&self) -> f64 {
+        self.ln_determinant
+    }
+
     /// Errors of all values, channel by channel and in each facet by facet.
     #[must_use]
     pub fn of(&self, errors: &DVector<f64>) -> DVector<f64> {

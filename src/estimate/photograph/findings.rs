@@ -28,17 +28,15 @@ pub fn findings(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
         let from_usual = (one.unknown.scale.normal(one.value) - prior.mean).abs() / prior.sd;
         let off = (one.value - (symptom.ideal)(told)).abs();
         let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
-        is_found.then_some((off / one.sd, from_usual > UNUSUAL, symptom))
+        is_found.then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, told), symptom.remedy))
     };
     let mut all: Vec<_> = fitted.iter().filter_map(found).collect();
     all.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
     let mut findings: Vec<Finding> = Vec::new();
-    for (_, is_unusual, symptom) in all {
-        match findings.iter_mut().find(|one| one.what == symptom.words) {
+    for (_, is_unusual, what, remedy) in all {
+        match findings.iter_mut().find(|one| one.what == what) {
             Some(same) => same.is_unusual |= is_unusual,
-            None => {
-                findings.push(Finding { what: symptom.words.to_owned(), remedy: symptom.remedy, is_unusual });
-            }
+            None => findings.push(Finding { what, remedy, is_unusual }),
         }
     }
     findings

@@ -1,34 +1,63 @@
 //! Photographs of one sheet as one model: they share the spectrum, the sheet's own unknowns and variations, and the errors of a camera
 //! that took more than one of them; each has a fold, a light and a lens of its own.
 
+use std::cell::OnceCell;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::error::{ModelError, Whitening};
-use super::kinds::{Kind, Kinds};
-use super::model::PhotographModel;
+use super::imperfection::Discrepancy;
+use super::kinds::Kinds;
+use super::model::{Hypothesis, PhotographModel};
 use super::parts::Parts;
 use crate::estimate::gaussian::Gaussian;
 use crate::solve::posterior::{Linearised, Model};
 
-/// A photograph with what does not depend on the kind of sheet nor on the class of spectra.
+/// A photograph with what does not depend on the class of spectra.
 pub struct Photograph<'a> {
     /// What it is made of.
     pub parts: &'a Parts,
     /// The kinds of sheets as it shows them.
     pub kinds: Kinds<'a>,
-    /// What makes residuals standard normal.
-    pub whitening: Whitening,
+    error: ModelError,
+    /// The values that errors are relative to.
+    values: DMatrix<f64>,
+    /// What makes residuals standard normal with each discrepancy, made when it is first asked for.
+    whitenings: [OnceCell<Option<Whitening>>; 4],
 }
 
+/// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part of a fold in the sun.
+const DARKEST: f64 = 0.1;
+
 impl<'a> Photograph<'a> {
-    /// Photographs of one sheet; none if facets are not finite.
+    /// Photographs of one sheet.
     #[must_use]
-    pub fn all(of: &'a [Parts], error: ModelError) -> Option<Vec<Self>> {
+    pub fn all(of: &'a [Parts], error: ModelError) -> Vec<Self> {
         let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
-            let whitening = error.whitening(&parts.places, &parts.values, &parts.sd)?;
-            Some(Self { parts, kinds, whitening })
+            let values = parts.values.clone();
+            Self { parts, kinds, error, values, whitenings: Default::default() }
+                .relative_to(parts.values.clone())
         };
         of.iter().zip(Kinds::of(of)).map(photograph).collect()
+    }
+
+    /// The same with errors relative to these values: facet by channel.
+    #[must_use]
+    pub fn relative_to(self, mut values: DMatrix<f64>) -> Self {
+        for mut channel in values.column_iter_mut() {
+            let least = DARKEST * channel.max();
+            channel.apply(|value| *value = value.max(least));
+        }
+        Self { values, whitenings: Default::default(), ..self }
+    }
+
+    /// What makes residuals standard normal; none if facets are not finite.
+    pub fn whitening(&self, discrepancy: Discrepancy) -> Option<&Whitening> {
+        let whitening = || {
+            let error = self.error.scaled(discrepancy.size());
+            error.whitening(&self.parts.places, &self.values, &self.parts.sd)
+        };
+        self.whitenings[discrepancy as usize].get_or_init(whitening).as_ref()
     }
 }
 
@@ -54,7 +83,7 @@ impl Member<'_> {
     }
 }
 
-/// All photographs of a sheet under one kind of sheet and one Gaussian of albedos: numbers of the spectrum first.
+/// All photographs of a sheet under one hypothesis and one Gaussian of albedos: numbers of the spectrum first.
 pub struct JointModel<'a> {
     /// The photographs, one or more.
     members: Vec<Member<'a>>,
@@ -62,13 +91,18 @@ pub struct JointModel<'a> {
 }
 
 impl<'a> JointModel<'a> {
-    /// The model.
+    /// The model; none if facets are not finite.
     #[must_use]
-    pub fn new(photographs: &'a [Photograph<'a>], kind: Kind, gaussian: &'a Gaussian) -> Self {
+    pub fn new(
+        photographs: &'a [Photograph<'a>],
+        hypothesis: Hypothesis,
+        gaussian: &'a Gaussian,
+    ) -> Option<Self> {
         let mut members: Vec<Member<'a>> = Vec::with_capacity(photographs.len());
         let mut count = gaussian.basis().ncols();
-        for (photograph, Photograph { parts, kinds, whitening }) in photographs.iter().enumerate() {
-            let model = PhotographModel::new(parts, kinds, kind, gaussian, whitening);
+        for (photograph, one) in photographs.iter().enumerate() {
+            let (parts, whitening) = (one.parts, one.whitening(hypothesis.imperfection.discrepancy)?);
+            let model = PhotographModel::new(parts, &one.kinds, hypothesis, gaussian, whitening);
             let same_camera =
                 photographs[..photograph].iter().position(|other| other.parts.eye.is(&parts.eye));
             let [scene, sheet, camera, end] = model.layout();
@@ -89,7 +123,13 @@ impl<'a> JointModel<'a> {
             let places = (0..end).map(place).collect();
             members.push(Member { model, places });
         }
-        Self { members, count }
+        Some(Self { members, count })
+    }
+
+    /// Logarithm of the factor by which whitening makes volumes of errors larger.
+    #[must_use]
+    pub fn ln_whitening(&self) -> f64 {
+        self.members.iter().map(|member| member.model.whitening().ln_determinant()).sum()
     }
 
     /// The photographs.

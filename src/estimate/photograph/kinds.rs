@@ -46,6 +46,16 @@ impl Kind {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Matt, Self::Family, Self::Measured];
 
+    /// Logarithm of how many sheets are of the kind.
+    #[must_use]
+    pub fn ln_share(self) -> f64 {
+        let share: f64 = match self {
+            Self::Matt => 0.1,
+            Self::Family | Self::Measured => 0.45,
+        };
+        share.ln()
+    }
+
     /// Standard deviation of its variations, that of measured sheets from their mean being 1.
     fn variation(self) -> f64 {
         match self {
@@ -88,19 +98,26 @@ impl<'a> Kinds<'a> {
         self.variations.len() + 1
     }
 
-    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak.
-    pub fn by_variation(&self, kind: Kind) -> impl Iterator<Item = Radiance> + '_ {
-        self.variations.iter().map(move |own| kind.variation() * &own.radiance)
+    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a photograph so far from an ideal one.
+    pub fn by_variation(&self, kind: Kind, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
+        self.variations.iter().map(move |own| scale * kind.variation() * &own.radiance)
     }
 
-    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes.
+    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a photograph so far from an ideal one.
     #[must_use]
-    pub fn departure(&self, kind: Kind, conditions: &Conditions, variations: &[f64]) -> Departure {
+    pub fn departure(
+        &self,
+        kind: Kind,
+        scale: f64,
+        conditions: &Conditions,
+        variations: &[f64],
+    ) -> Departure {
         let mut sum = match kind {
             Kind::Measured => {
-                let mut mean = self.measured.clone();
+                let mut mean = Departure::none(&self.measured.radiance);
+                mean.add(scale, &self.measured, [1.0, 0.0]);
                 mean.reflectance[0] +=
-                    self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
+                    scale * self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
                 mean
             }
             // of these two the formula tells what an instrument says
@@ -108,7 +125,7 @@ impl<'a> Kinds<'a> {
             Kind::Family => self.family(conditions),
         };
         for (own, size) in self.variations.iter().zip(variations) {
-            sum.add(kind.variation() * size, own, [0.0, 0.0]);
+            sum.add(scale * kind.variation() * size, own, [0.0, 0.0]);
         }
         sum
     }

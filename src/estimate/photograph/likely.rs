@@ -4,8 +4,10 @@ use std::rc::Rc;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::joint::JointModel;
+use super::imperfection::Imperfection;
+use super::joint::{JointModel, Photograph};
 use super::kinds::Kind;
+use super::model::Hypothesis;
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::likely::SCALES;
 use crate::estimate::prior::{Class, Prior};
@@ -14,21 +16,61 @@ use crate::solve::posterior::{Model, Solution};
 
 /// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
 const SHARE_POWER: f64 = 0.36;
+/// How often something else is photographed than a fold, in each of two ways.
+const WITHOUT_BOUNCES: f64 = 0.01;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
 const NEARLY: f64 = 0.1;
 
-/// Logarithm of the sum of what pairs of a kind and a class are weighed with.
+/// Logarithm of the sum of what classes of spectra are weighed with.
 pub fn ln_all_shares(prior: &Prior) -> f64 {
     let classes: f64 = prior.classes().iter().map(|class| (SHARE_POWER * class.ln_share).exp()).sum();
     let scales: f64 = SCALES.iter().map(|(_, share)| share).sum();
-    (Kind::ALL.len() as f64 * classes * scales).ln()
+    (classes * scales).ln()
 }
 
-/// A kind of sheets and a class of spectra at one of its widths, and where they are judged from.
+/// All hypotheses on photographs, those of one imperfection after those of another.
+pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
+    // the curves of another camera are never those of this one
+    let are_stand_ins = photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in);
+    let possible = Imperfection::ALL.into_iter().filter(move |one| one.told > 0.0 || !are_stand_ins);
+    possible.flat_map(of_kinds).collect()
+}
+
+/// Hypotheses on photographs as people take them.
+pub fn usual_hypotheses() -> Vec<Hypothesis> {
+    let [usual, ..] = Imperfection::ALL;
+    of_kinds(usual).collect()
+}
+
+fn of_kinds(imperfection: Imperfection) -> impl Iterator<Item = Hypothesis> {
+    // an ideal fold is the same whatever its sheet's kind
+    let kinds: &[Kind] = if imperfection.is_ideal() { &[Kind::Matt] } else { &Kind::ALL };
+    kinds.iter().map(move |kind| Hypothesis { kind: *kind, imperfection, has_bounces: true })
+}
+
+/// Hypotheses on what is no fold: a flat sheet, a ridge, corners elsewhere.
+pub fn hypotheses_without_bounces() -> impl Iterator<Item = Hypothesis> {
+    let [usual, ideal, ..] = Imperfection::ALL;
+    let of = |imperfection| Hypothesis { kind: Kind::Matt, imperfection, has_bounces: false };
+    [usual, ideal].into_iter().map(of)
+}
+
+impl Hypothesis {
+    /// Logarithm of how often it is true.
+    pub fn ln_share(&self) -> f64 {
+        if !self.has_bounces {
+            return WITHOUT_BOUNCES.ln();
+        }
+        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share() };
+        self.imperfection.ln_share() + of_kind
+    }
+}
+
+/// A hypothesis and a class of spectra at one of its widths, and where they are judged from.
 pub struct Likely<'a> {
-    pub kind: Kind,
+    pub hypothesis: Hypothesis,
     pub about: Rc<About>,
     pub class: &'a Class,
     pub scale: f64,
@@ -92,16 +134,21 @@ impl About {
         })
     }
 
-    /// All classes of spectra at all widths, `ln_evidence` being that for all spectra as one Gaussian.
-    pub fn classes<'a>(self, kind: Kind, prior: &'a Prior, ln_evidence: f64) -> Option<Vec<Likely<'a>>> {
+    /// All classes of spectra at all widths under a hypothesis that is so often true, `ln_evidence` being that for all spectra as one Gaussian.
+    pub fn classes<'a>(
+        self,
+        (hypothesis, ln_share): (Hypothesis, f64),
+        prior: &'a Prior,
+        ln_evidence: f64,
+    ) -> Option<Vec<Likely<'a>>> {
         let about = Rc::new(self);
         let of_all = about.ln_evidence(prior.broad(), 1.0)?;
         let pairs =
             prior.classes().iter().flat_map(|class| SCALES.map(|(scale, share)| (class, scale, share)));
         let likely = |(class, scale, share): (&'a Class, f64, f64)| {
-            let ln_share = SHARE_POWER * class.ln_share + share.ln();
+            let ln_share = ln_share + SHARE_POWER * class.ln_share + share.ln();
             let ln_evidence = ln_evidence + ln_share + about.ln_evidence(class.gaussian(), scale)? - of_all;
-            Some(Likely { kind, class, scale, ln_share, ln_evidence, about: Rc::clone(&about) })
+            Some(Likely { hypothesis, class, scale, ln_share, ln_evidence, about: Rc::clone(&about) })
         };
         Some(pairs.filter_map(likely).collect())
     }

@@ -8,32 +8,40 @@ use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 use super::chebyshev::{chebyshev, nodes};
 use super::conditions::Conditions;
 use super::error::Whitening;
+use super::imperfection::Imperfection;
 use super::kinds::{Kind, Kinds};
 use super::lighting::Lighting;
+use super::number::Number;
 use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheets::Departure;
 use super::sums::{add, add_product, columns};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
-use crate::estimate::unknowns::{Expected, TABLE, Unknown};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
-/// Of a value that is compared with a measured one, the least share of the brightest.
-const DARKEST: f64 = 1e-6;
 
-/// The model under one kind of sheet and one Gaussian of albedos.
+/// What a photograph is taken to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// The kind of its sheet.
+    pub kind: Kind,
+    /// How far it is from an ideal one.
+    pub imperfection: Imperfection,
+    /// Whether light bounces between the panels, as it does in a fold.
+    pub has_bounces: bool,
+}
+
+/// The model under one hypothesis and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
     kinds: &'a Kinds<'a>,
-    kind: Kind,
+    hypothesis: Hypothesis,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
-    /// The values that were measured, [in order](Self::in_order).
-    measured: DVector<f64>,
-    unknowns: Vec<Expected>,
+    numbers: Vec<Number>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
 }
@@ -50,22 +58,13 @@ pub struct Point {
     pub exposure: f64,
 }
 
-/// Unknowns of a photograph, of which something is known before. Those of a family stay at their priors in a sheet of another kind.
-fn unknowns_of(parts: &Parts) -> Vec<Expected> {
-    let expected = |unknown: &&'static Unknown| {
-        let effect = unknown.photograph.as_ref()?;
-        Some(Expected { unknown, prior: (effect.prior)(&parts.told)? })
-    };
-    TABLE.iter().filter_map(expected).collect()
-}
-
 impl<'a> PhotographModel<'a> {
     /// The model; `whitening` makes residuals of all values, channel by channel and in each facet by facet, standard normal.
     #[must_use]
     pub fn new(
         parts: &'a Parts,
         kinds: &'a Kinds,
-        kind: Kind,
+        hypothesis: Hypothesis,
         gaussian: &'a Gaussian,
         whitening: &'a Whitening,
     ) -> Self {
@@ -75,26 +74,25 @@ impl<'a> PhotographModel<'a> {
         Self {
             parts,
             kinds,
-            kind,
+            hypothesis,
             gaussian,
             whitening,
-            measured: Self::in_order(&parts.values),
-            unknowns: unknowns_of(parts),
+            numbers: Number::all(&parts.told, hypothesis.imperfection),
             coefficients,
         }
     }
 
     /// The unknowns of the scene.
     #[must_use]
-    pub fn scene_unknowns(&self) -> &[Expected] {
-        &self.unknowns
+    pub fn scene_unknowns(&self) -> &[Number] {
+        &self.numbers
     }
 
     /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, and how many numbers there are.
     #[must_use]
     pub fn layout(&self) -> [usize; 4] {
         let scene = self.gaussian.basis().ncols();
-        let sheet = scene + self.unknowns.len();
+        let sheet = scene + self.numbers.len();
         let camera = sheet + self.kinds.variation_count();
         [scene, sheet, camera, camera + self.parts.eye.errors.len()]
     }
@@ -103,12 +101,13 @@ impl<'a> PhotographModel<'a> {
     fn conditions(&self, w: &DVector<f64>) -> Conditions {
         let told = &self.parts.told;
         let mut conditions = Conditions {
-            exposure: 1.0,
+            exposure: told.exposure.unwrap_or(1.0),
             gains: [1.0; 2],
             angle_deg: told.angle_deg,
             tilt_deg: told.tilt_deg,
             sun_mired: None,
             sky: 0.0,
+            told_sky: 1.0 - self.hypothesis.imperfection.scale,
             sky_mired: None,
             ground: 0.0,
             ground_redness: 0.0,
@@ -123,17 +122,24 @@ impl<'a> PhotographModel<'a> {
             fuzz: 0.0,
         };
         let [first, ..] = self.layout();
-        for (n, expected) in self.unknowns.iter().enumerate() {
-            if let Some(effect) = &expected.unknown.photograph {
-                (effect.set)(&mut conditions, expected.at(w[first + n]).0);
-            }
+        for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
+            (number.effect.set)(&mut conditions, number.at(w[first + n]).0);
         }
         conditions
     }
 
     fn terms(&self, albedo: &[f64]) -> Terms {
-        let (values, slopes) = chebyshev(albedo, self.coefficients.nrows());
-        Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes }
+        let count = self.coefficients.nrows();
+        if self.hypothesis.has_bounces {
+            let (values, slopes) = chebyshev(albedo, count);
+            return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
+        }
+        // of a dark sheet light bounces once
+        let once = &self.coefficients * chebyshev(&[0.0], count).1;
+        Terms {
+            values: &once * DMatrix::from_row_slice(1, albedo.len(), albedo),
+            slopes: once * DMatrix::from_element(1, albedo.len(), 1.0),
+        }
     }
 
     /// Logits of albedo.
@@ -149,17 +155,22 @@ impl<'a> PhotographModel<'a> {
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
-            departure: self.kinds.departure(self.kind, &conditions, &variations),
+            departure: self.departure(&conditions, &variations),
             exposure: Lighting::new(self.parts, &conditions).exposure(self.parts, &conditions),
             conditions,
         }
+    }
+
+    fn departure(&self, conditions: &Conditions, variations: &[f64]) -> Departure {
+        let Hypothesis { kind, imperfection, .. } = self.hypothesis;
+        self.kinds.departure(kind, imperfection.scale, conditions, variations)
     }
 
     /// What the facets have more than those of a Lambertian sheet.
     fn beyond(&self, w: &DVector<f64>) -> Radiance {
         let [_, sheet, camera, _] = self.layout();
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
-        self.kinds.departure(self.kind, &self.conditions(w), &variations).radiance
+        self.departure(&self.conditions(w), &variations).radiance
     }
 
     /// How the camera sees with the errors of its curves at `w`: waveband by channel.
@@ -169,7 +180,10 @@ impl<'a> PhotographModel<'a> {
         let mut sensitivities = eye.sensitivities.clone();
         for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..]) {
             let curve = &mut sensitivities.as_mut_slice()[channel * error.len()..];
-            curve.iter_mut().zip(error.as_slice()).for_each(|(value, error)| *value += size * error);
+            curve
+                .iter_mut()
+                .zip(error.as_slice())
+                .for_each(|(value, error)| *value += self.hypothesis.imperfection.told * size * error);
         }
         sensitivities
     }
@@ -222,11 +236,11 @@ impl<'a> PhotographModel<'a> {
         terms: &DMatrix<f64>,
         Predicted { values, lights, lens, .. }: &Predicted,
     ) {
-        let facets = values.nrows();
+        let (facets, camera) = (values.nrows(), self.hypothesis.imperfection.told);
         for (mut out, (channel, error)) in out.column_iter_mut().zip(&self.parts.eye.errors) {
             let seen = &mut out.as_mut_slice()[channel * facets..][..facets];
             for light in lights {
-                let of_nodes = terms * error.component_mul(&light.power);
+                let of_nodes = terms * (camera * error.component_mul(&light.power));
                 for (share, radiance) in of_nodes.iter().zip(columns(&light.radiance)) {
                     add(seen, *share, radiance);
                 }
@@ -235,27 +249,39 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Values in the order of residuals, channel by channel, as they are compared.
-    fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
-        let least = DARKEST * values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        DVector::from_iterator(values.len(), values.as_slice().iter().map(|value| value.max(least)))
-    }
-
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
-        let own = match self.kind {
-            Kind::Measured => self.parts.sheets.instrument.own,
+        let own = match self.hypothesis.kind {
+            Kind::Measured => self.hypothesis.imperfection.scale * self.parts.sheets.instrument.own,
             Kind::Matt | Kind::Family => return None,
         };
         let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
         smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
     }
 
+    /// What the photograph is taken to be.
+    #[must_use]
+    pub fn hypothesis(&self) -> Hypothesis {
+        self.hypothesis
+    }
+
+    /// What makes its residuals standard normal.
+    #[must_use]
+    pub fn whitening(&self) -> &Whitening {
+        self.whitening
+    }
+
     /// The Gaussian of logits of albedo.
     #[must_use]
     pub fn gaussian(&self) -> &Gaussian {
         self.gaussian
+    }
+
+    /// The values at `w`: facet by channel.
+    #[must_use]
+    pub fn values_at(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        self.predicted(w).values
     }
 
     /// The values that were measured: facet by channel.
@@ -271,6 +297,11 @@ impl<'a> PhotographModel<'a> {
     }
 }
 
+/// Values in the order of residuals, channel by channel.
+fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
+    DVector::from_column_slice(values.as_slice())
+}
+
 impl Model for PhotographModel<'_> {
     type Second = ();
 
@@ -279,7 +310,7 @@ impl Model for PhotographModel<'_> {
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        self.whitening.of(&(&self.measured - Self::in_order(&self.predicted(w).values)))
+        self.whitening.of(&in_order(&self.left_over(w)))
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
@@ -290,31 +321,32 @@ impl Model for PhotographModel<'_> {
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let here = predictor.facets(&self.conditions(w), &beyond);
         let Predicted { values, lens, lights, .. } = &here;
-        let ordered = Self::in_order(values);
         let [scene, sheet, camera, end] = self.layout();
         let mut jacobian = DMatrix::zeros(values.len(), end);
         self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &here);
-        for (n, Expected { unknown, .. }) in (scene..).zip(&self.unknowns) {
-            let Some(effect) = unknown.photograph.as_ref().filter(|_| self.kind.has(unknown)) else {
-                continue;
-            };
+        let Hypothesis { kind, imperfection, .. } = self.hypothesis;
+        let telling = |(_, number): &(usize, &Number)| number.matters() && kind.has(number.unknown);
+        for (n, Number { unknown, effect, .. }) in (scene..).zip(&self.numbers).filter(telling) {
             let mut beside = w.clone();
             beside[n] += STEP;
             let beyond =
                 if unknown.is_of_sheet() { Cow::Owned(self.beyond(&beside)) } else { Cow::Borrowed(&beyond) };
             let moved = predictor.beside(&here, &self.conditions(&beside), &beyond, effect.whose);
-            jacobian.column_mut(n).copy_from(&((Self::in_order(&moved) - &ordered) / STEP));
+            jacobian.column_mut(n).copy_from(&(in_order(&(moved - values)) / STEP));
         }
         // variations of the sheet and errors of the curves enter in proportion
         let sun = &lights[0];
-        for (n, change) in (sheet..).zip(self.kinds.by_variation(self.kind)) {
+        let variations = self.kinds.by_variation(kind, imperfection.scale);
+        for (n, change) in (sheet..).zip(variations.filter(|_| !imperfection.is_ideal())) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
             add_product(&mut radiances, &change, &sun.to_channels);
             jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
-        self.by_curves(&mut jacobian.columns_mut(camera, end - camera), &terms.values, &here);
+        if imperfection.told > 0.0 {
+            self.by_curves(&mut jacobian.columns_mut(camera, end - camera), &terms.values, &here);
+        }
         Linearised {
-            residuals: self.whitening.of(&(&self.measured - ordered)),
+            residuals: self.whitening.of(&in_order(&(&self.parts.values - values))),
             jacobian: self.whitening.of_all(&jacobian),
             second: (),
         }

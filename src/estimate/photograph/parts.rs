@@ -22,22 +22,23 @@ pub struct Place {
     pub off_centre: f64,
 }
 
-/// A change of the fold, known at two sizes beside none: between them it is a quadratic polynomial of its size.
+/// A change of the fold, known at some sizes beside none: between them it is a polynomial of its size.
 #[derive(Clone, Debug)]
 pub struct Change {
-    /// Two sizes, none of them zero.
-    pub sizes: [f64; 2],
-    /// What each does to the facets.
-    pub radiance: [Radiance; 2],
+    /// Sizes, none of them zero, and what each does to the facets.
+    pub known: Vec<(f64, Radiance)>,
 }
 
 impl Change {
     /// Adds what a change of this size does.
     pub fn add_to(&self, sum: &mut Radiance, size: f64) {
-        let [a, b] = self.sizes;
-        let shares = [size * (size - b) / (a * (a - b)), size * (size - a) / (b * (b - a))];
-        for (share, radiance) in shares.into_iter().zip(&self.radiance) {
-            add(sum.as_mut_slice(), share, radiance.as_slice());
+        for (n, (own, radiance)) in self.known.iter().enumerate() {
+            let others =
+                self.known.iter().enumerate().filter(|(other, _)| *other != n).map(|(_, (other, _))| other);
+            let share = others.fold(size / own, |share, other| share * (size - other) / (own - other));
+            if share != 0.0 {
+                add(sum.as_mut_slice(), share, radiance.as_slice());
+            }
         }
     }
 }
@@ -77,6 +78,8 @@ pub struct Eye {
     pub sensitivities: DMatrix<f64>,
     /// How the sensitivities may be off, in units of a standard deviation: error by waveband, with its channel.
     pub errors: Vec<(usize, DVector<f64>)>,
+    /// Whether the curves are another camera's, which stands in for it.
+    pub is_stand_in: bool,
     /// Power of the sun as it was said to be.
     pub sun: DVector<f64>,
     /// Power of the sky as it was said to be.
@@ -109,6 +112,8 @@ pub struct Parts {
     pub sd: DMatrix<f64>,
     /// Light of the sun.
     pub sun: Sunlit,
+    /// Light of the sky that was told, if any was.
+    pub told_sky: Option<Radiance>,
     /// Light of the sky.
     pub sky: Ambient,
     /// Light of the ground.

@@ -101,6 +101,10 @@ impl<'a> Predictor<'a, '_> {
                 light(Cow::Borrowed(radiance), *amount * power)
             }));
         }
+        let told_sky = parts.told_sky.as_ref().filter(|_| conditions.told_sky > 0.0);
+        lights.extend(
+            told_sky.map(|radiance| light(Cow::Borrowed(radiance), conditions.told_sky * &lighting.told_sky)),
+        );
         let lens = Lens::new(parts, conditions, &lighting);
         let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
         for light in &lights {

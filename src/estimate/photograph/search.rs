@@ -10,9 +10,10 @@ use super::corners;
 use super::error::ModelError;
 use super::findings::findings;
 use super::joint::{JointModel, Member, Photograph};
-use super::kinds::Kind;
-use super::likely::{About, Likely, LinearMaximum, ln_all_shares};
-use super::model::Point;
+use super::likely::{
+    About, Likely, LinearMaximum, hypotheses, hypotheses_without_bounces, ln_all_shares, usual_hypotheses,
+};
+use super::model::{Hypothesis, Point};
 use super::parts::Parts;
 use crate::error::{Error, Result};
 use crate::estimate::prior::Prior;
@@ -32,6 +33,8 @@ const LIMIT: usize = 60;
 /// as the logarithm of its share of the first's.
 const TRIED: usize = 5;
 const LN_EVIDENCE_LEAST: f64 = -5.0;
+/// Where a hypothesis has so little evidence, likewise, others like it are not tried.
+const LN_EVIDENCE_HOPELESS: f64 = -60.0;
 /// Most pairs that are weighed without a search beside those.
 const BESIDE: usize = 15;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
@@ -41,6 +44,7 @@ const STEP: f64 = 1e-3;
 
 /// A maximum.
 struct Maximum {
+    hypothesis: Hypothesis,
     ln_evidence: f64,
     albedo: Vec<f64>,
     reflectance: DVector<f64>,
@@ -50,6 +54,15 @@ struct Maximum {
     seen: Vec<Seen>,
     trace: Vec<Iteration>,
     termination: Termination,
+}
+
+/// A hypothesis under all spectra as one Gaussian.
+struct Sorted {
+    hypothesis: Hypothesis,
+    /// Logarithm of how often it is true.
+    ln_share: f64,
+    ln_evidence: f64,
+    solution: Solution<()>,
 }
 
 /// A pair of a kind of sheets and a class of spectra that was not searched.
@@ -82,25 +95,33 @@ pub struct SheetEstimate {
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
 pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<SheetEstimate> {
+    under(parts, prior, error, hypotheses)
+}
+
+/// The estimate from photographs that are as people take them, however ideal their facets are, as those of photographs that are only planned.
+///
+/// # Errors
+/// As [`estimate`].
+pub fn estimate_usual(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<SheetEstimate> {
+    under(parts, prior, error, |_| usual_hypotheses())
+}
+
+fn under(
+    parts: &[Parts],
+    prior: &Prior,
+    error: ModelError,
+    hypotheses: impl Fn(&[Photograph]) -> Vec<Hypothesis>,
+) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    let photographs = Photograph::all(parts, error).ok_or_else(not_finite)?;
-    // each kind from where the one before it led, which is near
-    let mut start = None;
-    let sorted = Kind::ALL.into_iter().filter_map(|kind| {
-        let model = JointModel::new(&photographs, kind, prior.broad());
-        let from = start.take().unwrap_or_else(|| DVector::zeros(model.unknowns()));
-        let solution = search(&model, from, SORTING_TOLERANCE, SORTING_LIMIT);
-        start = Some(solution.w.clone());
-        let ln_evidence = solution.ln_evidence(1.0)?;
-        ln_evidence.is_finite().then_some((ln_evidence, kind, solution))
-    });
-    let sorted = most_evident(sorted.collect(), Kind::ALL.len(), |one| one.0);
-    let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.2.trace.clone()).collect();
+    let photographs = relative_to_predictions(Photograph::all(parts, error), prior).ok_or_else(not_finite)?;
+    let sorted = sorted(&photographs, prior, hypotheses(&photographs));
+    let without_bounces = without_bounces(&photographs, prior, &sorted);
+    let mut trace: Vec<Vec<Iteration>> = sorted.iter().map(|one| one.solution.trace.clone()).collect();
     let likely: Result<Vec<_>> = sorted
         .iter()
-        .map(|(ln_evidence, kind, solution)| {
-            let about = About::new(prior.broad(), solution).ok_or_else(not_finite)?;
-            about.classes(*kind, prior, *ln_evidence).ok_or_else(not_finite)
+        .map(|one| {
+            let about = About::new(prior.broad(), &one.solution).ok_or_else(not_finite)?;
+            about.classes((one.hypothesis, one.ln_share), prior, one.ln_evidence).ok_or_else(not_finite)
         })
         .collect();
     let likely: Vec<Likely> = likely?.into_iter().flatten().collect();
@@ -109,9 +130,9 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
     let minor = likely.split_off(TRIED.min(likely.len()));
     let skipped_searches = searches - likely.len();
     let mut maxima = Vec::new();
-    for Likely { kind, class, scale, ln_share, about, .. } in likely {
+    for Likely { hypothesis, class, scale, ln_share, about, .. } in likely {
         let gaussian = class.gaussian().scaled(scale);
-        let model = JointModel::new(&photographs, kind, &gaussian);
+        let model = JointModel::new(&photographs, hypothesis, &gaussian).ok_or_else(not_finite)?;
         let start = about.start(&model, &gaussian).ok_or_else(not_finite)?;
         let found = search(&model, start, TOLERANCE, LIMIT);
         maxima.extend(Maximum::of(&model, &found, ln_share));
@@ -121,22 +142,119 @@ pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<She
     trace.extend(maxima.iter().map(|one| one.trace.clone()));
     let best = maxima.first().ok_or_else(not_finite)?;
     let of_scene = photographs.iter().zip(&best.seen).map(|(photograph, seen)| {
-        let Photograph { parts, whitening, .. } = photograph;
-        let shifts: Vec<_> =
-            corners::shifts(&parts.places, &parts.values).iter().map(|shift| whitening.of(shift)).collect();
+        let Photograph { parts, .. } = photograph;
         let mut found = findings(&seen.fitted, &parts.told);
-        found.extend(corners::findings(&shifts, &seen.residuals, error.corner));
+        let imperfection = best.hypothesis.imperfection;
+        let whitening = photograph.whitening(imperfection.discrepancy).filter(|_| !imperfection.is_ideal());
+        found.extend(whitening.into_iter().flat_map(|whitening| {
+            let shifts = corners::shifts(&parts.places, &parts.values);
+            let shifts: Vec<_> = shifts.iter().map(|shift| whitening.of(shift)).collect();
+            corners::findings(&shifts, &seen.residuals, imperfection.scale * error.corner)
+        }));
         (found, skipped(&seen.fitted, skipped_searches))
     });
     let of_scene: Vec<_> = of_scene.collect();
     let odds = odds(&maxima, &beside);
     let ln_evidence = best.ln_evidence + odds.iter().sum::<f64>().ln() - ln_all_shares(prior);
     let estimates = mean(maxima, &beside, &odds, &trace).ok_or_else(not_finite)?;
-    let complete = |(estimate, (findings, skipped))| Estimate { findings, skipped, ..estimate };
+    let complete =
+        |(estimate, (findings, skipped))| Estimate { findings, skipped, without_bounces, ..estimate };
     Ok(SheetEstimate {
         photographs: estimates.into_iter().zip(of_scene).map(complete).collect(),
         ln_evidence,
     })
+}
+
+/// Photographs with errors relative to the values that a model predicts, not to those that were measured.
+fn relative_to_predictions<'a>(
+    photographs: Vec<Photograph<'a>>,
+    prior: &Prior,
+) -> Option<Vec<Photograph<'a>>> {
+    let model = JointModel::new(&photographs, *usual_hypotheses().first()?, prior.broad())?;
+    let solution = search(&model, DVector::zeros(model.unknowns()), SORTING_TOLERANCE, SORTING_LIMIT);
+    let predicted = model.members().iter().map(|member| member.model.values_at(&member.own(&solution.w)));
+    let predicted: Vec<_> = predicted.collect();
+    // a model that is far off predicts nothing
+    let relative = |(one, predicted): (Photograph<'a>, DMatrix<f64>)| {
+        let values = predicted.zip_map(&one.parts.values, |predicted, value| predicted.max(0.5 * value));
+        one.relative_to(values)
+    };
+    Some(photographs.into_iter().zip(predicted).map(relative).collect())
+}
+
+impl Sorted {
+    /// From `start` on; none if there is no maximum.
+    fn of(
+        photographs: &[Photograph],
+        prior: &Prior,
+        hypothesis: Hypothesis,
+        start: Option<&Self>,
+    ) -> Option<Self> {
+        let model = JointModel::new(photographs, hypothesis, prior.broad())?;
+        let start = start.map_or_else(|| DVector::zeros(model.unknowns()), |one| one.solution.w.clone());
+        let solution = search(&model, start, SORTING_TOLERANCE, SORTING_LIMIT);
+        let ln_evidence = solution.ln_evidence(1.0)? + model.ln_whitening();
+        let ln_share = hypothesis.ln_share();
+        ln_evidence.is_finite().then_some(Self { hypothesis, ln_share, ln_evidence, solution })
+    }
+
+    fn ln_weight(&self) -> f64 {
+        self.ln_share + self.ln_evidence
+    }
+
+    fn is_ideal(&self) -> bool {
+        self.hypothesis.imperfection.is_ideal()
+    }
+
+    /// Whether another hypothesis is this one with less unknown.
+    fn has_case(&self, other: &Hypothesis) -> bool {
+        let own = &self.hypothesis;
+        own.kind == other.kind && other.imperfection.is_case_of(&own.imperfection)
+    }
+}
+
+/// Hypotheses of evidence under all spectra, most evidence first; each from where another led. None is tried that is a case of one of next to no
+/// evidence.
+fn sorted(photographs: &[Photograph], prior: &Prior, hypotheses: Vec<Hypothesis>) -> Vec<Sorted> {
+    let mut all: Vec<Sorted> = Vec::new();
+    for hypothesis in hypotheses {
+        let most = all.iter().map(|one| one.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
+        let wider = all.iter().rev().find(|one| one.has_case(&hypothesis));
+        if wider.is_none_or(|one| one.ln_evidence >= most + LN_EVIDENCE_HOPELESS) {
+            all.extend(Sorted::of(photographs, prior, hypothesis, wider.or(all.last())));
+        }
+    }
+    weigh_against_ideal(photographs, prior, &mut all);
+    most_evident(all, usize::MAX, Sorted::ln_weight)
+}
+
+/// Weighs real sheets against ideal folds of some evidence with as much left unexplained as has more evidence: of a picture taken with care the
+/// usual discrepancy says too little to tell them apart. The estimates under them keep it, as residuals show only what unknowns do not take up.
+fn weigh_against_ideal(photographs: &[Photograph], prior: &Prior, all: &mut [Sorted]) {
+    let best = |is_ideal: bool| {
+        let of = all.iter().filter(|one| one.is_ideal() == is_ideal);
+        of.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
+    };
+    let (Some(ideal), Some(real)) = (best(true), best(false)) else { return };
+    if ideal.ln_weight() < real.ln_weight() + LN_EVIDENCE_LEAST {
+        return;
+    }
+    let less = real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter_map(|imperfection| {
+        Sorted::of(photographs, prior, Hypothesis { imperfection, ..real.hypothesis }, Some(real))
+    });
+    let more = less.map(|one| one.ln_evidence - real.ln_evidence).fold(0.0, f64::max);
+    all.iter_mut().filter(|one| !one.is_ideal()).for_each(|one| one.ln_share += more);
+}
+
+/// Probability that no light bounces between the panels, which then are no fold.
+fn without_bounces(photographs: &[Photograph], prior: &Prior, folds: &[Sorted]) -> f64 {
+    let Some(first) = folds.first() else { return 0.0 };
+    let weight = |one: &Sorted| (one.ln_weight() - first.ln_weight()).exp();
+    let of_folds: f64 = folds.iter().map(weight).sum();
+    let without = hypotheses_without_bounces()
+        .filter_map(|hypothesis| Sorted::of(photographs, prior, hypothesis, Some(first)));
+    let without: f64 = without.map(|one| weight(&one)).sum();
+    if without.is_infinite() { 1.0 } else { without / (without + of_folds) }
 }
 
 /// What the facets do not speak of.
@@ -167,7 +285,7 @@ fn most_evident<T>(mut all: Vec<T>, count: usize, ln_evidence: impl Fn(&T) -> f6
 
 impl Maximum {
     fn of(model: &JointModel, found: &Solution<()>, ln_share: f64) -> Option<Self> {
-        let ln_evidence = ln_share + found.ln_evidence(1.0)?;
+        let ln_evidence = ln_share + found.ln_evidence(1.0)? + model.ln_whitening();
         // spectrum and sheet are the same in all photographs
         let first = model.members().first()?;
         let w = first.own(&found.w);
@@ -189,11 +307,12 @@ impl Maximum {
             let w = member.own(&found.w);
             let exposure = member.model.point(&w).exposure;
             let [scene, ..] = member.model.layout();
-            let fitted = member.model.scene_unknowns().iter().zip(scene..).map(|(expected, n)| {
-                let (value, slope) = expected.at(w[n]);
-                let value = if expected.unknown == &EXPOSURE { exposure } else { value };
+            let numbers = member.model.scene_unknowns().iter().zip(scene..);
+            let fitted = numbers.filter(|(number, _)| number.matters()).map(|(number, n)| {
+                let (value, slope) = number.at(w[n]);
+                let value = if number.unknown == &EXPOSURE { exposure } else { value };
                 let sd = sd(member.place(n));
-                Fitted { unknown: expected.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
+                Fitted { unknown: number.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
             });
             let values = member.model.values().norm().max(f64::MIN_POSITIVE);
             Seen {
@@ -204,6 +323,7 @@ impl Maximum {
             }
         });
         Some(Self {
+            hypothesis: first.model.hypothesis(),
             ln_evidence,
             seen: seen.collect(),
             albedo: point.albedo,
@@ -219,7 +339,7 @@ impl Beside {
     /// Where the linear model has the maximum; the evidence is less than at the true one, by what that model is off.
     fn of(photographs: &[Photograph], pair: &Likely) -> Option<Self> {
         let gaussian = pair.class.gaussian().scaled(pair.scale);
-        let model = JointModel::new(photographs, pair.kind, &gaussian);
+        let model = JointModel::new(photographs, pair.hypothesis, &gaussian)?;
         let LinearMaximum { w, cost } = pair.about.maximum(&gaussian)?;
         let off = model.residuals(&w).norm_squared() + w.norm_squared() - cost;
         let first = model.members().first()?;
@@ -242,8 +362,8 @@ fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> D
             slopes[(band, first.place(n))] = change * basis[(band, n)];
         }
     }
-    let unknowns = first.model.scene_unknowns().iter().zip(scene..);
-    let of_sheet = unknowns.filter(|(expected, _)| expected.unknown.is_of_sheet()).map(|(_, n)| n);
+    let numbers = first.model.scene_unknowns().iter().zip(scene..);
+    let of_sheet = numbers.filter(|(number, _)| number.unknown.is_of_sheet()).map(|(_, n)| n);
     for n in of_sheet.chain(sheet..camera) {
         let mut beside = w.clone();
         beside[n] += STEP;
@@ -299,11 +419,12 @@ fn mean(
         rows.push(share.sqrt() * (its_reflectance - &reflectance).transpose());
     }
     let best = maxima.into_iter().next()?;
+    let is_ideal = best.hypothesis.imperfection.is_ideal();
     let spread = DMatrix::from_rows(&rows);
     // shares may add up to a rounding more than 1
     let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     let of = |seen: Seen| Estimate {
-        total: Some(within(&albedo)),
+        total: (!is_ideal).then(|| within(&albedo)),
         reflectance: within(reflectance.as_slice()),
         spread: Some(spread.clone()),
         exposure: seen.exposure,
@@ -312,6 +433,7 @@ fn mean(
         skipped: Vec::new(),
         residual_rms: rms(&seen.residuals),
         unexplained: seen.unexplained,
+        without_bounces: 0.0,
         iterations: trace.iter().map(|run| run.len() as u32).sum(),
         trace: trace.to_vec(),
         termination: best.termination,

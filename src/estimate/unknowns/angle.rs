@@ -1,9 +1,11 @@
 //! How far the fold is open.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown, Whose,
+    Effect, Factor, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown,
+    Whose,
 };
 use crate::error::{Error, Result};
+use crate::estimate::Fitted;
 use crate::kernel::mesh::{Mesh, respond};
 
 /// Angle between the panels, degrees. It takes two more solutions of the bounces.
@@ -17,12 +19,15 @@ pub static ANGLE: Unknown = Unknown {
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Fold,
+        known: |_| Known::Stated,
         prior: of_photograph,
         set: |conditions, value| conditions.angle_deg = value,
         symptom: Some(Symptom {
             ideal: |told| told.angle_deg,
-            least: 1.0,
-            words: "the fold is not as open as it was told",
+            least: 0.4,
+            words: |Fitted { value, sd, .. }, told| {
+                format!("the fold is open by {value:.1} ± {sd:.1}°, not {}° as told", told.angle_deg)
+            },
             remedy: "measure the angle again",
         }),
     }),

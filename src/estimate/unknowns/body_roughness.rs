@@ -1,6 +1,6 @@
 //! How rough the sheet is under its surface.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.body_roughness_deg = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 10.0,
-            words: "the sheet is rough",
+            words: |_, _| "the sheet is rough".to_owned(),
             remedy: "if there is no chart or card in the picture, put one in",
         }),
     }),

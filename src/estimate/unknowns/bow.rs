@@ -1,6 +1,6 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static BOW: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Fold,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.bow_deg = value,
         symptom: Some(BOWED),
@@ -23,7 +24,7 @@ pub static BOW: Unknown = Unknown {
 pub(super) const BOWED: Symptom = Symptom {
     ideal: |_| 0.0,
     least: 1.0,
-    words: "the panels bow",
+    words: |_, _| "the panels bow".to_owned(),
     remedy: "hold them flat, by stiff card behind them",
 };
 

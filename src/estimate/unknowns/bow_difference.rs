@@ -1,7 +1,7 @@
 //! Panels that do not bow alike.
 
 use super::bow::BOWED;
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
@@ -14,6 +14,7 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Fold,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.bow_difference_deg = value,
         symptom: Some(BOWED),

@@ -1,6 +1,6 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static CREASE: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Fold,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.crease_radius = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.008,
-            words: "the crease is rounded",
+            words: |_, _| "the crease is rounded".to_owned(),
             remedy: "fold the sheet over a sharp edge",
         }),
     }),

@@ -1,6 +1,6 @@
 //! How bright the picture is.
 
-use super::{Effect, Flag, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{Effect, Flag, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
 pub static EXPOSURE: Unknown = Unknown {
@@ -13,6 +13,11 @@ pub static EXPOSURE: Unknown = Unknown {
     role: Role::Exposure,
     photograph: Some(Effect {
         whose: Whose::Lens,
+        known: |told| match told.exposure {
+            Some(_) if told.by_chart => Known::Shown,
+            Some(_) => Known::Stated,
+            None => Known::Usual,
+        },
         prior: of_photograph,
         set: |conditions, value| conditions.exposure = value,
         symptom: None,

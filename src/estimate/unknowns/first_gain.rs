@@ -1,6 +1,6 @@
 //! How much more the first channel amplifies than it should.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
+        known: |_| Known::Told,
         prior,
         set: |conditions, value| conditions.gains[0] = value,
         symptom: Some(UNBALANCED),
@@ -23,7 +24,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
 pub(super) const UNBALANCED: Symptom = Symptom {
     ideal: |_| 1.0,
     least: 0.02,
-    words: "the channels are not balanced as they were told",
+    words: |_, _| "the channels are not balanced as they were told".to_owned(),
     remedy: "photograph a grey card with the sheet",
 };
 

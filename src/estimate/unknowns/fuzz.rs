@@ -1,6 +1,6 @@
 //! Fibres that stand up from the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
 pub static FUZZ: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static FUZZ: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.fuzz = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.15,
-            words: "fibres stand up from the sheet",
+            words: |_, _| "fibres stand up from the sheet".to_owned(),
             remedy: "if there is no chart or card in the picture, put one in",
         }),
     }),

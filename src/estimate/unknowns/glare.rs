@@ -1,6 +1,6 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the picture's light that the lens spreads over all of it.
 pub static GLARE: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static GLARE: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.glare = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.01,
-            words: "stray light lies over the picture",
+            words: |_, _| "stray light lies over the picture".to_owned(),
             remedy: "shade the lens",
         }),
     }),

@@ -1,6 +1,6 @@
 //! What the surface of the sheet reflects before light enters it.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
 pub static GLOSS: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static GLOSS: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.gloss = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.15,
-            words: "the sheet is glossy",
+            words: |_, _| "the sheet is glossy".to_owned(),
             remedy: "turn fold and camera so that no light is mirrored into the picture",
         }),
     }),

@@ -1,6 +1,6 @@
 //! How sharply the surface of the sheet reflects.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Roughness of the surface: the width of the slopes of its microfacets (GGX's alpha).
 pub static GLOSS_ROUGHNESS: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static GLOSS_ROUGHNESS: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
+        known: |_| Known::OfImperfection,
         prior,
         set: |conditions, value| conditions.gloss_roughness = value,
         symptom: None,

@@ -1,6 +1,6 @@
 //! Light from what lies below the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static GROUND: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Light,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.ground = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.2,
-            words: "the ground throws light into the fold",
+            words: |_, _| "the ground throws light into the fold".to_owned(),
             remedy: "lay a black cloth around it",
         }),
     }),

@@ -1,6 +1,6 @@
 //! The colour of what lies below the sheet.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
 pub static GROUND_REDNESS: Unknown = Unknown {
@@ -13,6 +13,7 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Light,
+        known: |_| Known::OfImperfection,
         prior,
         set: |conditions, value| conditions.ground_redness = value,
         symptom: None,

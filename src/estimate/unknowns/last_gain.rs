@@ -1,7 +1,7 @@
 //! How much more the last channel amplifies than it should.
 
 use super::first_gain::UNBALANCED;
-use super::{AUTO, Effect, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {
@@ -14,6 +14,7 @@ pub static LAST_GAIN: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
+        known: |_| Known::Told,
         prior,
         set: |conditions, value| conditions.gains[1] = value,
         symptom: Some(UNBALANCED),

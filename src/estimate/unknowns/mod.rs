@@ -57,6 +57,7 @@ pub use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
 use vignetting::VIGNETTING;
 
+use super::Fitted;
 use super::photograph::{Conditions, Told};
 use crate::error::Result;
 
@@ -114,6 +115,8 @@ pub struct Unknown {
 pub struct Effect {
     /// What it is a number of.
     pub whose: Whose,
+    /// How it is known.
+    pub known: fn(&Told) -> Known,
     /// What is known of it before the picture is looked at, on its scale; none where it does not occur.
     pub prior: fn(&Told) -> Option<Normal>,
     /// Makes it one of the conditions.
@@ -135,6 +138,23 @@ pub enum Whose {
     Lens,
 }
 
+/// How something is known of a photograph before it is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// As photographs usually are.
+    Usual,
+    /// Somebody measured it: near to that as a rule, now and then a blunder.
+    Stated,
+    /// A chart or a card showed it, which is no blunder.
+    Shown,
+    /// Camera and light were told: they are as two of a kind differ.
+    Told,
+    /// An ideal fold does not have it: there is more of it, the less ideal a photograph is.
+    Imperfection,
+    /// It is a property of what an ideal fold does not have.
+    OfImperfection,
+}
+
 /// What is not ideal about a photograph, in the words of who took it.
 #[derive(Debug)]
 pub struct Symptom {
@@ -143,7 +163,7 @@ pub struct Symptom {
     /// Least difference from it that is worth a word.
     pub least: f64,
     /// What is wrong.
-    pub words: &'static str,
+    pub words: fn(&Fitted, &Told) -> String,
     /// What to do about it.
     pub remedy: &'static str,
 }

@@ -1,7 +1,9 @@
 //! How much light comes from the sky.
 
 use super::sources::Source;
-use super::{Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Told, Unknown, Whose};
+use super::{
+    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Told, Unknown, Whose,
+};
 use crate::error::Result;
 
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
@@ -18,6 +20,7 @@ pub static SKY: Unknown = Unknown {
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Light,
+        known: |_| Known::Imperfection,
         prior: of_photograph,
         set: |conditions, value| conditions.sky = value,
         symptom: None,

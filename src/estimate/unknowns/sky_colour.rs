@@ -1,6 +1,8 @@
 //! The colour of the sky: daylight of unknown temperature.
 
-use super::{Effect, Factor, FoldInLight, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown, Whose};
+use super::{
+    Effect, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown, Whose,
+};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::spectrum::{self, Outside};
@@ -16,6 +18,7 @@ pub static SKY_COLOUR: Unknown = Unknown {
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Light,
+        known: |_| Known::OfImperfection,
         prior: of_photograph,
         set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
         symptom: None,

@@ -1,7 +1,8 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown, Whose,
+    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown,
+    Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -18,12 +19,13 @@ pub static SUN_COLOUR: Unknown = Unknown {
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Light,
+        known: |told| if told.is_daylight_assumed { Known::Usual } else { Known::Told },
         prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
             ideal: |told| 1e6 / told.daylight.map_or(ANY_MIRED, Daylight::mired),
             least: 400.0,
-            words: "the sun has another colour than was to be expected",
+            words: |_, _| "the sun has another colour than was to be expected".to_owned(),
             remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
         }),
     }),

@@ -1,7 +1,8 @@
 //! Where the sun stands across the crease.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown, Whose,
+    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown,
+    Whose,
 };
 use crate::error::Result;
 
@@ -16,12 +17,13 @@ pub static TILT: Unknown = Unknown {
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
         whose: Whose::Fold,
+        known: |_| Known::Stated,
         prior: of_photograph,
         set: |conditions, value| conditions.tilt_deg = value,
         symptom: Some(Symptom {
             ideal: |told| told.tilt_deg,
             least: 1.0,
-            words: "the sun stood elsewhere than it was told",
+            words: |_, _| "the sun stood elsewhere than it was told".to_owned(),
             remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
         }),
     }),

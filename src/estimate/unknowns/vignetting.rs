@@ -1,6 +1,6 @@
 //! A lens that darkens the corners of the picture.
 
-use super::{AUTO, Effect, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
@@ -13,12 +13,13 @@ pub static VIGNETTING: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
+        known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.vignetting = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.1,
-            words: "the lens darkens the corners of the picture",
+            words: |_, _| "the lens darkens the corners of the picture".to_owned(),
             remedy: "give vextract --white, a picture of a white sheet, or close the aperture",
         }),
     }),

@@ -30,7 +30,7 @@ impl Bins {
         let (rows, columns) = (grid.rows.min(ROWS), grid.cols.min(COLUMNS));
         let mut members = vec![Vec::new(); 2 * rows * columns];
         for (facet, values) in rgb.facets().enumerate() {
-            if values.is_some_and(|values| values.iter().all(|value| *value > 0.0)) {
+            if values.is_some() {
                 let (panel, place) = (facet / grid.len(), facet % grid.len());
                 let (row, column) =
                     (place / grid.cols * rows / grid.rows, place % grid.cols * columns / grid.cols);
@@ -85,9 +85,9 @@ impl Bins {
         &self.places
     }
 
-    /// Mean values: bin by channel; none if nothing was measured.
+    /// Mean values: bin by channel; none if no light was measured.
     pub fn values(&self) -> Option<&DMatrix<f64>> {
-        (!self.members.is_empty()).then_some(&self.values)
+        self.values.iter().any(|value| *value > 0.0).then_some(&self.values)
     }
 
     /// Standard deviations of their noise.

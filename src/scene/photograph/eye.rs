@@ -38,7 +38,17 @@ pub fn of(setting: &FoldSetting) -> Result<Eye> {
     // a camera that stands in for another is off by what such cameras were measured to be
     let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));
     let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, sd);
-    Ok(Eye { wavelengths_nm, sensitivities, errors, sun, sky, daylight, reference: white.imax() })
+    let is_stand_in = camera.stands_in.is_some();
+    Ok(Eye {
+        wavelengths_nm,
+        sensitivities,
+        errors,
+        is_stand_in,
+        sun,
+        sky,
+        daylight,
+        reference: white.imax(),
+    })
 }
 
 /// Mean daylight and its two characteristic vectors: waveband by three.

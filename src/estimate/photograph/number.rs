@@ -1,0 +1,66 @@
+//! An unknown of a photograph as a standard normal number.
+
+use super::conditions::Told;
+use super::imperfection::Imperfection;
+use crate::estimate::unknowns::{Effect, Known, Normal, TABLE, Unknown};
+
+/// How heavy the tails are of what was stated, now and then by mistake, and of what an ideal fold does not have, of which an otherwise careful
+/// photograph may have much; 0: those of a normal number.
+const STATED_TAIL: f64 = 0.5;
+const IMPERFECTION_TAIL: f64 = 1.0;
+
+/// An unknown, and what is known of it in a photograph of some imperfection.
+#[derive(Clone, Copy)]
+pub struct Number {
+    /// What it is.
+    pub unknown: &'static Unknown,
+    /// What it does.
+    pub effect: &'static Effect,
+    prior: Normal,
+    tail: f64,
+    matters: bool,
+}
+
+impl Number {
+    /// Those of a photograph.
+    #[must_use]
+    pub fn all(told: &Told, imperfection: Imperfection) -> Vec<Self> {
+        let number = |unknown: &&'static Unknown| {
+            let effect = unknown.photograph.as_ref()?;
+            let (prior, known) = ((effect.prior)(told)?, (effect.known)(told));
+            let size = match known {
+                Known::Usual => 1.0,
+                Known::Stated | Known::Shown => imperfection.stated,
+                Known::Told => imperfection.told,
+                Known::Imperfection | Known::OfImperfection => imperfection.scale,
+            };
+            let tail = match known {
+                Known::Stated => STATED_TAIL,
+                Known::Imperfection => IMPERFECTION_TAIL,
+                Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
+            };
+            Some(Self { unknown, effect, prior, tail, matters: size > 0.0 })
+        };
+        TABLE.iter().filter_map(number).collect()
+    }
+
+    /// Whether it makes any difference.
+    #[must_use]
+    pub fn matters(&self) -> bool {
+        self.matters
+    }
+
+    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown. Heavy tails are those of sinh(tw) / t, which near
+    /// 0 is w.
+    ///
+    /// # Source
+    /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.
+    #[must_use]
+    pub fn at(&self, w: f64) -> (f64, f64) {
+        let Normal { mean, sd } = self.prior;
+        let t = self.tail;
+        let (x, by_w) = if t > 0.0 { ((t * w).sinh() / t, (t * w).cosh()) } else { (w, 1.0) };
+        let (value, by_x) = self.unknown.scale.value(mean + sd * x);
+        (value, by_x * sd * by_w)
+    }
+}
