@@ -24,9 +24,9 @@ use crate::message::printable;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
+use crate::spectrum::WavelengthGrid;
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{Interpolation, Outside, Spectrum, WavelengthGrid};
-use crate::stream::{CameraRecord, Failures, Optics, Output, SpectrumRecord};
+use crate::stream::{Failures, Optics, Output};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
 
@@ -324,36 +324,14 @@ impl OpticsArgs {
     /// # Errors
     /// As [`Common::camera`] and [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
     pub fn resolve(&self, camera: &str, common: &Common) -> Result<Optics> {
-        let grid = self.wavelengths_nm.clone();
         let camera = common.camera(camera)?;
-        let on_grid = |channel: &Spectrum| channel.on(&grid, Outside::Zero);
-        let name = |interpolation: Interpolation| interpolation.name().to_owned();
-        let light = |spec: &String| {
-            let spectrum = common.illuminant(spec)?;
-            let power = spectrum.on(&grid, Outside::Refuse)?;
-            let interpolation = spectrum.interpolation(&grid).map(name);
-            let name = spectrum.name().to_owned();
-            Ok(SpectrumRecord { name, power, interpolation })
+        let light = |spec: &String| common.illuminant(spec);
+        let illuminants: Vec<_> = match self.illuminant.as_slice() {
+            [] => vec![common.illuminant(DAYLIGHT)?],
+            given => given.iter().map(light).collect::<Result<_>>()?,
         };
-        Ok(Optics {
-            camera: CameraRecord {
-                name: camera.name.clone(),
-                channels: camera.channels.iter().map(|channel| channel.name().to_owned()).collect(),
-                sensitivities: camera.channels.iter().map(on_grid).collect::<Result<_>>()?,
-                interpolation: camera
-                    .channels
-                    .iter()
-                    .find_map(|channel| channel.interpolation(&grid))
-                    .map(name),
-                stands_in: None,
-            },
-            illuminants: match self.illuminant.as_slice() {
-                [] => vec![light(&DAYLIGHT.to_owned())?],
-                given => given.iter().map(light).collect::<Result<_>>()?,
-            },
-            sky: self.sky()?.as_ref().map(light).transpose()?,
-            grid,
-        })
+        let sky = self.sky()?.as_ref().map(light).transpose()?;
+        Optics::new(self.wavelengths_nm.clone(), &camera, &illuminants, sky.as_ref())
     }
 
     /// The spectrum of the sky; `sky` alone goes with the sun.

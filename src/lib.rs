@@ -35,7 +35,7 @@
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files, room
-//! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum
+//! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
 //! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
 //! transport            -> sheet, kernel, geometry, image
 //! sheet                -> kernel

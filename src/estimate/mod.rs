@@ -14,6 +14,7 @@ pub mod khan;
 mod likely;
 pub mod map;
 pub mod measured;
+pub mod measurement;
 pub mod noise;
 pub mod park;
 pub mod photograph;
@@ -22,6 +23,7 @@ pub mod shading;
 pub mod smooth;
 mod smooth_errors;
 mod starts;
+pub mod taking;
 pub mod unknowns;
 pub mod verdict;
 

@@ -4,10 +4,11 @@
 //! how much of the spectrum they leave open. What facets cannot show, the colour of the light and the camera's curves, is said to be as it
 //! was told.
 
-use std::iter;
+use std::{fmt, iter};
 
 use super::unknowns::{ANGLE, EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
 use super::{Estimate, Exposure, Fitted, MISFIT};
+use crate::error::{Error, Result};
 
 /// Residuals, in units of their expected size, up to which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
@@ -29,6 +30,8 @@ const DARKEST_SHEET: f64 = 0.03;
 /// Facets say something else than was stated if that is so many standard deviations away; an exposure also by this logarithm of a factor.
 const SURE: f64 = 3.0;
 const EXPOSURE_APART: f64 = 0.1;
+/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
+const UNEXPLAINED: f64 = 0.3;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
 
@@ -52,6 +55,13 @@ impl Level {
             Self::Doubtful => "doubtful",
             Self::Wrong => "wrong",
         }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.level.name(), self.because)?;
+        self.remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
     }
 }
 
@@ -120,6 +130,24 @@ impl Verdict {
             },
         }
     }
+}
+
+/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
+///
+/// # Arguments
+/// - `noise`: standard deviation of the facets in the unit of the estimate's residuals; 1 where these are in standard deviations.
+///
+/// # Errors
+/// [`Error::Field`] if the estimate leaves that much of the light over; as `noise`, which is asked then alone.
+pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f64>) -> Result<()> {
+    if estimate.unexplained <= UNEXPLAINED || estimate.residual_rms <= MISFIT * noise()? {
+        return Ok(());
+    }
+    let problem = format!(
+        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
+        100.0 * estimate.unexplained
+    );
+    Err(Error::field("facet_rgb", problem))
 }
 
 /// An exposure that people do not take: white that faces the sun too many times as bright as the white level of the picture.

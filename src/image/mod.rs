@@ -30,8 +30,8 @@ pub use drawing::{
 };
 pub use edges::{Marked, Refinement, refine};
 pub use measuring::{
-    FacetMeasurement, PixelRun, Processing, corner_orders, measure, measure_patches, open_sides,
-    pixels_sharing_noise, processing, with_rounding,
+    FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,
+    measure_patches, open_sides, pixels_sharing_noise, processing, with_rounding,
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{
@@ -39,7 +39,7 @@ pub use photograph::{
     Taken,
 };
 pub use placing::{
-    CHART_CORNERS, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
+    CHART_CORNERS, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
     check_inside, parse_corners,
 };
 pub use reading::PictureFile;

@@ -63,13 +63,11 @@ fn channels_of_pictures(scene: &Scene, setting: &Setting) -> Result<Vec<String>>
     Ok(scene.illuminants()?.iter().flat_map(under).collect())
 }
 
-impl FoldSetting<'_> {
+impl FoldSetting {
     /// Row sums of the kernel and direct light of every facet, as exact as the response.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the scene is not whole.
-    pub fn facet_light(&self) -> Result<FacetLight> {
-        let (response, light) = (self.response()?, self.light()?);
+    #[must_use]
+    pub fn facet_light(&self) -> FacetLight {
+        let Self { response, light, .. } = self;
         let facets = || (0..2).flat_map(|panel| (0..response.facets()).map(move |facet| (panel, facet)));
         let direct = |light| {
             let at = |(panel, facet)| response.irradiance(panel, facet, light, [0.0; 2]);
@@ -77,11 +75,11 @@ impl FoldSetting<'_> {
         };
         let (sun, sky) = (direct(ModeLight::Sun(light.panel_irradiance())), direct(ModeLight::Sky(1.0)));
         let irradiance = sun.iter().zip(&sky).map(|(sun, open)| sun + light.sky() * open);
-        Ok(FacetLight {
-            panels: self.fold().panels().into_iter().enumerate().collect(),
+        FacetLight {
+            panels: self.fold.panels().into_iter().enumerate().collect(),
             irradiance: irradiance.collect(),
             row_sums: sky.iter().map(|open| 1.0 - open).collect(),
-        })
+        }
     }
 }
 

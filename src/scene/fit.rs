@@ -6,8 +6,7 @@ use super::photograph::eye;
 use super::{FoldSetting, Setting};
 use crate::error::Result;
 use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
-use crate::kernel::mesh::Mesh;
-use crate::stream::needs_fold;
+use crate::stream::{Optics, needs_fold};
 
 impl Setting<'_> {
     /// The model of facet RGB with the numbers of `fit` unknown, as far as the scene leaves them open.
@@ -35,27 +34,26 @@ impl Setting<'_> {
     }
 }
 
-impl FoldSetting<'_> {
+impl FoldSetting {
     /// The fold in its light, other folds to be solved to `tolerance` or to the scene's.
     fn in_light(&self, tolerance: f64) -> Result<FoldInLight> {
-        let is_fine = self.scene.has_accuracy() && self.scene.mesh()? == Mesh::Auto.to_string();
-        let (grid, mut illuminants) = (self.scene.grid()?, self.scene.illuminants()?);
-        let sun = DVector::from_vec(illuminants.swap_remove(0).power);
+        let Optics { grid, camera, illuminants, sky } = self.optics()?;
+        let sun = DVector::from_column_slice(&illuminants[0].power);
         // pictures in other lights have a sun each
-        let daylight_vectors = eye::vectors(&grid)?;
-        let daylight = if illuminants.is_empty() { eye::daylight(&daylight_vectors, &sun) } else { None };
+        let daylight_vectors = eye::vectors(grid)?;
+        let daylight = if illuminants.len() == 1 { eye::daylight(&daylight_vectors, &sun) } else { None };
         Ok(FoldInLight {
             sun_power: sun,
             daylight_vectors,
             daylight,
-            fold: *self.fold(),
-            response: self.response()?,
-            tolerance: if is_fine { Some(self.scene.tolerance()?.max(tolerance)) } else { None },
+            fold: self.fold,
+            response: self.response.clone(),
+            tolerance: self.tolerance.map(|own| own.max(tolerance)),
             lighting: self.lighting()?,
-            has_sky_illuminant: self.scene.sky_illuminant()?.is_some(),
-            card: self.card()?,
-            grid,
-            sensitivities: self.scene.camera()?.sensitivities,
+            has_sky_illuminant: sky.is_some(),
+            card: self.card.clone(),
+            grid: grid.clone(),
+            sensitivities: camera.sensitivities.clone(),
         })
     }
 }

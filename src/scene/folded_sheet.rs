@@ -21,7 +21,7 @@ pub struct FoldedSheet {
     camera: CameraResponse,
 }
 
-impl FoldSetting<'_> {
+impl FoldSetting {
     /// A sheet that reflects like this in this fold, seen from `eye` in the fold's unit, on the facets of the scene or on others that are
     /// `finer`.
     ///
@@ -37,10 +37,10 @@ impl FoldSetting<'_> {
             return Err(why.refused());
         }
         let fold = match finer {
-            Some(grid) => self.fold().with_facets(grid)?.with_spacing(Spacing::Uniform),
-            None => *self.fold(),
+            Some(grid) => self.fold.with_facets(grid)?.with_spacing(Spacing::Uniform),
+            None => self.fold,
         };
-        Ok(FoldedSheet::new(&fold, &self.light()?, self.lighting()?.sun, shape, eye))
+        Ok(FoldedSheet::new(&fold, &self.light, self.lighting()?.sun, shape, eye))
     }
 }
 

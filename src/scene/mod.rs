@@ -10,8 +10,10 @@ mod fit;
 mod fold;
 mod folded_sheet;
 mod given_kernel;
+mod marked;
 mod photograph;
 mod residuals;
+mod sample;
 mod surface;
 mod unmodelled;
 
@@ -22,10 +24,11 @@ pub use expected::ExpectedError;
 pub use fold::FoldSetting;
 pub use folded_sheet::FoldedSheet;
 pub use given_kernel::GivenKernel;
-pub use photograph::PhotographedFold;
+pub use marked::MarkedPanels;
+pub use photograph::{PhotographedFold, Picture};
 pub use residuals::residuals;
+pub use sample::{photographed, stated};
 pub use surface::SurfaceSetting;
-pub use unmodelled::Unmodelled;
 
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -36,7 +39,7 @@ use crate::stream::Scene;
 /// A surface in its light before a camera.
 pub enum Setting<'a> {
     /// Two panels that meet at a crease, under sun and sky.
-    Fold(FoldSetting<'a>),
+    Fold(Box<FoldSetting>),
     /// Any other surface, under any sources.
     Surface(SurfaceSetting<'a>),
 }
@@ -45,10 +48,10 @@ impl<'a> Setting<'a> {
     /// That of a scene's record.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the geometry is missing or impossible.
+    /// [`crate::Error::Field`] if a part of it is missing or impossible.
     pub fn of(scene: &'a Scene) -> Result<Self> {
         Ok(match scene.fold_if_one()? {
-            Some(fold) => Self::Fold(FoldSetting::new(scene, fold)),
+            Some(fold) => Self::Fold(Box::new(FoldSetting::with_fold(scene, fold)?)),
             None => Self::Surface(SurfaceSetting::of(scene)),
         })
     }
@@ -59,7 +62,7 @@ impl<'a> Setting<'a> {
     /// [`crate::Error::Field`] if the scene does not say it.
     pub fn facets(&self) -> Result<usize> {
         match self {
-            Self::Fold(fold) => Ok(2 * fold.fold().facets().len()),
+            Self::Fold(fold) => Ok(2 * fold.fold.facets().len()),
             Self::Surface(surface) => surface.facets(),
         }
     }
@@ -70,7 +73,7 @@ impl<'a> Setting<'a> {
     /// [`crate::Error::Field`] if the surface is not one in space.
     pub fn panels(&self) -> Result<BTreeMap<usize, Panel>> {
         match self {
-            Self::Fold(fold) => Ok(fold.fold().panels().into_iter().enumerate().collect()),
+            Self::Fold(fold) => Ok(fold.fold.panels().into_iter().enumerate().collect()),
             Self::Surface(surface) => Ok(surface.shape()?.panels()),
         }
     }
@@ -92,7 +95,7 @@ impl<'a> Setting<'a> {
     /// As [`Setting::model`].
     pub fn model_seen_by(&self, eye: &CameraResponse) -> Result<FacetModel> {
         match self {
-            Self::Fold(fold) => fold.model_seen_by(eye),
+            Self::Fold(fold) => Ok(fold.model_seen_by(eye)),
             Self::Surface(surface) => surface.model_seen_by(eye),
         }
     }

@@ -12,16 +12,17 @@ use framing::Pose;
 use nalgebra::Vector3;
 use ndarray::Array2;
 
-use super::{FoldSetting, Unmodelled};
+use super::FoldSetting;
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
-use crate::estimate::photograph::Told;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
+use crate::estimate::photograph::{Told, Unmodelled};
 use crate::forward::render::{FoldView, Frame, Viewpoint};
+use crate::image::Framing;
 use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
-use crate::stream::{Framing, Sample};
+use crate::stream::Sample;
 
 /// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may have erred by, as a share of the angle
 /// at most; radii of the crease, degrees of bow.
@@ -33,20 +34,34 @@ const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 const SUN_HEIGHT: f64 = 0.67;
 
 /// Width and height of a photograph that nobody has taken yet, px.
-const SIZE: [u32; 2] = [640, 480];
+const SIZE: [usize; 2] = [640, 480];
 
 /// What of a photograph its parts are made of.
-struct Picture<'a> {
-    measured: &'a Measured<'a>,
-    framing: Framing,
-    exposure: Option<f64>,
-    /// Whether a chart or a card told the exposure.
-    by_chart: bool,
+pub struct Picture<'a> {
+    /// The facets.
+    pub measured: &'a Measured<'a>,
+    /// Where the panels are in it; none if it does not show two.
+    pub framing: Option<Framing>,
+    /// The exposure, if it is known.
+    pub exposure: Option<f64>,
+    /// Whether a chart or a card in it calibrated its numbers.
+    pub by_chart: bool,
+}
+
+impl<'a> Picture<'a> {
+    /// The photograph in which the facets of a sample were measured.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn of(sample: &Sample, measured: &'a Measured<'a>, exposure: Option<f64>) -> Result<Self> {
+        let by_chart = sample.fields.has("calibration");
+        Ok(Self { measured, framing: sample.framing()?, exposure, by_chart })
+    }
 }
 
 /// A fold of which photographs are taken.
 pub struct PhotographedFold<'a> {
-    setting: &'a FoldSetting<'a>,
+    setting: &'a FoldSetting,
     nodes: Vec<f64>,
     /// Name of a measured sheet that is taken to be unknown.
     left_out: Option<String>,
@@ -55,7 +70,7 @@ pub struct PhotographedFold<'a> {
 impl<'a> PhotographedFold<'a> {
     /// That of a scene.
     #[must_use]
-    pub fn of(setting: &'a FoldSetting<'a>) -> Self {
+    pub fn of(setting: &'a FoldSetting) -> Self {
         Self { setting, nodes: nodes(NODES), left_out: None }
     }
 
@@ -69,18 +84,11 @@ impl<'a> PhotographedFold<'a> {
     ///
     /// # Errors
     /// [`crate::Error::Field`] if facets or corners do not fit the scene.
-    pub fn parts(
-        &self,
-        sample: &Sample,
-        measured: &Measured,
-        exposure: Option<f64>,
-    ) -> Result<std::result::Result<Parts, Unmodelled>> {
-        if let Some(why) = self.setting.unmodelled()? {
-            return Ok(Err(why));
+    pub fn parts(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
+        match self.setting.unmodelled()? {
+            Some(why) => Ok(Err(why)),
+            None => self.of_picture(picture),
         }
-        let Some(framing) = sample.framing()? else { return Ok(Err(Unmodelled::NoPose)) };
-        let by_chart = exposure.is_some() && sample.fields.has("calibration");
-        self.of_picture(&Picture { measured, framing, exposure, by_chart })
     }
 
     /// The parts of a photograph that nobody has taken yet, from where vforward takes its own, its facets as the model has them; or why there
@@ -93,24 +101,22 @@ impl<'a> PhotographedFold<'a> {
         measured: &Measured,
         exposure: Option<f64>,
     ) -> Result<std::result::Result<Parts, Unmodelled>> {
-        if let Some(why) = self.setting.unmodelled()? {
-            return Ok(Err(why));
-        }
-        let frame = Frame::new(SIZE[0] as usize, SIZE[1] as usize)?;
+        let frame = Frame::new(SIZE[0], SIZE[1])?;
         let mut panels = [None; 2];
-        for (panel, corners) in FoldView::new(self.setting.fold(), &Viewpoint::default(), frame)?.corners() {
-            panels[panel] = Some(corners.map(|corner| [corner.x, corner.y]));
+        for (panel, corners) in FoldView::new(&self.setting.fold, &Viewpoint::default(), frame)?.corners() {
+            panels[panel] = Some(corners);
         }
-        let framing = Framing { panels, size: SIZE };
-        self.of_picture(&Picture { measured, framing, exposure, by_chart: false })
+        let framing = Some(Framing { panels, size: SIZE.map(|px| px as f64) });
+        self.parts(&Picture { measured, framing, exposure, by_chart: false })
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let (setting, fold) = (self.setting, self.setting.fold());
-        let Picture { measured, exposure, .. } = *picture;
-        let Some(pose) = Pose::of(&picture.framing, fold)? else { return Ok(Err(Unmodelled::NoPose)) };
-        let (light, facets) = (setting.light()?, fold.facets());
-        let eye = eye::of(setting)?;
+        let FoldSetting { fold, light, is_daylight_assumed, .. } = self.setting;
+        let Picture { measured, exposure, by_chart, .. } = *picture;
+        let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
+        let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
+        let (optics, facets) = (self.setting.optics()?, fold.facets());
+        let eye = eye::of(optics)?;
         let shape = [2 * facets.len(), eye.sensitivities.ncols()];
         check_shape("facet_rgb", measured.rgb, shape)?;
         check_shape("facet_sd", measured.sd, shape)?;
@@ -120,13 +126,13 @@ impl<'a> PhotographedFold<'a> {
         let up = pose.up(sun, SUN_HEIGHT);
         let told = Told {
             exposure,
-            by_chart: picture.by_chart,
+            by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),
             daylight: eye::daylight(&eye.daylight, &eye.sun),
-            is_daylight_assumed: setting.is_daylight_assumed()?,
-            has_sky_illuminant: setting.has_sky_illuminant()?,
+            is_daylight_assumed: *is_daylight_assumed,
+            has_sky_illuminant: optics.sky.is_some(),
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
@@ -138,7 +144,7 @@ impl<'a> PhotographedFold<'a> {
             values: values.clone(),
             sun: lit,
             told_sky: if light.sky() > 0.0 {
-                Some(bins.pool(&self.exact(ModeLight::Sky(light.sky()))?))
+                Some(bins.pool(&self.exact(ModeLight::Sky(light.sky()))))
             } else {
                 None
             },
@@ -151,8 +157,8 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn sunlit(&self, bins: &Bins, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Sunlit> {
-        let fold = self.setting.fold();
-        let [even, odd] = self.setting.light()?.even_and_odd(fold);
+        let FoldSetting { fold, light, .. } = self.setting;
+        let [even, odd] = light.even_and_odd(fold);
         let angle_deg = fold.angle_deg();
         let ideal = self.bent(BentFold::ideal(angle_deg), sun, view)?;
         let change = |sizes: &[f64], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
@@ -162,8 +168,8 @@ impl<'a> PhotographedFold<'a> {
         let flat = BentFold::ideal(angle_deg);
         let part = (ANGLE_MOST * angle_deg.min(180.0 - angle_deg) / ANGLES_DEG[3]).min(1.0);
         Ok(Sunlit {
-            even: bins.pool(&self.exact(ModeLight::Sun([even, even]))?),
-            odd: bins.pool(&self.exact(ModeLight::Sun([odd, -odd]))?),
+            even: bins.pool(&self.exact(ModeLight::Sun([even, even]))),
+            odd: bins.pool(&self.exact(ModeLight::Sun([odd, -odd]))),
             angle_deg: change(&ANGLES_DEG.map(|size| part * size), &|more| {
                 BentFold::ideal(angle_deg + more)
             })?,
@@ -174,16 +180,16 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn bent(&self, bent: BentFold, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Array2<f64>> {
-        BentExchange::new(&bent, self.setting.fold(), view).facet_radiance(sun, &self.nodes)
+        BentExchange::new(&bent, &self.setting.fold, view).facet_radiance(sun, &self.nodes)
     }
 
     /// Radiance of the ideal fold: facet by node.
-    fn exact(&self, light: ModeLight) -> Result<Array2<f64>> {
-        let response = self.setting.response()?;
+    fn exact(&self, light: ModeLight) -> Array2<f64> {
+        let response = &self.setting.response;
         let facets = response.facets();
-        Ok(Array2::from_shape_fn((2 * facets, self.nodes.len()), |(facet, node)| {
+        Array2::from_shape_fn((2 * facets, self.nodes.len()), |(facet, node)| {
             let albedo = self.nodes[node];
             albedo * response.irradiance(facet / facets, facet % facets, light, [albedo, albedo])
-        }))
+        })
     }
 }

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::forward::{FacetModel, OpenLight};
 use crate::geometry::{LightSource, Shape};
 use crate::kernel::surface::lit::LitSurface;
-use crate::stream::{Material, Scene};
+use crate::stream::{Material, Optics, Scene};
 
 /// A surface that is not a fold, under its sources, before a camera.
 pub struct SurfaceSetting<'a> {
@@ -49,7 +49,7 @@ impl<'a> SurfaceSetting<'a> {
     pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
         let sources = self.sources()?;
         let responses = self.lamp_responses(&sources)?;
-        let sky = sky_response(self.scene, &responses[0])?;
+        let sky = sky_response(&self.scene.optics()?, &responses[0])?;
         let mut of_lamps = responses.iter().cycle();
         let of = |source: &LightSource| if source.is_sky() { Some(&sky) } else { of_lamps.next() };
         Ok(sources.iter().filter_map(of).cloned().collect())
@@ -57,8 +57,9 @@ impl<'a> SurfaceSetting<'a> {
 
     /// One response for all sources, or one for each that is no sky.
     fn lamp_responses(&self, sources: &[LightSource]) -> Result<Vec<CameraResponse>> {
-        let illuminants = self.scene.illuminants()?;
-        let pictures = illuminant_responses(self.scene)?;
+        let optics = self.scene.optics()?;
+        let Optics { grid, camera, illuminants, .. } = &optics;
+        let pictures = illuminant_responses(&optics)?;
         let lamps = lamps(sources);
         if lamps <= 1 {
             return Ok(vec![CameraResponse::of_pictures(pictures)]);
@@ -71,10 +72,9 @@ impl<'a> SurfaceSetting<'a> {
             return Err(Error::field("illuminants", problem));
         }
         // Powers are relative: in which amounts the sources light the surface is said of the first one's strongest channel.
-        let (grid, camera) = (self.scene.grid()?, self.scene.camera()?);
         let others = illuminants[1..]
             .iter()
-            .map(|illuminant| pictures[0].to_other_light(&grid, &camera.sensitivities, &illuminant.power));
+            .map(|illuminant| pictures[0].to_other_light(grid, &camera.sensitivities, &illuminant.power));
         std::iter::once(Ok(pictures[0].clone())).chain(others).collect()
     }
 

@@ -62,7 +62,7 @@ pub use npy::{ArrayStack, write_matrix};
 pub use npy_reader::{read_matrix, read_rows, read_square};
 pub use optics::{CameraRecord, Optics, SpectrumRecord, StandInRecord};
 pub use outline::{FieldOutline, RecordOutline, outline};
-pub use photograph::{Framing, ImageRecord, Making};
+pub use photograph::ImageRecord;
 pub use pipe::{Transform, pipe};
 pub use plan::{NewPlan, plan};
 pub use rawtoaces::{camera, illuminant, reflectances, specs};

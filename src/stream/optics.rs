@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::LARGEST;
 use crate::error::{Error, Result};
-use crate::spectrum::WavelengthGrid;
+use crate::spectrum::{Interpolation, Outside, Sensitivities, Spectrum, WavelengthGrid};
 
 /// A named spectrum on the scene's wavelengths.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
@@ -64,7 +64,53 @@ pub struct Optics {
     pub sky: Option<SpectrumRecord>,
 }
 
+impl Optics {
+    /// Spectra on the wavelengths of a `grid`. A camera sees nothing where it was not measured.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if a light does not cover the wavelengths.
+    pub fn new(
+        grid: WavelengthGrid,
+        camera: &Sensitivities,
+        illuminants: &[Spectrum],
+        sky: Option<&Spectrum>,
+    ) -> Result<Self> {
+        let name = |interpolation: Interpolation| interpolation.name().to_owned();
+        let light = |spectrum: &Spectrum| {
+            let power = spectrum.on(&grid, Outside::Refuse)?;
+            let interpolation = spectrum.interpolation(&grid).map(name);
+            Ok(SpectrumRecord { name: spectrum.name().to_owned(), power, interpolation })
+        };
+        let channels = || camera.channels.iter();
+        Ok(Self {
+            camera: CameraRecord {
+                name: camera.name.clone(),
+                channels: channels().map(|channel| channel.name().to_owned()).collect(),
+                sensitivities: channels().map(|one| one.on(&grid, Outside::Zero)).collect::<Result<_>>()?,
+                interpolation: channels().find_map(|channel| channel.interpolation(&grid)).map(name),
+                stands_in: None,
+            },
+            illuminants: illuminants.iter().map(light).collect::<Result<_>>()?,
+            sky: sky.map(light).transpose()?,
+            grid,
+        })
+    }
+}
+
 impl Scene {
+    /// What looks at the surface and in which light.
+    ///
+    /// # Errors
+    /// As [`Scene::camera`] and [`Scene::illuminants`].
+    pub fn optics(&self) -> Result<Optics> {
+        Ok(Optics {
+            grid: self.grid()?,
+            camera: self.camera()?,
+            illuminants: self.illuminants()?,
+            sky: self.sky_illuminant()?,
+        })
+    }
+
     /// The wavelengths of the scene.
     ///
     /// # Errors

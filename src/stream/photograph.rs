@@ -9,7 +9,9 @@ use super::Sample;
 use super::colours;
 use super::development::DevelopmentRecord;
 use crate::error::Result;
-use crate::image::{FacetMeasurement, FileStamp, Grid, PhotographInfo, Processing, Refinement};
+use crate::image::{
+    FacetMeasurement, FileStamp, Framing, Grid, Making, PhotographInfo, Point, Processing, Refinement,
+};
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -246,38 +248,12 @@ fn is_false(value: &bool) -> bool {
     !value
 }
 
-/// Where the panels are in a photograph.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Framing {
-    /// Four corners of each panel: crease end 0, crease end 1, outer end 1, outer end 0, [x, y] each, px.
-    pub panels: [Option<[[f64; 2]; 4]>; 2],
-    /// Width and height of the picture, px.
-    pub size: [u32; 2],
-}
-
 /// What is read of the record of a photograph.
 #[derive(Deserialize)]
 struct FramingRecord {
     width: u32,
     height: u32,
     panels: Vec<Option<[[f64; 2]; 4]>>,
-}
-
-/// How a photograph was made, as its record says.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Making {
-    /// Whether it was developed for the eye, it seems, and nothing of that was undone.
-    pub is_developed: bool,
-    /// What was done to its numbers, if their noise shows it.
-    pub processing: Option<Processing>,
-    /// Sides of the panels along which no edge of the sheet lies, in words.
-    pub open_sides: Vec<String>,
-    /// How far its darkest numbers are above black, white being 1, if they are alike in all channels: black was not subtracted, it seems.
-    pub unsubtracted_black: Option<f64>,
-    /// Maker and model of the camera, both empty where the photograph does not say so.
-    pub taken_by: (String, String),
-    /// Size and time of its file.
-    pub file: Option<FileStamp>,
 }
 
 /// What is read of how a photograph was made.
@@ -342,7 +318,9 @@ impl Sample {
         let record: Option<FramingRecord> = self.fields.get("image")?;
         Ok(record.and_then(|FramingRecord { width, height, panels }| {
             let panels = <[_; 2]>::try_from(panels).ok()?;
-            Some(Framing { panels, size: [width, height] })
+            let corners = |panel: [[f64; 2]; 4]| panel.map(|[x, y]| Point::new(x, y));
+            let panels = panels.map(|panel| panel.map(corners));
+            Some(Framing { panels, size: [width, height].map(f64::from) })
         }))
     }
 

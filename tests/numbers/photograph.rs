@@ -9,7 +9,7 @@ use vfold::estimate::photograph::model::{Hypothesis, PhotographModel};
 use vfold::estimate::photograph::parts::Eye;
 use vfold::estimate::photograph::{Parts, Told};
 use vfold::estimate::prior::Prior;
-use vfold::scene::{FoldSetting, PhotographedFold};
+use vfold::scene::{FoldSetting, PhotographedFold, Picture};
 use vfold::solve::posterior::Model;
 use vfold::stream::{Reader, Record};
 
@@ -22,7 +22,8 @@ fn derivatives_are_those_of_the_residuals() {
     let setting = FoldSetting::of(scene).unwrap();
     let [rgb, sd] = [sample.facet_rgb().unwrap(), sample.facet_sd().unwrap().unwrap()];
     let fold = PhotographedFold::of(&setting);
-    let parts = fold.parts(sample, &Measured { rgb: &rgb, sd: &sd }, None).unwrap().unwrap();
+    let measured = Measured { rgb: &rgb, sd: &sd };
+    let parts = fold.parts(&Picture::of(sample, &measured, None).unwrap()).unwrap().unwrap();
     assert!(parts.told.daylight.is_some(), "sky and ground shine, too");
     // what is not known of curves of so few samples
     let curve = |channel: usize| parts.eye.sensitivities.column(channel).into_owned();

@@ -16,7 +16,7 @@ use vfold::estimate::photograph;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::image::Point;
-use vfold::scene::{FoldSetting, PhotographedFold, Setting};
+use vfold::scene::{FoldSetting, PhotographedFold, Picture, Setting};
 use vfold::spectrum::{WavelengthGrid, illuminant};
 use vfold::stream::{Reader, Record, Sample, Scene};
 use vfold::transport::eye_before;
@@ -157,7 +157,8 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let setting = FoldSetting::of(&scene).unwrap();
     let [rgb, sd] = [sample.facet_rgb().unwrap(), sample.facet_sd().unwrap().unwrap()];
     let fold = PhotographedFold::of(&setting).leaving_out(known);
-    let parts = fold.parts(&sample, &Measured { rgb: &rgb, sd: &sd }, exposure).unwrap().unwrap();
+    let measured = Measured { rgb: &rgb, sd: &sd };
+    let parts = fold.parts(&Picture::of(&sample, &measured, exposure).unwrap()).unwrap().unwrap();
     let grid = scene.grid().unwrap();
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
     let estimate = photograph::estimate(&[parts], &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
@@ -190,7 +191,7 @@ fn materials_facets_do_not_tell_all_that_an_instrument_says() {
             let corners = sidecar[name].as_array().unwrap().iter().map(numbers);
             corners.map(|at| Point::new(at[0], at[1])).collect::<Vec<_>>().try_into().unwrap()
         };
-        let eye = eye_before(setting.fold(), &[panel("panel0"), panel("panel1")]).unwrap();
+        let eye = eye_before(&setting.fold, &[panel("panel0"), panel("panel1")]).unwrap();
         let folded = setting.folded_sheet(shape.clone(), eye.position.coords, None).unwrap();
         let model = Setting::of(&scene).unwrap().model().unwrap();
         let measured = sample.facet_rgb().unwrap();

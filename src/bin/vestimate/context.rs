@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use vfold::Result;
+use vfold::estimate::measurement::Inference;
 use vfold::estimate::prior::Prior;
+use vfold::estimate::taking::Stated;
 use vfold::estimate::unknowns::{SceneModel, Unknown};
-use vfold::scene::Setting;
-use vfold::spectrum::{WavelengthGrid, have_one_peak};
+use vfold::scene::{FoldSetting, Setting, stated};
+use vfold::spectrum::WavelengthGrid;
 use vfold::stream::Scene;
 
 use super::flat::FlatContext;
@@ -20,10 +22,10 @@ pub struct Context {
     pub method: SceneMethod,
     /// The reflectance to set out from, if one was given.
     pub start: Option<Vec<f64>>,
-    /// The scene's record, if it is that of a fold.
-    pub record: Option<Scene>,
-    /// What no facet shows, in words.
-    pub untold: String,
+    /// The scene's fold, if it is one.
+    pub fold: Option<Box<FoldSetting>>,
+    /// Light and camera.
+    pub stated: Stated,
 }
 
 /// The method on the wavelengths of a scene.
@@ -42,28 +44,30 @@ impl Context {
         start: Option<Vec<f64>>,
         fit: &[&'static Unknown],
     ) -> Result<Self> {
-        let record = scene.fold_if_one()?.map(|_| scene.clone());
+        let setting = Setting::of(scene)?;
         Ok(Self {
             grid: scene.grid()?,
-            told: Setting::of(scene)?.model_to_fit(fit)?,
+            told: setting.model_to_fit(fit)?,
             method,
             start,
-            record,
-            untold: untold(scene)?,
+            fold: match setting {
+                Setting::Fold(fold) => Some(fold),
+                Setting::Surface(_) => None,
+            },
+            stated: stated(&scene.optics()?, scene.is_daylight_assumed()?),
         })
     }
-}
 
-/// Light and camera as the scene has them: no facet shows that they are others.
-fn untold(scene: &Scene) -> Result<String> {
-    let lights = scene.illuminants()?;
-    let names: Vec<_> = lights.iter().map(|light| light.name.as_str()).collect();
-    let whose = if scene.is_daylight_assumed()? { ", which nobody told," } else { "" };
-    let camera = scene.camera()?;
-    let scaled = if have_one_peak(camera.sensitivities.iter().map(Vec::as_slice)) {
-        ", whose channels are each scaled to the same peak,"
-    } else {
-        ""
-    };
-    Ok(format!("the light {}{whose} and the camera {}{scaled}", names.join(", "), camera.name))
+    /// How its samples are estimated under a prior, `is_auto` if what is fitted is up to the photograph.
+    pub fn inference<'a>(&'a self, prior: &'a Prior, is_auto: bool) -> Inference<'a> {
+        Inference {
+            model: &self.told,
+            wavelengths_nm: self.grid.wavelengths_nm(),
+            prior,
+            start: self.start.as_deref(),
+            is_auto,
+            stated: &self.stated,
+            panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
+        }
+    }
 }

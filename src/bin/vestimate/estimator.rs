@@ -6,33 +6,27 @@ use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
+use vfold::estimate::measurement::{Facets, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
+use vfold::estimate::photograph::Unmodelled;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
-use vfold::estimate::verdict::{Doubt, Verdict};
-use vfold::estimate::{Estimate, Exposure, MISFIT, classes, map, smooth};
+use vfold::estimate::verdict::{Verdict, refuse_unexplained};
+use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
 use vfold::forward::FacetValues;
-use vfold::scene::Setting;
+use vfold::scene::{Setting, photographed};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::context::{Context, SceneMethod};
-use super::doubts::doubts_of_taking;
 use super::flat::FlatEstimator;
-use super::photographed::Given;
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
 /// Least change that counts to the paper's estimator, white being 1.
 const SMOOTH_CUTOFF: f64 = 1e-8;
-/// Least change that counts, in standard deviations.
-pub const CUTOFF: f64 = 1e-2;
-
-/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
-const UNEXPLAINED: f64 = 0.3;
-
 /// Weight of smoothness if none is given.
 const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
 
@@ -134,27 +128,33 @@ impl Transform for Estimator<'_> {
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
-        let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
-        let exposure = self.exposure_of(sample)?;
-        let mut doubts = Vec::new();
-        let (estimate, how) = match &context.method {
+        let (rgb, noise, exposure) = (sample.facet_rgb()?, self.noise(sample)?, self.exposure_of(sample)?);
+        let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let exposure = if sample.is_photograph() { exposure.of_photograph() } else { exposure };
                 let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
-                let measured = Measured { rgb: &rgb, sd: &deviations.sd };
-                let data = FacetData::new(&context.told, &measured, exposure, CUTOFF)?;
+                let measured = &Measured { rgb: &rgb, sd: &deviations.sd };
+                let is_photograph = sample.is_photograph();
+                let inference = context.inference(prior, self.is_auto());
+                let data = inference.data(measured, exposure, is_photograph)?;
+                let photograph = || photographed(context.fold.as_deref(), sample, measured, exposure);
+                let photograph = is_photograph.then(photograph).transpose()?;
+                let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
+                let Measurement { estimate, verdict, unmodelled } = inference.measure(&facets, &data)?;
+                unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
-                let given = Given { measured: &measured, exposure, data: &data };
-                (self.by_prior(context, sample, &given, prior, &mut doubts)?, how)
+                (estimate, Some(verdict), how)
             }
-            SceneMethod::Smooth(smoothness) => self.smooth(context, &rgb, &noise, exposure, *smoothness)?,
+            SceneMethod::Smooth(smoothness) => {
+                let (estimate, how) = self.smooth(context, &rgb, &noise, exposure, *smoothness)?;
+                (estimate, None, how)
+            }
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
                 let sheet = FlatSheet::new(context.told.facets(), &measured, exposure)?;
-                (flat.estimate(&sheet)?, flat.to_string())
+                (flat.estimate(&sheet)?, None, flat.to_string())
             }
         };
-        self.finish(context, sample, estimate, &how, (doubts, &[]))
+        self.finish(context, sample, (&estimate, verdict.as_ref()), &how, &[])
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -194,8 +194,9 @@ impl<'a> Estimator<'a> {
         exposure: Exposure,
     ) -> Result<Estimate> {
         let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
-        let data = FacetData::new(&context.told, &Measured { rgb, sd: &sd }, exposure, CUTOFF)?;
-        Ok(map::estimate(&data, self.prior_of(context)?, context.start.as_deref()))
+        let inference = context.inference(self.prior_of(context)?, self.is_auto());
+        let data = inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
+        Ok(map::estimate(&data, inference.prior, inference.start))
     }
 
     /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow each other on the same
@@ -251,69 +252,63 @@ impl<'a> Estimator<'a> {
         Ok(self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known)))
     }
 
-    /// Adds an estimate that was made `how`, with what speaks against it, and all ids of `joined` if there were several; records of the
+    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were several; records of the
     /// iterations, if they are asked for.
     fn finish(
         &self,
         context: &Context,
         sample: &mut Sample,
-        estimate: Estimate,
+        (estimate, verdict): (&Estimate, Option<&Verdict>),
         how: &str,
-        (mut doubts, joined): (Vec<Doubt>, &[String]),
+        joined: &[String],
     ) -> Result<Vec<Fields>> {
-        let (rgb, noise) = (sample.facet_rgb()?, self.noise(sample)?);
-        let is_photographed = sample.is_photograph() && matches!(context.method, SceneMethod::Map(_));
-        let estimate = &if is_photographed {
-            doubts.extend(self.doubts_of_facets(context, sample, (&rgb, &noise), &estimate)?);
-            let mut estimate = estimate.in_stated_light(context.grid.wavelengths_nm());
-            estimate.findings.retain(|finding| !finding.is_unusual);
-            estimate
-        } else {
-            estimate
-        };
+        let noise = self.noise(sample)?;
         if self.args.common.verbose {
             let (id, exposure) = (sample.id(), self.exposure_of(sample)?);
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(estimate, exposure)));
         }
-        refuse_unexplained(context, &rgb, &noise, estimate)?;
+        // methods that weigh no facets know their noise all the same
+        let rms = || Ok(Deviations::of(&noise, context.told.facets(), &sample.facet_rgb()?)?.rms());
+        refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
             SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
         };
-        let verdict = match context.method {
-            SceneMethod::Map(_) => Some(Verdict::of(estimate, doubts, &context.untold)),
-            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => None,
-        };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
-        let is_weighed = match context.method {
-            SceneMethod::Map(_) => true,
-            SceneMethod::Smooth(_) | SceneMethod::Flat(_) => false,
-        };
         sample.set_estimate(&NewEstimate {
             method,
             prior,
             wavelengths_nm: context.grid.wavelengths_nm(),
             estimate,
-            noise: is_weighed.then_some(&noise),
+            noise: verdict.map(|_| &noise),
             joined,
-            verdict: verdict.as_ref(),
+            verdict,
             with_covariance,
         })?;
         if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
     }
 
-    /// Adds what a photograph's share of an estimate from several is, all `ids` being theirs.
+    /// Adds a photograph's share of an estimate from several, all `ids` being theirs.
     pub fn joined(
         &self,
         context: &Context,
         sample: &mut Sample,
-        estimate: &Estimate,
+        Measurement { estimate, verdict, .. }: &Measurement,
         ids: &[String],
     ) -> Result<Vec<Fields>> {
         let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        let doubts =
-            context.record.as_ref().map_or(Ok(Vec::new()), |record| doubts_of_taking(record, sample))?;
-        self.finish(context, sample, estimate.clone(), &how, (doubts, ids))
+        self.finish(context, sample, (estimate, Some(verdict)), &how, ids)
+    }
+
+    /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.
+    fn say_unmodelled(&self, sample: &Sample, ideal: &Estimate, why: Unmodelled) {
+        if !self.args.common.quiet {
+            let (id, misfit) = (sample.id(), ideal.residual_rms);
+            let text = format!(
+                "{id}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what that changes is not estimated; expect errors beyond the bars"
+            );
+            cli::say("vestimate", &text);
+        }
     }
 
     /// The paper's objective weighs all facets alike, white being 1; and how it was made.
@@ -350,32 +345,6 @@ impl<'a> Estimator<'a> {
         };
         sample.noise(sd, self.args.model_error)
     }
-}
-
-/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
-fn refuse_unexplained(
-    context: &Context,
-    rgb: &FacetValues,
-    noise: &Noise,
-    estimate: &Estimate,
-) -> Result<()> {
-    if estimate.unexplained <= UNEXPLAINED {
-        return Ok(());
-    }
-    let noise = match context.method {
-        SceneMethod::Map(_) => 1.0,
-        SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
-            Deviations::of(noise, context.told.facets(), rgb)?.rms()
-        }
-    };
-    if estimate.residual_rms <= MISFIT * noise {
-        return Ok(());
-    }
-    let problem = format!(
-        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
-        100.0 * estimate.unexplained
-    );
-    Err(Error::field("facet_rgb", problem))
 }
 
 /// The same standard deviation for every facet, white being 1.

@@ -4,18 +4,18 @@ use std::cell::RefCell;
 use std::str::FromStr;
 
 use vfold::estimate::Exposure;
-use vfold::estimate::photograph::error::ModelError;
-use vfold::estimate::photograph::{self, Parts};
+use vfold::estimate::measured::Measured;
+use vfold::estimate::measurement::{Facets, Photographed, of_one_sheet};
+use vfold::estimate::photograph::Parts;
 use vfold::files::composed;
+use vfold::forward::FacetValues;
+use vfold::scene::photographed;
 use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Together, pipe_together};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::context::Context;
 use super::estimator::Estimator;
-
-/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused.
-const LN_SEVERAL: f64 = 5.0;
 
 /// How records name their sheet.
 #[derive(Clone, Debug)]
@@ -124,33 +124,53 @@ pub fn check_wavelengths(one: &Context, other: &Context) -> Result<()> {
     Err(Error::field("wavelengths_nm", problem))
 }
 
+/// Facets, how far each may be off, and the photograph in which they were measured.
+type Taken = (FacetValues, FacetValues, Photographed);
+
+/// A photograph that is estimated with others: what it is made of, and the rest of it.
+type Picture = (Parts, Taken);
+
+impl Estimator<'_> {
+    /// A photograph that is estimated with others.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the sample is no photograph of a fold.
+    fn picture(&self, context: &Context, sample: &Sample) -> Result<Picture> {
+        let alone = |why: String| {
+            let problem = format!("{}: {why}; only photographs of folds are estimated together", sample.id());
+            Error::field("id", problem)
+        };
+        let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is no fold".to_owned()))?;
+        let rgb = sample.facet_rgb()?;
+        let sd = self.noise(sample)?.deviations(context.told.facets(), &rgb)?;
+        let measured = Measured { rgb: &rgb, sd: &sd };
+        let mut photograph = photographed(Some(fold), sample, &measured, self.exposure_of(sample)?)?;
+        match photograph.parts.take() {
+            Some(Ok(parts)) => Ok((parts, (rgb, sd, photograph))),
+            Some(Err(why)) => Err(alone(why.to_string())),
+            None => Err(alone("its exposure is by sums".to_owned())),
+        }
+    }
+}
+
 impl Together for Estimator<'_> {
     fn samples(&self, members: &mut [Member<Context>]) -> Result<Vec<Vec<Fields>>> {
-        let photographs = members.iter().map(|one| self.photograph(&one.context, &one.sample));
-        let photographs: Vec<Parts> = photographs.collect::<Result<_>>()?;
-        let (first, rest) =
-            members.split_first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
-        rest.iter().try_for_each(|other| check_wavelengths(&first.context, &other.context))?;
-        let prior = self.prior_of(&first.context)?;
-        let together = photograph::estimate_usual(&photographs, prior, ModelError::OF_PHOTOGRAPHS)?;
-        let mut apart = 0.0;
-        for one in &photographs {
-            apart +=
-                photograph::estimate_usual(std::slice::from_ref(one), prior, ModelError::OF_PHOTOGRAPHS)?
-                    .ln_evidence;
-        }
+        let pictures: Vec<Picture> =
+            members.iter().map(|one| self.picture(&one.context, &one.sample)).collect::<Result<_>>()?;
+        let first = &members.first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?.context;
+        members.iter().try_for_each(|other| check_wavelengths(first, &other.context))?;
         let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
-        let more = apart - together.ln_evidence;
-        if more > LN_SEVERAL {
-            let problem = format!(
-                "{} are not photographs of one sheet: facets are e^{more:.0} times likelier as those of several; join those of one",
-                ids.join(", ")
-            );
-            return Err(Error::field("id", problem));
-        }
-        let estimates = members.iter_mut().zip(&together.photographs);
-        let joined = |(one, estimate): (&mut Member<Context>, _)| {
-            self.joined(&one.context, &mut one.sample, estimate, &ids)
+        let (parts, pictures): (Vec<Parts>, Vec<_>) = pictures.into_iter().unzip();
+        let sheet = of_one_sheet(&parts, &ids, self.prior_of(first)?)?;
+        let estimates = members.iter_mut().zip(pictures).zip(sheet.photographs);
+        let joined = |((one, (rgb, sd, photograph)), estimate): ((&mut Member<Context>, Taken), _)| {
+            let facets = Facets {
+                measured: &Measured { rgb: &rgb, sd: &sd },
+                exposure: self.exposure_of(&one.sample)?,
+                photograph: Some(&photograph),
+            };
+            let inference = one.context.inference(self.prior_of(&one.context)?, self.is_auto());
+            self.joined(&one.context, &mut one.sample, &inference.share(&facets, estimate), &ids)
         };
         estimates.map(joined).collect()
     }

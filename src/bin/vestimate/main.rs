@@ -1,12 +1,10 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
 mod context;
-mod doubts;
 mod drawing;
 mod estimator;
 mod flat;
 mod join;
-mod photographed;
 mod plan;
 mod said;
 mod settings;

@@ -120,7 +120,7 @@ impl PlanArgs {
         });
         let facets: Vec<FacetValues> = facets.collect::<Result<_>>()?;
         let angle_deg = match &setting {
-            Setting::Fold(fold) => Some(fold.fold().angle_deg()),
+            Setting::Fold(fold) => Some(fold.fold.angle_deg()),
             Setting::Surface(_) => None,
         };
         let exposure = estimator.exposure_or(Exposure::Free);

@@ -8,7 +8,6 @@ mod chart_camera;
 mod light;
 mod list;
 mod numbers;
-mod panels;
 mod pictures;
 mod placing;
 mod reading;

@@ -3,9 +3,8 @@
 use clap::Args;
 use vfold::cli;
 use vfold::image::{Grid, Lens, Photograph, Refinement, refine};
+use vfold::scene::MarkedPanels;
 use vfold::{Error, Result};
-
-use super::panels::MarkedPanels;
 
 #[derive(Args)]
 pub struct PlacingArgs {

@@ -8,14 +8,13 @@ use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
-    FacetMeasurement, FlatField, Grid, Homography, Photograph, measure, open_sides, pixels_sharing_noise,
-    processing, with_rounding,
+    FacetMeasurement, FlatField, Grid, MeasuredPanels, Photograph, measure_panels, open_sides,
 };
+use vfold::scene::MarkedPanels;
 use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::calibration::{GivenCalibration, apply};
-use super::panels::MarkedPanels;
 use super::pictures::name;
 use super::placing;
 use super::reading::Reading;
@@ -46,17 +45,11 @@ impl Setup<'_> {
         self.check_colours(path, &photograph)?;
         let args = self.args;
         let regions = self.regions.of(path, &photograph)?;
-        let panels = MarkedPanels::new(&self.panels, &regions)?;
+        let panels = MarkedPanels::new(&self.panels, &regions.panels)?;
         let placed = args.placing.place(&photograph, &panels)?;
         let margin = args.regions.margin;
-        let outlines: Vec<Homography> = placed.grids.iter().map(|grid| grid.outline.clone()).collect();
-        let sharing_noise = pixels_sharing_noise(&photograph, &outlines);
-        let measured = measure(&photograph, &placed.grids, margin)?;
-        let processing = processing(&photograph, &outlines, &measured);
-        let with_errors = |facet: FacetMeasurement| {
-            with_rounding(facet.with_shared_noise(&sharing_noise), photograph.info())
-        };
-        let mut measured: Vec<_> = measured.into_iter().map(with_errors).collect();
+        let MeasuredPanels { facets: mut measured, pixels_sharing_noise, processing } =
+            measure_panels(&photograph, &placed.grids, margin)?;
         if let Some(sight) = &self.sight {
             let hidden = panels.hidden(sight, &placed.grids, placed.lens);
             let of_hidden = measured.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden);
@@ -79,7 +72,7 @@ impl Setup<'_> {
             apply(calibration, &mut facets);
             sample.set_calibration(record)?;
         }
-        let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &sharing_noise)
+        let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &pixels_sharing_noise)
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
             .with_placing(placed.distortion, placed.refinement.as_ref());

@@ -23,7 +23,7 @@ impl<'a> Nonuniform<'a> {
     /// That of the scene, which may be of a kernel that is given.
     pub fn of(setting: &Setting, given: Option<&'a GivenKernel>) -> Result<Self> {
         let surface = match setting {
-            Setting::Fold(fold) => return Ok(Self::Fold(form_factors(fold.fold()), fold.lighting()?)),
+            Setting::Fold(fold) => return Ok(Self::Fold(form_factors(&fold.fold), fold.lighting()?)),
             Setting::Surface(surface) => surface,
         };
         let cameras = surface.source_responses()?.into_iter();

@@ -41,9 +41,9 @@ impl Setup<'_> {
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
         let render = &self.args.render;
-        let view = FoldView::new(fold.fold(), &render.viewpoint(), render.frame()?)?;
+        let view = FoldView::new(&fold.fold, &render.viewpoint(), render.frame()?)?;
         let lighting = if for_screen {
-            Lighting { light: fold.light()?, sun: eye.clone(), sky: eye }
+            Lighting { light: fold.light, sun: eye.clone(), sky: eye }
         } else {
             fold.lighting()?
         };

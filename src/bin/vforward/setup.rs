@@ -43,7 +43,7 @@ impl<'a> Setup<'a> {
         let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
         let sheet = args.sheet.shape()?.map(|shape| match &setting {
             Setting::Fold(fold) => {
-                let view = FoldView::new(fold.fold(), &args.render.viewpoint(), args.render.frame()?)?;
+                let view = FoldView::new(&fold.fold, &args.render.viewpoint(), args.render.frame()?)?;
                 fold.folded_sheet(shape, view.eye(), None)
             }
             Setting::Surface(_) => Err(Error::field(

@@ -55,7 +55,7 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
         FoldKernel::check_room(fold)?;
         save(&path, &method.form_factors(fold).0)?;
     }
-    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &FoldSetting::of(&scene)?.facet_light()?))?;
+    args.plot.as_ref().map_or(Ok(()), |path| draw(path, &FoldSetting::of(&scene)?.facet_light()))?;
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;
     }

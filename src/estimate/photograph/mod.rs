@@ -24,8 +24,10 @@ mod prediction;
 pub mod search;
 pub mod sheets;
 mod sums;
+mod unmodelled;
 
 pub use conditions::{Conditions, Told};
 pub use findings::Finding;
 pub use parts::Parts;
 pub use search::{SheetEstimate, estimate, estimate_usual};
+pub use unmodelled::Unmodelled;

@@ -25,3 +25,11 @@ pub struct CameraNotes {
     /// What was wrong but did no harm.
     pub notes: Vec<String>,
 }
+
+impl CameraNotes {
+    /// Maker and model, empty where they are not said.
+    #[must_use]
+    pub fn called(&self) -> (String, String) {
+        (self.make.clone().unwrap_or_default(), self.model.clone().unwrap_or_default())
+    }
+}

@@ -2,6 +2,7 @@
 
 mod corners;
 mod distortion;
+mod framing;
 mod grid;
 mod homography;
 mod pixel_area;
@@ -11,6 +12,7 @@ mod pose;
 pub(in crate::image) use corners::is_inside;
 pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
 pub use distortion::Lens;
+pub use framing::Framing;
 pub use grid::Grid;
 pub use homography::Homography;
 pub(in crate::image) use pixel_area::{Quadrilateral, Sides, sense};

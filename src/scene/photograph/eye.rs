@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::Result;
 use crate::estimate::photograph::conditions::{Daylight, MOST_MIRED};
 use crate::estimate::photograph::parts::Eye;
-use crate::scene::FoldSetting;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
+use crate::stream::Optics;
 
 /// Two laboratories that measure the same model of a camera differ by that share of the highest point of a curve, and over that many
 /// nanometres alike.
@@ -22,18 +22,16 @@ const DAYLIGHT: f64 = 0.06;
 const LEAST_MIRED: f64 = 125.0;
 
 /// The camera of a scene.
-pub fn of(setting: &FoldSetting) -> Result<Eye> {
-    let scene = setting.scene();
-    let (grid, camera) = (scene.grid()?, scene.camera()?);
+pub fn of(Optics { grid, camera, illuminants, sky }: &Optics) -> Result<Eye> {
     let wavelengths_nm = grid.wavelengths_nm().to_vec();
     let bands = wavelengths_nm.len();
     let widths = grid.trapezoid_weights_nm();
     let sensitivities = DMatrix::from_fn(bands, camera.sensitivities.len(), |band, channel| {
         camera.sensitivities[channel][band] * widths[band]
     });
-    let sun = DVector::from_column_slice(&scene.illuminants()?[0].power);
-    let sky = scene.sky_illuminant()?.map_or_else(|| sun.clone(), |sky| DVector::from_vec(sky.power));
-    let daylight = vectors(&grid)?;
+    let sun = DVector::from_column_slice(&illuminants[0].power);
+    let sky = sky.as_ref().map_or_else(|| sun.clone(), |sky| DVector::from_column_slice(&sky.power));
+    let daylight = vectors(grid)?;
     let white = sensitivities.tr_mul(&sun);
     // a camera that stands in for another is off by what such cameras were measured to be
     let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));

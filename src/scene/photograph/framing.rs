@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::error::Result;
 use crate::geometry::Fold;
-use crate::image::{Homography, Point};
-use crate::stream::Framing;
+use crate::image::{Framing, Homography, Point};
 use crate::transport::eye_before;
 
 /// A camera before a fold, as the corners of the panels tell it.
@@ -26,10 +25,10 @@ impl Pose {
     /// [`crate::Error::Corners`] if the corners are not those of panels.
     pub fn of(framing: &Framing, fold: &Fold) -> Result<Option<Self>> {
         let [Some(panel0), Some(panel1)] = framing.panels else { return Ok(None) };
-        let panels = [panel0, panel1].map(|corners| corners.map(|[x, y]| Point::new(x, y)));
+        let panels = [panel0, panel1];
         let Some(eye) = eye_before(fold, &panels) else { return Ok(None) };
         let outlines = [Homography::from_unit_square(panels[0])?, Homography::from_unit_square(panels[1])?];
-        let [width, height] = framing.size.map(f64::from);
+        let [width, height] = framing.size;
         Ok(Some(Self {
             eye: eye.position.coords,
             up: upwards(fold, &panels, eye.position.coords),

@@ -6,7 +6,7 @@ use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{Parts, estimate};
 use vfold::estimate::prior::Prior;
-use vfold::scene::{FoldSetting, PhotographedFold};
+use vfold::scene::{FoldSetting, PhotographedFold, Picture};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, reflectances};
 use vfold::stream::{Record, Sample, Scene};
 
@@ -40,7 +40,7 @@ fn parts(scene: &Scene, sample: &Sample) -> Result<Option<(Parts, WavelengthGrid
     let rgb = sample.facet_rgb()?;
     let sd = sample.facet_sd()?.unwrap_or_else(|| deviations(&rgb, |_| 1e-3, 0.0));
     let measured = Measured { rgb: &rgb, sd: &sd };
-    let parts = PhotographedFold::of(&setting).parts(sample, &measured, sample.exposure()?)?;
+    let parts = PhotographedFold::of(&setting).parts(&Picture::of(sample, &measured, sample.exposure()?)?)?;
     Ok(parts.ok().zip(Some(scene.grid()?)))
 }
 

@@ -2,30 +2,32 @@
 
 use std::collections::BTreeMap;
 
-use vfold::geometry::sight::Sight;
-use vfold::geometry::{Panel, joints};
-use vfold::image::{FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, camera_position};
-use vfold::stream::Regions;
-use vfold::{Error, Result};
+use crate::error::{Error, Result};
+use crate::geometry::sight::Sight;
+use crate::geometry::{Panel, joints};
+use crate::image::{FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, camera_position};
 
 /// Panels as the scene has them and as they were marked.
 pub struct MarkedPanels<'a> {
-    pub panels: Vec<&'a Panel>,
+    panels: Vec<&'a Panel>,
+    /// As they were marked, in the order of their numbers.
     pub marked: Vec<Marked>,
 }
 
 impl<'a> MarkedPanels<'a> {
+    /// The panels of a scene whose corners are `marked`, by the panels' numbers.
+    ///
     /// # Errors
     /// [`Error::Usage`] if no panel is marked, one that the scene does not have, or two in the same place.
-    pub fn new(scene: &'a BTreeMap<usize, Panel>, regions: &Regions) -> Result<Self> {
-        if regions.panels.is_empty() {
+    pub fn new(scene: &'a BTreeMap<usize, Panel>, marked: &BTreeMap<usize, [Point; 4]>) -> Result<Self> {
+        if marked.is_empty() {
             let problem = "there is no panel in it, such as 'panel0'";
             return Err(Error::usage("--regions", problem, "add it or give --panel0"));
         }
         let of_scene = |number: &usize| scene.get(number).ok_or_else(|| unknown(*number, scene));
-        let panels: Vec<&Panel> = regions.panels.keys().map(of_scene).collect::<Result<_>>()?;
+        let panels: Vec<&Panel> = marked.keys().map(of_scene).collect::<Result<_>>()?;
         let joints = joints(panels.iter().copied());
-        let marked = regions.panels.iter().zip(joints);
+        let marked = marked.iter().zip(joints);
         let marked: Vec<_> = marked
             .map(|((panel, corners), joints)| Marked { panel: *panel, corners: *corners, joints })
             .collect();
@@ -38,11 +40,7 @@ impl<'a> MarkedPanels<'a> {
     ///
     /// # Errors
     /// As [`Homography::through`].
-    pub fn grids(
-        &self,
-        lens: Lens,
-        corners: impl IntoIterator<Item = vfold::stream::Corners>,
-    ) -> Result<Vec<Grid>> {
+    pub fn grids(&self, lens: Lens, corners: impl IntoIterator<Item = [Point; 4]>) -> Result<Vec<Grid>> {
         let grid = |((panel, marked), corners): ((&&Panel, &Marked), _)| {
             let outline = Homography::through(lens, corners)?;
             Ok(Grid::of_panel(marked.panel, outline, &panel.row_edges, &panel.col_edges))
@@ -52,6 +50,7 @@ impl<'a> MarkedPanels<'a> {
 
     /// Whether each facet of the panels is hidden, row by row, by what stands before it: seen from where the camera stood for the panels to lie as
     /// the `grids`. Panels of one plane do not tell where that was, and hide nothing.
+    #[must_use]
     pub fn hidden(&self, sight: &Sight, grids: &[Grid], lens: Lens) -> Vec<bool> {
         let corners = |(panel, grid): (&&Panel, &Grid)| {
             let seen = grid.outline.corners().map(|corner| lens.undistort(corner));
@@ -67,6 +66,7 @@ impl<'a> MarkedPanels<'a> {
     }
 
     /// The measured facets where the scene has them among its `count`; those of other panels are not seen.
+    #[must_use]
     pub fn in_scene(&self, measured: Vec<FacetMeasurement>, count: usize) -> Vec<FacetMeasurement> {
         let mut facets = vec![FacetMeasurement::unseen(); count];
         let places = self.panels.iter().flat_map(|panel| panel.facets.clone());

@@ -1,0 +1,206 @@
+//! The estimate of a sheet under a prior, as `vestimate` makes it: which method its facets ask for, and how far what comes of it can be
+//! believed.
+//!
+//! Computed facets are those of an ideal fold. A photograph is taken for one of a real sheet, unless somebody said what is to be fitted, or the
+//! scene is one in which real sheets are not modelled.
+
+use std::slice;
+
+use super::data::FacetData;
+use super::measured::Measured;
+use super::photograph::error::ModelError;
+use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
+use super::prior::Prior;
+use super::shading::Shading;
+use super::taking::{Stated, doubts_of_taking};
+use super::unknowns::{SceneModel, Unknown};
+use super::verdict::{
+    Doubt, EXPLAINED, Verdict, beyond_chance, other_angle, other_exposure, unusual_exposure, unusual_findings,
+};
+use super::{Estimate, Exposure, map};
+use crate::error::{Error, Result};
+use crate::geometry::FacetGrid;
+use crate::image::Making;
+
+/// Least change of facets that counts, in standard deviations.
+pub const CUTOFF: f64 = 1e-2;
+
+/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused.
+const LN_SEVERAL: f64 = 5.0;
+
+/// A scene, and what is known of the sheets in it.
+#[derive(Clone, Copy)]
+pub struct Inference<'a> {
+    /// The scene as it was stated, with what is to be fitted in it.
+    pub model: &'a SceneModel,
+    /// Its wavelengths, nm.
+    pub wavelengths_nm: &'a [f64],
+    /// What is known of reflectances beforehand.
+    pub prior: &'a Prior,
+    /// The reflectance to set out from, if one is given: one number per wavelength.
+    pub start: Option<&'a [f64]>,
+    /// Whether what is fitted of a photograph is up to it.
+    pub is_auto: bool,
+    /// Light and camera as they were stated.
+    pub stated: &'a Stated,
+    /// The facets of a panel, if the surface is a fold.
+    pub panel: Option<FacetGrid>,
+}
+
+/// A photograph, beside the values of its facets.
+#[derive(Clone, Debug)]
+pub struct Photographed {
+    /// How it was made.
+    pub making: Making,
+    /// Whether a chart or a card in it calibrated its numbers.
+    pub by_chart: bool,
+    /// What its facets are made of, or why real sheets are not modelled there; none if it is taken for one of an ideal fold.
+    pub parts: Option<std::result::Result<Parts, Unmodelled>>,
+}
+
+/// The facets of a sheet, as they were measured or computed.
+#[derive(Clone, Copy)]
+pub struct Facets<'a> {
+    /// Values, and how far each may be off.
+    pub measured: &'a Measured<'a>,
+    /// How the exposure enters.
+    pub exposure: Exposure,
+    /// The photograph; none of facets that were computed.
+    pub photograph: Option<&'a Photographed>,
+}
+
+/// A spectrum, and what is thought of it.
+#[derive(Clone, Debug)]
+pub struct Measurement {
+    /// The spectrum, with what was found along with it.
+    pub estimate: Estimate,
+    /// How far it can be believed.
+    pub verdict: Verdict,
+    /// Why a photograph that an ideal fold does not explain was taken for one all the same: its error bars lack what that changes.
+    pub unmodelled: Option<Unmodelled>,
+}
+
+impl<'a> Inference<'a> {
+    /// The facets of a sheet as data of the scene.
+    ///
+    /// # Errors
+    /// As [`FacetData::new`].
+    pub fn data(
+        &self,
+        measured: &Measured,
+        exposure: Exposure,
+        is_photograph: bool,
+    ) -> Result<FacetData<'a>> {
+        let exposure = if is_photograph { exposure.of_photograph() } else { exposure };
+        FacetData::new(self.model, measured, exposure, CUTOFF)
+    }
+
+    /// The spectrum of a sheet, by the method that its facets ask for, and how far it can be believed.
+    ///
+    /// # Arguments
+    /// - `data`: the same facets, as [`Inference::data`] has them.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the facets are not finite.
+    pub fn measure(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
+        let ideal = || map::estimate(data, self.prior, self.start);
+        let Some(photograph) = facets.photograph else {
+            let estimate = ideal();
+            let doubts = beyond_chance(&estimate, data.size().1).into_iter().collect();
+            return Ok(self.judged(facets, estimate, doubts));
+        };
+        let mut doubts = self.doubts_of_taking(photograph);
+        let parts = match &photograph.parts {
+            Some(Ok(parts)) => parts,
+            Some(Err(why)) if self.is_auto => {
+                let estimate = ideal();
+                let unmodelled = (estimate.residual_rms >= EXPLAINED).then_some(*why);
+                return Ok(Measurement { unmodelled, ..self.judged(facets, estimate, doubts) });
+            }
+            Some(Err(_)) | None => return Ok(self.judged(facets, ideal(), doubts)),
+        };
+        let mut real = photograph::estimate(slice::from_ref(parts), self.prior, ModelError::OF_PHOTOGRAPHS)?;
+        let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
+        if !photograph.by_chart {
+            doubts.extend(other_exposure(facets.exposure, &real));
+        }
+        if self.is_auto {
+            return Ok(self.judged(facets, real, doubts));
+        }
+        doubts.extend(other_angle(&real, parts.told.angle_deg));
+        let estimate = Estimate { without_bounces: real.without_bounces, ..ideal() };
+        Ok(self.judged(facets, estimate, doubts))
+    }
+
+    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how far it can be believed.
+    #[must_use]
+    pub fn share(&self, facets: &Facets, estimate: Estimate) -> Measurement {
+        let doubts = facets.photograph.map(|photograph| self.doubts_of_taking(photograph));
+        self.judged(facets, estimate, doubts.unwrap_or_default())
+    }
+
+    /// What speaks against an estimate from how the photograph was taken; of other surfaces than a fold nothing is asked.
+    fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
+        self.panel.map_or_else(Vec::new, |_| doubts_of_taking(self.stated, &photograph.making))
+    }
+
+    /// An estimate with the verdict on it, `doubts` being known already.
+    fn judged(&self, facets: &Facets, mut estimate: Estimate, mut doubts: Vec<Doubt>) -> Measurement {
+        if let Some(photograph) = facets.photograph {
+            doubts.extend(self.doubts_of_facets(facets, photograph, &estimate));
+            estimate = estimate.in_stated_light(self.wavelengths_nm);
+            estimate.findings.retain(|finding| !finding.is_unusual);
+        }
+        let verdict = Verdict::of(&estimate, doubts, &self.stated.to_string());
+        Measurement { estimate, verdict, unmodelled: None }
+    }
+
+    /// What the facets of a photograph show to speak against its estimate.
+    fn doubts_of_facets(
+        &self,
+        facets: &Facets,
+        photograph: &Photographed,
+        estimate: &Estimate,
+    ) -> Vec<Doubt> {
+        let Measured { rgb, sd } = facets.measured;
+        let mut doubts = unusual_findings(estimate);
+        if let Some(panel) = self.panel {
+            let found = |unknown: &Unknown| {
+                let one = estimate.fitted.iter().find(|one| one.unknown == unknown);
+                one.map(|one| one.value)
+            };
+            let ideal = self.model.with_found(found).facet_rgb(&estimate.reflectance);
+            let shading = Shading::new(panel, rgb, sd, &ideal);
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts()));
+        }
+        if !photograph.by_chart {
+            doubts.extend(unusual_exposure(estimate, facets.exposure.known()));
+        }
+        doubts
+    }
+}
+
+/// The estimate from photographs of one sheet.
+///
+/// # Arguments
+/// - `photographs`: what each is made of, at least one; `names`: what each is called, for errors.
+///
+/// # Errors
+/// [`Error::Field`] if they are those of several sheets, [`Error::Numeric`] if facets are not finite.
+pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> Result<SheetEstimate> {
+    let estimate = |all: &[Parts]| photograph::estimate_usual(all, prior, ModelError::OF_PHOTOGRAPHS);
+    let together = estimate(photographs)?;
+    let mut apart = 0.0;
+    for one in photographs {
+        apart += estimate(slice::from_ref(one))?.ln_evidence;
+    }
+    let more = apart - together.ln_evidence;
+    if more > LN_SEVERAL {
+        let problem = format!(
+            "{} are not photographs of one sheet: facets are e^{more:.0} times likelier as those of several; join those of one",
+            names.join(", ")
+        );
+        return Err(Error::field("id", problem));
+    }
+    Ok(together)
+}

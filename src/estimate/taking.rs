@@ -1,0 +1,127 @@
+//! What was stated of light and camera, and what speaks against it in how a photograph was taken.
+
+use std::fmt;
+
+use super::verdict::{Doubt, Level};
+use crate::image::{Making, Processing};
+use crate::spectrum::is_other_camera;
+use crate::spectrum::library::{What, is_built_in};
+
+/// Light and camera as they were stated: no facet shows that they are others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stated {
+    /// Names of the lights.
+    pub lights: Vec<String>,
+    /// Whether daylight was assumed, as nobody stated a light.
+    pub is_daylight_assumed: bool,
+    /// Name of the camera.
+    pub camera: String,
+    /// The camera that took the picture, if nobody measured its curves and another's stand in for them.
+    pub stands_in_for: Option<String>,
+    /// Whether all channels have the same peak, as curves have that are scaled one by one.
+    pub has_one_peak: bool,
+}
+
+impl fmt::Display for Stated {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let whose = if self.is_daylight_assumed { ", which nobody told," } else { "" };
+        let scaled =
+            if self.has_one_peak { ", whose channels are each scaled to the same peak," } else { "" };
+        write!(f, "the light {}{whose} and the camera {}{scaled}", self.lights.join(", "), self.camera)
+    }
+}
+
+/// What speaks against an estimate from how the photograph was taken.
+#[must_use]
+pub fn doubts_of_taking(stated: &Stated, making: &Making) -> Vec<Doubt> {
+    let all = [
+        developed(making),
+        processed(making),
+        black(making),
+        open_sides(making),
+        scaled(stated),
+        stand_in(stated),
+        another_camera(stated, making),
+    ];
+    all.into_iter().flatten().collect()
+}
+
+fn developed(making: &Making) -> Option<Doubt> {
+    making.is_developed.then(|| Doubt {
+        level: Level::Wrong,
+        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
+            .to_owned(),
+        remedy:
+            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
+                .to_owned(),
+    })
+}
+
+fn processed(making: &Making) -> Option<Doubt> {
+    let because = |processing| match processing {
+        Processing::Curve => {
+            "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's"
+        }
+        Processing::Matrix => {
+            "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files"
+        }
+    };
+    making.processing.map(|processing| Doubt {
+        level: Level::Wrong,
+        because: because(processing).to_owned(),
+        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
+    })
+}
+
+fn black(making: &Making) -> Option<Doubt> {
+    making.unsubtracted_black.map(|part| {
+        let percent = 100.0 * part;
+        Doubt::new(
+            format!("the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"),
+            "give vextract --black-level auto, or the camera's black level",
+        )
+    })
+}
+
+fn open_sides(making: &Making) -> Option<Doubt> {
+    let sides = making.open_sides.join(", ");
+    (!sides.is_empty()).then(|| {
+        Doubt::new(
+            format!("no edge of the sheet lies along {sides}: it goes on beyond the corners, or does not reach them"),
+            "mark the corners of the whole panels, as vextract --overlay shows them",
+        )
+    })
+}
+
+/// Curves scaled one by one have lost what one channel's light is of another's. Of built-in cameras that were published so (docs/spectra.md) the
+/// verdict says it without a doubt: the paper, and samples simulated by them, take them as they are.
+fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
+    (*has_one_peak && !is_built_in(What::Cameras, camera)).then(|| {
+        Doubt::new(
+            format!("all channels of the camera {camera} have the same peak: scaled one by one, they have lost their ratios"),
+            "give curves on one scale, or make them of a photograph of a colour chart (vextract --save-camera)",
+        )
+    })
+}
+
+fn stand_in(stated: &Stated) -> Option<Doubt> {
+    stated.stands_in_for.as_ref().map(|unmeasured| {
+        Doubt::new(
+            format!("nobody measured the curves of {unmeasured}: another camera's stand in for them"),
+            "make them of a photograph of a colour chart (vextract --save-camera)",
+        )
+    })
+}
+
+/// A camera that EXIF says is another than the one that was stated.
+fn another_camera(stated: &Stated, making: &Making) -> Option<Doubt> {
+    let (make, model) = &making.taken_by;
+    let is_other = stated.stands_in_for.is_none() && is_other_camera(&stated.camera, make, model);
+    is_other.then(|| {
+        let took = format!("{make} {model}");
+        Doubt::new(
+            format!("EXIF says that {} took the picture, not {}", took.trim(), stated.camera),
+            "give the camera that took it (vextract --camera)",
+        )
+    })
+}

@@ -1,0 +1,47 @@
+//! What the records of scene and sample say that decides how a spectrum is estimated.
+
+use super::{FoldSetting, PhotographedFold, Picture};
+use crate::error::Result;
+use crate::estimate::Exposure;
+use crate::estimate::measured::Measured;
+use crate::estimate::measurement::Photographed;
+use crate::estimate::taking::Stated;
+use crate::image::Making;
+use crate::spectrum::have_one_peak;
+use crate::stream::{Optics, Sample};
+
+/// Light and camera as they were stated; of daylight that nobody stated `is_daylight_assumed`.
+#[must_use]
+pub fn stated(Optics { camera, illuminants, .. }: &Optics, is_daylight_assumed: bool) -> Stated {
+    Stated {
+        lights: illuminants.iter().map(|light| light.name.clone()).collect(),
+        is_daylight_assumed,
+        camera: camera.name.clone(),
+        stands_in_for: camera.stands_in.as_ref().map(|one| one.camera.clone()),
+        has_one_peak: have_one_peak(camera.sensitivities.iter().map(Vec::as_slice)),
+    }
+}
+
+/// The photograph in which the facets of a sample were measured; of other surfaces than a `fold` nothing is asked.
+///
+/// # Errors
+/// [`crate::Error::Field`] if facets or corners do not fit the scene, or the record of the photograph is not one.
+pub fn photographed(
+    fold: Option<&FoldSetting>,
+    sample: &Sample,
+    measured: &Measured,
+    exposure: Exposure,
+) -> Result<Photographed> {
+    let by_chart = sample.fields.has("calibration");
+    let Some(fold) = fold else {
+        return Ok(Photographed { making: Making::default(), by_chart, parts: None });
+    };
+    let making = sample.making()?;
+    // estimates by sums are those of ideal folds
+    let parts = if exposure == Exposure::Sum {
+        None
+    } else {
+        Some(PhotographedFold::of(fold).parts(&Picture::of(sample, measured, exposure.known())?)?)
+    };
+    Ok(Photographed { making, by_chart, parts })
+}
