@@ -24,8 +24,8 @@ use crate::message::printable;
 pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
-use crate::spectrum::WavelengthGrid;
 use crate::spectrum::library::{What, list};
+use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid};
 use crate::stream::{Failures, Optics, Output};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
@@ -249,9 +249,6 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
     numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| "write X,Y,Z, three numbers".to_owned())
 }
 
-/// What lights a fold if nothing is said.
-const DAYLIGHT: &str = "D65";
-
 /// Camera, illuminants and wavelengths: what looks at a fold.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
@@ -312,7 +309,7 @@ impl OpticsArgs {
     /// [`Error::Usage`] if there are several; `why` one is all that the tool takes.
     pub fn one_illuminant(&self, why: &str) -> Result<&str> {
         match self.illuminant.as_slice() {
-            [] => Ok(DAYLIGHT),
+            [] => Ok(ASSUMED_LIGHT),
             [one] => Ok(one),
             several => Err(Error::usage("--illuminant", format!("{} are given", several.len()), why)),
         }
@@ -327,7 +324,7 @@ impl OpticsArgs {
         let camera = common.camera(camera)?;
         let light = |spec: &String| common.illuminant(spec);
         let illuminants: Vec<_> = match self.illuminant.as_slice() {
-            [] => vec![common.illuminant(DAYLIGHT)?],
+            [] => vec![common.illuminant(ASSUMED_LIGHT)?],
             given => given.iter().map(light).collect::<Result<_>>()?,
         };
         let sky = self.sky()?.as_ref().map(light).transpose()?;

@@ -31,6 +31,7 @@
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message, room
+//! measure              -> scene, stream, estimate, kernel, geometry, camera, spectrum, image
 //! scene                -> stream, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
@@ -64,6 +65,7 @@ pub mod geometry;
 pub mod image;
 pub mod kernel;
 pub mod markup;
+pub mod measure;
 pub mod message;
 pub mod parallel;
 pub mod plot;

@@ -72,6 +72,8 @@ pub struct Facets<'a> {
 /// A spectrum, and what is thought of it.
 #[derive(Clone, Debug)]
 pub struct Measurement {
+    /// Wavelengths of the spectrum, nm.
+    pub wavelengths_nm: Vec<f64>,
     /// The spectrum, with what was found along with it.
     pub estimate: Estimate,
     /// How far it can be believed.
@@ -152,7 +154,7 @@ impl<'a> Inference<'a> {
             estimate.findings.retain(|finding| !finding.is_unusual);
         }
         let verdict = Verdict::of(&estimate, doubts, &self.stated.to_string());
-        Measurement { estimate, verdict, unmodelled: None }
+        Measurement { wavelengths_nm: self.wavelengths_nm.to_vec(), estimate, verdict, unmodelled: None }
     }
 
     /// What the facets of a photograph show to speak against its estimate.

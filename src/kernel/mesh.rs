@@ -11,6 +11,9 @@ use crate::kernel::method::Method;
 use crate::kernel::refinement::{Refined, refine};
 use crate::response::Response;
 
+/// Relative error of facet means that is below what a camera sees.
+pub const TOLERANCE: f64 = 1e-5;
+
 /// The mesh on which the bounces of light are solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mesh {

@@ -77,7 +77,11 @@ impl FoldSetting {
         Ok(self.optics()?.illuminants.len())
     }
 
-    pub(super) fn model(&self) -> Result<FacetModel> {
+    /// The model of facet RGB.
+    ///
+    /// # Errors
+    /// As [`FoldSetting::lighting`].
+    pub fn model(&self) -> Result<FacetModel> {
         Ok(self.model_with(&self.response, &self.lighting()?))
     }
 

@@ -36,6 +36,9 @@ use grid::check_rising;
 use interpolation::sprague;
 use std::sync::Arc;
 
+/// The illuminant of a fold or photograph of which nobody stated one.
+pub const ASSUMED_LIGHT: &str = "D65";
+
 /// A quantity tabulated over wavelength, with an [`Interpolation`] between its samples.
 ///
 /// Reflectance: 0..1. Illuminant: relative power. Sensitivity: relative, 0 or more.

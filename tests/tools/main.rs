@@ -23,6 +23,7 @@ mod levels;
 mod measure;
 mod no_fold;
 mod not_modelled;
+mod one_call;
 mod photographs;
 mod picker;
 mod picture_files;

@@ -139,7 +139,7 @@ impl Transform for Estimator<'_> {
                 let photograph = || photographed(context.fold.as_deref(), sample, measured, exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
-                let Measurement { estimate, verdict, unmodelled } = inference.measure(&facets, &data)?;
+                let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
                 let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
                 (estimate, Some(verdict), how)

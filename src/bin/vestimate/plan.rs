@@ -10,7 +10,7 @@ use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::{Estimate, Exposure};
 use vfold::forward::FacetValues;
 use vfold::scene::{ExpectedError, FoldSetting, PhotographedFold, Setting};
-use vfold::spectrum::{Outside, WavelengthGrid};
+use vfold::spectrum::{ASSUMED_LIGHT, Outside, WavelengthGrid};
 use vfold::stream::{Fields, NewPlan, Output, Reader, Record, Scene, Transform, plan};
 use vfold::{Error, Result};
 
@@ -97,7 +97,7 @@ impl PlanArgs {
             }
             return Ok(());
         }
-        let daylight = vec!["D65".to_owned()];
+        let daylight = vec![ASSUMED_LIGHT.to_owned()];
         let optics = OpticsArgs {
             illuminant: if self.illuminant.is_empty() { daylight } else { self.illuminant.clone() },
             sky_illuminant: self.sky_illuminant.clone(),

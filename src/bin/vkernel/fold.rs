@@ -5,7 +5,7 @@ use std::path::Path;
 use vfold::cli;
 use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
 use vfold::kernel::check::check;
-use vfold::kernel::mesh::{Accuracy, Mesh, respond_by};
+use vfold::kernel::mesh::{Accuracy, Mesh, TOLERANCE, respond_by};
 use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
 use vfold::kernel::skipped::skipped;
 use vfold::kernel::{FoldKernel, Method, exact};
@@ -16,8 +16,6 @@ use vfold::{Error, Result};
 
 use super::{Args, MethodName, SamplingName, SpacingName, say_work};
 
-/// Relative error of facet means: below what a camera sees.
-const TOLERANCE: f64 = 1e-5;
 /// Facet means that may be this far off are no answer.
 const USELESS: f64 = 0.05;
 /// Up to this angle light bounces more often between undivided panels than Lanczos' method follows, whatever their sides: facet means would be

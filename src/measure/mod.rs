@@ -1,0 +1,179 @@
+//! From one photograph to the spectrum of its sheet in one call, by what the tools do if no flag says otherwise.
+
+mod camera;
+mod light;
+
+use std::collections::BTreeMap;
+
+pub use camera::{Camera, camera_of};
+pub use light::sun_of;
+
+use crate::error::{Error, Result};
+use crate::estimate::Exposure;
+use crate::estimate::measured::Measured;
+use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
+use crate::estimate::noise::{Noise, NoiseSource};
+use crate::estimate::prior::Prior;
+use crate::estimate::unknowns::SceneModel;
+use crate::estimate::verdict::refuse_unexplained;
+use crate::forward::FacetValues;
+use crate::geometry::{FacetGrid, Fold, Light};
+use crate::image::{
+    FacetMeasurement, Framing, Lens, Making, MeasuredPanels, Photograph, Point, measure_panels, open_sides,
+};
+use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
+use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, stated};
+use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid};
+use crate::stream::{self, Optics};
+
+/// A photographed fold, and what is known of it.
+#[derive(Clone, Debug)]
+pub struct Setup<'a> {
+    /// The fold and its facets.
+    pub fold: Fold,
+    /// Where the sun stands, and how much sky there is.
+    pub light: Light,
+    /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1, outer end 1, outer end 0.
+    pub corners: [[Point; 4]; 2],
+    /// Wavelengths of the spectrum.
+    pub wavelengths: WavelengthGrid,
+    /// Built-in name or file of the camera; none: the one that the photograph names, or one that stands in for it.
+    pub camera: Option<&'a str>,
+    /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; none: the sun of the photograph's place and time if it says
+    /// them, else daylight that is assumed.
+    pub illuminant: Option<&'a str>,
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel, if it is known.
+    pub exposure: Option<f64>,
+}
+
+impl Setup<'_> {
+    /// A fold of square panels open by `angle_deg`, degrees, with 10 x 10 facets each, the sun on the plane that halves it, and all else
+    /// unknown; the spectrum from 400 to 700 nm by 5.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is no such fold.
+    pub fn new(angle_deg: f64, corners: [[Point; 4]; 2]) -> Result<Self> {
+        let fold = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
+        Ok(Self {
+            fold,
+            light: Light::new(&fold, 0.0, 0.0, 0.0)?,
+            corners,
+            wavelengths: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
+            camera: None,
+            illuminant: None,
+            exposure: None,
+        })
+    }
+
+    /// The fold in its light before the camera that took the photograph.
+    fn setting(&self, photograph: &Photograph) -> Result<FoldSetting> {
+        let info = photograph.info();
+        let camera = match self.camera {
+            Some(named) => Camera { spec: named.to_owned(), stands_in: None, said: None },
+            None => camera_of(info)?,
+        };
+        let sun = || sun_of(&info.camera.taken).ok().map(|(spec, _)| spec);
+        let light = self.illuminant.map(str::to_owned).or_else(sun);
+        let illuminant = stream::illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
+        let curves = stream::camera(&camera.spec)?;
+        let mut optics = Optics::new(self.wavelengths.clone(), &curves, &[illuminant], None)?;
+        optics.camera.stands_in = camera.stands_in;
+        Ok(FoldSetting {
+            fold: self.fold,
+            light: self.light,
+            response: respond(&self.fold, Mesh::Auto, TOLERANCE)?.0,
+            optics: Some(optics),
+            is_daylight_assumed: light.is_none(),
+            card: None,
+            tolerance: Some(TOLERANCE),
+        })
+    }
+}
+
+/// Measures the spectrum of a folded sheet in a photograph: what `vkernel`, `vextract` and `vestimate` make of it by default.
+///
+/// # Arguments
+/// - `photograph`: linear light, opened from a file ([`Photograph::open`]) or [at hand](Photograph::from_light).
+/// - `setup`: where the panels are in it, and what is known of fold, light and camera.
+///
+/// # Returns
+/// Of every wavelength the 45:0 reflectance, from 0 to 1, with its standard deviation; the exposure; what was found that sets the photograph
+/// apart from that of an ideal fold; and how far all that can be believed. See [`Measurement`].
+///
+/// # Errors
+/// [`Error::Usage`] if the photograph names no camera and none is given, or corners are not those of the fold's panels; [`Error::Corners`] if
+/// they lie outside the picture; [`Error::Spectrum`] if camera or light are not known; [`Error::Field`] if no facet can be used, or they are
+/// nothing like those of a fold.
+///
+/// # Example
+/// ```
+/// use vfold::estimate::verdict::Level;
+/// use vfold::image::{Photograph, Point, ReadOptions};
+/// use vfold::measure::{Setup, sheet};
+///
+/// let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
+/// let photograph = Photograph::open(file.as_ref(), &ReadOptions::default())?;
+/// let panel0 = [(332.1, 462.5), (345.3, 77.1), (121.9, 11.9), (103.9, 442.2)].map(|(x, y)| Point::new(x, y));
+/// let panel1 = [(332.1, 462.5), (345.3, 77.1), (484.9, 16.7), (472.0, 453.4)].map(|(x, y)| Point::new(x, y));
+/// let known = Setup { camera: Some("canon-5d-mark-ii"), illuminant: Some("D65"), ..Setup::new(50.0, [panel0, panel1])? };
+///
+/// let measured = sheet(&photograph, &known)?;
+/// assert_eq!(measured.verdict.level, Level::Good);
+/// let (reflectance, sd) = (&measured.estimate.reflectance, measured.estimate.reflectance_sd().unwrap());
+/// let at = measured.wavelengths_nm.iter().position(|nm| *nm == 600.0).unwrap();
+/// assert!((reflectance[at] - 0.279).abs() < 2.0 * sd[at]); // the magenta patch of a ColorChecker
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
+    let fold = setup.setting(photograph)?;
+    let panels: BTreeMap<_, _> = fold.fold.panels().into_iter().enumerate().collect();
+    let marked: BTreeMap<_, _> = setup.corners.into_iter().enumerate().collect();
+    let panels = MarkedPanels::new(&panels, &marked)?.grids(Lens::STRAIGHT, setup.corners)?;
+    let MeasuredPanels { facets, processing, .. } = measure_panels(photograph, &panels, 0.0)?;
+    let rgb = values(&facets, |facet| facet.mean.clone())?;
+    let noise = Noise {
+        source: NoiseSource::OfFacets(values(&facets, |facet| facet.standard_error.clone())?),
+        model_error: Noise::model_error(true),
+    };
+    let model = SceneModel::known(fold.model()?);
+    let sd = noise.deviations(model.facets(), &rgb)?;
+    let measured = &Measured { rgb: &rgb, sd: &sd };
+    let picture = Picture {
+        measured,
+        framing: Some(Framing {
+            panels: setup.corners.map(Some),
+            size: [photograph.width(), photograph.height()].map(|px| px as f64),
+        }),
+        exposure: setup.exposure,
+        by_chart: false,
+    };
+    let taken = Photographed {
+        making: Making::of(photograph.info(), processing, open_sides(photograph, &panels)),
+        by_chart: false,
+        parts: Some(PhotographedFold::of(&fold).parts(&picture)?),
+    };
+    let inference = Inference {
+        model: &model,
+        wavelengths_nm: setup.wavelengths.wavelengths_nm(),
+        prior: &Prior::built_in(setup.wavelengths.wavelengths_nm())?,
+        start: None,
+        is_auto: true,
+        stated: &stated(fold.optics()?, fold.is_daylight_assumed),
+        panel: Some(fold.fold.facets()),
+    };
+    let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);
+    let data = inference.data(measured, exposure, true)?;
+    let facets = Facets { measured, exposure, photograph: Some(&taken) };
+    let measurement = inference.measure(&facets, &data)?;
+    refuse_unexplained(&measurement.estimate, || Ok(1.0))?;
+    Ok(measurement)
+}
+
+/// What was measured of facets, as values of facets.
+fn values(
+    facets: &[FacetMeasurement],
+    pick: fn(&FacetMeasurement) -> Option<Vec<f64>>,
+) -> Result<FacetValues> {
+    FacetValues::of_rows(&facets.iter().map(pick).collect::<Vec<_>>())
+        .ok_or_else(|| Error::Numeric("facets have different numbers of channels".to_owned()))
+}
