@@ -8,7 +8,7 @@ use crate::plot::batch::Batch;
 use crate::plot::sheet::Sheet;
 use crate::scene::sheet;
 use crate::score::{Score, Summary, Worst};
-use crate::stream::{Sample, Scene, Scenes};
+use crate::stream::{EstimateRecord, Sample, Scene, Scenes};
 
 /// Most failures that are listed.
 const FAILURES_MAX: usize = 24;
@@ -84,8 +84,11 @@ impl Gallery {
     /// # Errors
     /// As [`crate::scene::sheet`].
     pub fn sheets(&self, view: &View) -> Result<Vec<Sheet>> {
-        let sheets = self.in_order().map(|shown| shown.sheet(view));
-        sheets.filter_map(Result::transpose).collect()
+        let sheet = |shown: &Shown| {
+            let estimate = shown.sample.estimate()?;
+            estimate.map(|estimate| shown.sheet(&estimate, view)).transpose()
+        };
+        self.in_order().filter_map(|shown| sheet(shown).transpose()).collect()
     }
 
     /// The scores of all, and the worst ten by the first score.
@@ -108,9 +111,9 @@ impl Gallery {
 }
 
 impl Shown {
-    /// What can be drawn of it; none without an estimate.
-    pub(super) fn sheet(&self, view: &View) -> Result<Option<Sheet>> {
-        sheet(&self.sample, &self.scene, view.illuminant, view.observer)
+    /// What can be drawn of its estimate.
+    pub(super) fn sheet(&self, estimate: &EstimateRecord, view: &View) -> Result<Sheet> {
+        sheet((&self.sample, estimate), &self.scene, view.illuminant, view.observer)
     }
 }
 

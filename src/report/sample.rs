@@ -20,7 +20,7 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     let mut parts = vec![Html::element("h2", &[], sample.id())];
     let estimate = sample.estimate()?;
     parts.extend(estimate.iter().flat_map(judged));
-    let sheet = shown.sheet(view)?;
+    let sheet = estimate.as_ref().map(|estimate| shown.sheet(estimate, view)).transpose()?;
     parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
     parts.extend(overlay::figure(&sample.id(), gallery, view)?);
     parts.extend(table("Scores", sample.fields.leaves("metrics")));

@@ -9,20 +9,20 @@ use crate::plot::sheet::{Residuals, Sheet, SheetColours};
 use crate::plot::surface::FacetLight;
 use crate::response::ModeLight;
 use crate::spectrum::Spectrum;
-use crate::stream::{Sample, Scene, SpectrumRecord};
+use crate::stream::{EstimateRecord, Sample, Scene, SpectrumRecord};
 
-/// What can be drawn of the sample, its colours as under `illuminant` for `observer`; none if it has no estimate. Where the
-/// scene cannot be seen, as one of nothing but a kernel, the spectrum is drawn alone.
+/// What can be drawn of an estimate of the sample, its colours as under `illuminant` for `observer`. Where the scene cannot be seen, as one of
+/// nothing but a kernel, the spectrum is drawn alone.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if the estimate is not a spectrum.
+/// [`crate::Error::Field`] if a part of the scene is missing or does not fit the others.
 pub fn sheet(
-    sample: &Sample,
+    (sample, estimate): (&Sample, &EstimateRecord),
     scene: &Scene,
     illuminant: &Spectrum,
     observer: Observer,
-) -> Result<Option<Sheet>> {
-    let Some(curve) = sample.curve()? else { return Ok(None) };
+) -> Result<Sheet> {
+    let curve = sample.curve(estimate);
     let setting = Setting::of(scene)?;
     let panels: Vec<_> = setting.panels().into_iter().flatten().collect();
     let grid = scene.grid()?;
@@ -34,11 +34,11 @@ pub fn sheet(
         truth: curve.truth.as_ref().filter(|truth| is_on_grid(&truth.1)).map(|truth| meter.srgb(&truth.1)),
         folded: folded(&setting, &meter, &curve.reflectance).unwrap_or_default(),
     });
-    let residuals = residuals(sample, scene).ok().flatten();
+    let residuals = residuals(sample, estimate, scene).ok().flatten();
     let residuals = residuals.map(|facets| -> Result<_> {
         Ok(Residuals { channels: channels_of_pictures(scene, &setting)?, facets: facets.rows() })
     });
-    Ok(Some(Sheet { curve, colours, residuals: residuals.transpose()?, panels }))
+    Ok(Sheet { curve, colours, residuals: residuals.transpose()?, panels })
 }
 
 /// sRGB of the facets as the eye sees them, the brightest number being that of the flat sheet.

@@ -9,22 +9,21 @@ use crate::estimate::unknowns::Unknown;
 use crate::forward::{FacetModel, FacetValues};
 use crate::stream::{EstimateRecord, Sample, Scene};
 
-/// Measured minus estimated facets in units of their standard deviations; none without an estimate.
+/// Measured minus estimated facets in units of their standard deviations; none of a sheet that is not taken to be ideal.
 ///
 /// # Errors
 /// [`Error::Field`] if estimate and facets do not fit the scene.
-pub fn residuals(sample: &Sample, scene: &Scene) -> Result<Option<FacetValues>> {
-    let Some(estimate) = sample.estimate()? else { return Ok(None) };
+pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> Result<Option<FacetValues>> {
     let fit: Vec<_> = estimate.fitted().map(|(unknown, _)| unknown).collect();
     // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it says little.
     if fit.iter().any(|unknown| unknown.is_of_photographs()) {
         return Ok(None);
     }
     let (model, measured) = (Setting::of(scene)?.model_to_fit(&fit)?, sample.facet_rgb()?);
-    let sd = sample.noise_of(&estimate)?.deviations(model.facets(), &measured)?;
+    let sd = sample.noise_of(estimate)?.deviations(model.facets(), &measured)?;
     let found =
         |wanted: &Unknown| estimate.fitted().find(|(unknown, _)| *unknown == wanted).map(|(_, value)| value);
-    let fitted = facets(&estimate, &model.with_found(found))?;
+    let fitted = facets(estimate, &model.with_found(found))?;
     check_shape("facet_rgb", &measured, [fitted.nrows(), fitted.ncols()])?;
     Ok(Some(measured.map(|[facet, channel], value| {
         let sd = sd.get(facet, channel).unwrap_or_default().max(f64::MIN_POSITIVE);

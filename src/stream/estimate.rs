@@ -195,8 +195,8 @@ impl From<&Verdict> for VerdictRecord {
 
 impl fmt::Display for VerdictRecord {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", Level::from(self.level).name(), self.because)?;
-        self.remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
+        let Self { level, because, remedy } = self.clone();
+        Verdict { level: level.into(), because, remedy }.fmt(f)
     }
 }
 
@@ -238,6 +238,17 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
+    /// As a file of spectra has it, under that name.
+    #[must_use]
+    pub fn measured(&self, name: String) -> Measured {
+        Measured {
+            name,
+            wavelengths_nm: self.wavelengths_nm.clone(),
+            reflectance: self.reflectance.clone(),
+            reflectance_sd: self.reflectance_sd.clone(),
+        }
+    }
+
     /// What was fitted along, with its values.
     pub fn fitted(&self) -> impl Iterator<Item = (&'static Unknown, f64)> {
         self.fit.iter().flat_map(Quantities::iter).map(|(unknown, fitted)| (unknown, fitted.value))
@@ -268,11 +279,11 @@ impl EstimateRecord {
 }
 
 impl Sample {
-    /// Adds an estimate.
+    /// Adds an estimate; as the record has it.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
-    pub fn set_estimate(&mut self, new: &NewEstimate) -> Result<()> {
+    pub fn set_estimate(&mut self, new: &NewEstimate) -> Result<EstimateRecord> {
         let NewEstimate { method, prior, wavelengths_nm, estimate, noise, joined, verdict, with_covariance } =
             *new;
         let reflectance_sd = estimate.reflectance_sd();
@@ -285,28 +296,27 @@ impl Sample {
         let rows = |matrix: nalgebra::DMatrix<f64>| {
             matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
         };
-        self.fields.set(
-            "estimate",
-            EstimateRecord {
-                method: method.to_owned(),
-                prior: prior.to_owned(),
-                wavelengths_nm: wavelengths_nm.to_vec(),
-                reflectance: estimate.reflectance.clone(),
-                exposure: Some(estimate.exposure),
-                residual_rms: estimate.residual_rms,
-                iterations: estimate.iterations,
-                termination: Some((&estimate.termination).into()),
-                reflectance_sd,
-                total_reflectance: estimate.total.clone(),
-                fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
-                joined: joined.to_vec(),
-                findings: estimate.findings.iter().map(FindingRecord::from).collect(),
-                verdict: verdict.map(VerdictRecord::from),
-                skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
-                covariance: covariance.map(rows),
-                noise: noise.map(NoiseRecord::of).transpose()?,
-            },
-        )
+        let record = EstimateRecord {
+            method: method.to_owned(),
+            prior: prior.to_owned(),
+            wavelengths_nm: wavelengths_nm.to_vec(),
+            reflectance: estimate.reflectance.clone(),
+            exposure: Some(estimate.exposure),
+            residual_rms: estimate.residual_rms,
+            iterations: estimate.iterations,
+            termination: Some((&estimate.termination).into()),
+            reflectance_sd,
+            total_reflectance: estimate.total.clone(),
+            fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
+            joined: joined.to_vec(),
+            findings: estimate.findings.iter().map(FindingRecord::from).collect(),
+            verdict: verdict.map(VerdictRecord::from),
+            skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
+            covariance: covariance.map(rows),
+            noise: noise.map(NoiseRecord::of).transpose()?,
+        };
+        self.fields.set("estimate", &record)?;
+        Ok(record)
     }
 
     /// What an estimate of this sample took facets to be worth.
@@ -343,30 +353,13 @@ impl Sample {
         is_done && ["id", "scene", "facet_rgb", "facet_sd", "exposure"].iter().all(same)
     }
 
-    /// The estimate as a curve to draw; none if there is none.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
-    pub fn curve(&self) -> Result<Option<Curve>> {
-        let Some(EstimateRecord { wavelengths_nm, reflectance, reflectance_sd, .. }) = self.estimate()?
-        else {
-            return Ok(None);
-        };
+    /// An estimate of this sample as a curve to draw.
+    #[must_use]
+    pub fn curve(&self, estimate: &EstimateRecord) -> Curve {
+        let Measured { name, wavelengths_nm, reflectance, reflectance_sd } = estimate.measured(self.id());
         // vscore judges the truth; what is not a spectrum cannot be drawn.
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
-        Ok(Some(Curve { name: self.id(), wavelengths_nm, reflectance, reflectance_sd, truth }))
-    }
-
-    /// The estimate as a file of spectra has it; none if there is none.
-    ///
-    /// # Errors
-    /// [`Error::Field`] if it is not a spectrum.
-    pub fn measured(&self) -> Result<Option<Measured>> {
-        let Some(EstimateRecord { wavelengths_nm, reflectance, reflectance_sd, .. }) = self.estimate()?
-        else {
-            return Ok(None);
-        };
-        Ok(Some(Measured { name: self.id(), wavelengths_nm, reflectance, reflectance_sd }))
+        Curve { name, wavelengths_nm, reflectance, reflectance_sd, truth }
     }
 }
 

@@ -72,10 +72,11 @@ fn residuals_are_those_of_the_estimator() {
         else {
             unreachable!("a scene and a sample")
         };
-        let residuals = vfold::scene::residuals(&sample, &scene).unwrap().unwrap();
+        let estimate = sample.estimate().unwrap().unwrap();
+        let residuals = vfold::scene::residuals(&sample, &estimate, &scene).unwrap().unwrap();
         let all: Vec<f64> = residuals.measured().collect();
         let rms = (all.iter().map(|value| value * value).sum::<f64>() / all.len() as f64).sqrt();
-        let told = sample.estimate().unwrap().unwrap().residual_rms;
+        let told = estimate.residual_rms;
         assert!((rms - told).abs() < 1e-3 * told, "{card} {fit}: {rms} not {told}");
     }
 }

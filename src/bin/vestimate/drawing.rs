@@ -9,7 +9,7 @@ use vfold::plot::sheet::Sheet;
 use vfold::plot::sheets;
 use vfold::scene::sheet;
 use vfold::spectrum::{Spectrum, illuminant};
-use vfold::stream::{Record, Scene, Scenes};
+use vfold::stream::{EstimateRecord, Record, Scene, Scenes};
 
 /// What is drawn of a stream.
 pub struct Drawing<'a> {
@@ -31,17 +31,18 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    /// Takes a record.
-    pub fn add(&mut self, record: &Record) -> Result<()> {
+    /// Takes a record, with its estimate if it is a sample that has one.
+    pub fn add(&mut self, record: &Record, estimate: Option<&EstimateRecord>) -> Result<()> {
         match record {
             Record::Scene(scene) => self.scenes.enter(scene, scene.clone()),
             Record::Sample(sample) => {
                 self.samples += 1;
                 // of those that have no scene nothing was estimated
-                if let Ok(Some(scene)) = self.scenes.of(sample)
+                if let (Ok(Some(scene)), Some(estimate)) = (self.scenes.of(sample), estimate)
                     && self.sheets.len() < MULTIPLES_MAX
                 {
-                    self.sheets.extend(sheet(sample, scene, &self.daylight, Observer::Cie1964_10deg)?);
+                    let observer = Observer::Cie1964_10deg;
+                    self.sheets.push(sheet((sample, estimate), scene, &self.daylight, observer)?);
                 }
             }
             Record::Other(_) => {}

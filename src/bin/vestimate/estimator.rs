@@ -16,7 +16,7 @@ use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
 use vfold::forward::FacetValues;
 use vfold::scene::{Setting, photographed};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
+use vfold::stream::{EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -36,6 +36,14 @@ enum Method {
     Map(Option<PriorSpectra>),
     Smooth(Smoothness),
     Flat(FlatEstimator),
+}
+
+/// What is made of a sample.
+pub struct Made {
+    /// The estimate as its record has it.
+    pub estimate: EstimateRecord,
+    /// Records of the iterations, if they are asked for.
+    pub trace: Vec<Fields>,
 }
 
 /// Spectra of a prior, and their classes where they are known.
@@ -96,8 +104,7 @@ fn method(args: &Args) -> Result<Method> {
 
 impl Transform for Estimator<'_> {
     type Context = Context;
-    /// Records of the iterations, if they are asked for.
-    type Aside = Vec<Fields>;
+    type Aside = Made;
 
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         let grid = scene.grid()?;
@@ -127,7 +134,7 @@ impl Transform for Estimator<'_> {
         Context::new(scene, method, start, &self.fit)
     }
 
-    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Vec<Fields>> {
+    fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
         let (rgb, noise, exposure) = (sample.facet_rgb()?, self.noise(sample)?, self.exposure_of(sample)?);
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
@@ -252,16 +259,15 @@ impl<'a> Estimator<'a> {
         Ok(self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known)))
     }
 
-    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were several; records of the
-    /// iterations, if they are asked for.
-    fn finish(
+    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were several.
+    pub fn finish(
         &self,
         context: &Context,
         sample: &mut Sample,
         (estimate, verdict): (&Estimate, Option<&Verdict>),
         how: &str,
         joined: &[String],
-    ) -> Result<Vec<Fields>> {
+    ) -> Result<Made> {
         let noise = self.noise(sample)?;
         if self.args.common.verbose {
             let (id, exposure) = (sample.id(), self.exposure_of(sample)?);
@@ -275,7 +281,7 @@ impl<'a> Estimator<'a> {
             SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
         };
         let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
-        sample.set_estimate(&NewEstimate {
+        let record = sample.set_estimate(&NewEstimate {
             method,
             prior,
             wavelengths_nm: context.grid.wavelengths_nm(),
@@ -285,19 +291,8 @@ impl<'a> Estimator<'a> {
             verdict,
             with_covariance,
         })?;
-        if self.args.trace.is_some() { trace(&sample.id(), &estimate.trace) } else { Ok(Vec::new()) }
-    }
-
-    /// Adds a photograph's share of an estimate from several, all `ids` being theirs.
-    pub fn joined(
-        &self,
-        context: &Context,
-        sample: &mut Sample,
-        Measurement { estimate, verdict, .. }: &Measurement,
-        ids: &[String],
-    ) -> Result<Vec<Fields>> {
-        let how = format!("prior {}, with {} photographs of the sheet", self.args.prior(), ids.len());
-        self.finish(context, sample, (estimate, Some(verdict)), &how, ids)
+        let asked = self.args.trace.as_ref().map(|_| trace(&sample.id(), &estimate.trace));
+        Ok(Made { estimate: record, trace: asked.transpose()?.unwrap_or_default() })
     }
 
     /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.

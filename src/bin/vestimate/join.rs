@@ -5,17 +5,17 @@ use std::str::FromStr;
 
 use vfold::estimate::Exposure;
 use vfold::estimate::measured::Measured;
-use vfold::estimate::measurement::{Facets, Photographed, of_one_sheet};
+use vfold::estimate::measurement::{Facets, Measurement, Photographed, of_one_sheet};
 use vfold::estimate::photograph::Parts;
 use vfold::files::composed;
 use vfold::forward::FacetValues;
 use vfold::scene::photographed;
-use vfold::stream::{Fields, Kept, Member, Reader, Record, Sample, Together, pipe_together};
+use vfold::stream::{Kept, Member, Reader, Record, Sample, Together, pipe_together};
 use vfold::{Error, Result};
 
 use super::Args;
 use super::context::Context;
-use super::estimator::Estimator;
+use super::estimator::{Estimator, Made};
 
 /// How records name their sheet.
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ pub fn run(
     reader: &mut Reader,
     estimator: &Estimator,
     kept: Kept,
-    done: impl FnMut(Record, Option<Vec<Fields>>) -> Result<()>,
+    done: impl FnMut(Record, Option<Made>) -> Result<()>,
 ) -> Result<()> {
     let named = RefCell::new(match join {
         Join::Ids(ids) => ids.clone(),
@@ -154,7 +154,7 @@ impl Estimator<'_> {
 }
 
 impl Together for Estimator<'_> {
-    fn samples(&self, members: &mut [Member<Context>]) -> Result<Vec<Vec<Fields>>> {
+    fn samples(&self, members: &mut [Member<Context>]) -> Result<Vec<Made>> {
         let pictures: Vec<Picture> =
             members.iter().map(|one| self.picture(&one.context, &one.sample)).collect::<Result<_>>()?;
         let first = &members.first().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?.context;
@@ -162,6 +162,7 @@ impl Together for Estimator<'_> {
         let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
         let (parts, pictures): (Vec<Parts>, Vec<_>) = pictures.into_iter().unzip();
         let sheet = of_one_sheet(&parts, &ids, self.prior_of(first)?)?;
+        let how = format!("prior {}, with {} photographs of the sheet", self.args().prior(), ids.len());
         let estimates = members.iter_mut().zip(pictures).zip(sheet.photographs);
         let joined = |((one, (rgb, sd, photograph)), estimate): ((&mut Member<Context>, Taken), _)| {
             let facets = Facets {
@@ -170,7 +171,8 @@ impl Together for Estimator<'_> {
                 photograph: Some(&photograph),
             };
             let inference = one.context.inference(self.prior_of(&one.context)?, self.is_auto());
-            self.joined(&one.context, &mut one.sample, &inference.share(&facets, estimate), &ids)
+            let Measurement { estimate, verdict, .. } = inference.share(&facets, estimate);
+            self.finish(&one.context, &mut one.sample, (&estimate, Some(&verdict)), &how, &ids)
         };
         estimates.map(joined).collect()
     }

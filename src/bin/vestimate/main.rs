@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use clap::{ArgGroup, Parser};
 use drawing::Drawing;
-use estimator::Estimator;
+use estimator::{Estimator, Made};
 use flat::{MethodArgs, MethodName};
 use join::Join;
 use plan::PlanArgs;
@@ -26,7 +26,7 @@ use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
 use vfold::estimate::Exposure;
 use vfold::estimate::unknowns::Flag;
 use vfold::spectrum::formats::{check_ending, write};
-use vfold::stream::{Fields, Output, Reader, Record, Sample, pipe};
+use vfold::stream::{EstimateRecord, Output, Reader, Record, pipe};
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
 #[derive(Parser)]
@@ -137,18 +137,27 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut measured = Vec::new();
     let mut traces = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
     let kept = out.kept()?;
-    let done = |record: Record, trace: Option<Vec<Fields>>| {
-        if let Record::Sample(sample) = &record {
-            warn(args, sample, verdicts.is_some())?;
-            verdicts.as_mut().map_or(Ok(()), |verdicts| verdicts.add(sample))?;
+    let done = |record: Record, made: Option<Made>| {
+        let (estimate, trace) = match (made, &record) {
+            (Some(Made { estimate, trace }), _) => (Some(estimate), trace),
+            // as an interrupted run made it
+            (None, Record::Sample(sample)) => (sample.estimate()?, Vec::new()),
+            (None, _) => (None, Vec::new()),
+        };
+        if let (Record::Sample(sample), Some(estimate)) = (&record, &estimate) {
+            let id = sample.id();
+            warn(args, &id, estimate, verdicts.is_some());
+            if let (Some(verdicts), Some(verdict)) = (&mut verdicts, &estimate.verdict) {
+                verdicts.add(&id, verdict);
+            }
             if let Some(file) = &mut traces {
-                trace.iter().flatten().try_for_each(|line| file.fields(line))?;
+                trace.iter().try_for_each(|line| file.fields(line))?;
             }
             if args.spectra.is_some() {
-                measured.extend(sample.measured()?);
+                measured.push(estimate.measured(id));
             }
         }
-        drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record))?;
+        drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record, estimate.as_ref()))?;
         out.record(&record)
     };
     match &args.join {
@@ -163,17 +172,15 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
 
 /// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,
 /// and when they say nothing of what was to be fitted; where verdicts are said at the end, these say it.
-fn warn(args: &Args, sample: &Sample, is_judged: bool) -> Result<()> {
+fn warn(args: &Args, id: &str, estimate: &EstimateRecord, is_judged: bool) {
     if args.common.quiet || !args.has_prior() {
-        return Ok(());
+        return;
     }
-    let Some(estimate) = sample.estimate()? else { return Ok(()) };
     if !estimate.findings.is_empty() {
         let all: Vec<_> = estimate.findings.iter().map(ToString::to_string).collect();
-        cli::say("vestimate", &format!("{}: allowed for: {}", sample.id(), all.join("; ")));
+        cli::say("vestimate", &format!("{id}: allowed for: {}", all.join("; ")));
     }
     for doubt in estimate.doubts().into_iter().filter(|_| !is_judged) {
-        cli::say("vestimate", &format!("{}: {doubt}", sample.id()));
+        cli::say("vestimate", &format!("{id}: {doubt}"));
     }
-    Ok(())
 }

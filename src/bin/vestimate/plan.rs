@@ -9,9 +9,9 @@ use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::{Estimate, Exposure};
 use vfold::forward::FacetValues;
-use vfold::scene::{ExpectedError, FoldSetting, PhotographedFold, Setting};
+use vfold::scene::{ExpectedError, PhotographedFold, Setting};
 use vfold::spectrum::{ASSUMED_LIGHT, Outside, WavelengthGrid};
-use vfold::stream::{Fields, NewPlan, Output, Reader, Record, Scene, Transform, plan};
+use vfold::stream::{Fields, NewPlan, Output, Reader, Record, Scene, Transform, needs_fold, plan};
 use vfold::{Error, Result};
 
 use super::context::Context;
@@ -110,8 +110,7 @@ impl PlanArgs {
     /// The sheets in a scene: their facets have no noise, and are taken to have it.
     fn planned(&self, estimator: &Estimator, mut scene: Scene) -> Result<Planned> {
         let context = estimator.scene(&mut scene)?;
-        let setting = Setting::of(&scene)?;
-        let (grid, model, noise_sd) = (scene.grid()?, setting.model()?, noise_sd(estimator));
+        let (grid, model, noise_sd) = (scene.grid()?, Setting::of(&scene)?.model()?, noise_sd(estimator));
         let exposure = estimator.exposure_or(Exposure::Known(1.0)).known().unwrap_or(1.0);
         let spectra = estimator.args().common.reflectances(self.set())?;
         let facets = spectra.iter().map(|spectrum| {
@@ -119,16 +118,12 @@ impl PlanArgs {
             Ok(FacetValues::from(&facets))
         });
         let facets: Vec<FacetValues> = facets.collect::<Result<_>>()?;
-        let angle_deg = match &setting {
-            Setting::Fold(fold) => Some(fold.fold.angle_deg()),
-            Setting::Surface(_) => None,
-        };
+        let angle_deg = context.fold.as_ref().map(|fold| fold.fold.angle_deg());
         let exposure = estimator.exposure_or(Exposure::Free);
         // estimates by sums are those of ideal folds
         let is_real = estimator.asks_for_auto() && exposure != Exposure::Sum;
         let sheets = if estimator.args().join.is_some() || is_real {
-            let fold = FoldSetting::of(&scene)?;
-            let photographed = PhotographedFold::of(&fold);
+            let photographed = PhotographedFold::of(context.fold.as_deref().ok_or_else(needs_fold)?);
             let parts = |rgb: &FacetValues| {
                 let sd = deviations(rgb, |_| noise_sd, estimator.args().model_error.unwrap_or(0.0));
                 let measured = Measured { rgb, sd: &sd };

@@ -2,9 +2,8 @@
 
 use std::io::{self, IsTerminal};
 
-use vfold::Result;
 use vfold::cli;
-use vfold::stream::{LevelRecord, Sample};
+use vfold::stream::{LevelRecord, VerdictRecord};
 
 /// Most samples that have a line of their own.
 const LINES: usize = 24;
@@ -27,9 +26,8 @@ impl Verdicts {
         io::stderr().is_terminal().then(Self::default)
     }
 
-    pub fn add(&mut self, sample: &Sample) -> Result<()> {
-        let Some(verdict) = sample.estimate()?.and_then(|estimate| estimate.verdict) else { return Ok(()) };
-        let line = format!("{}: {verdict}", sample.id());
+    pub fn add(&mut self, id: &str, verdict: &VerdictRecord) {
+        let line = format!("{id}: {verdict}");
         match verdict.level {
             LevelRecord::Good => self.good += 1,
             LevelRecord::Doubtful => self.doubtful += 1,
@@ -41,7 +39,6 @@ impl Verdicts {
         if self.lines.len() <= LINES {
             self.lines.push(line);
         }
-        Ok(())
     }
 
     /// A line each, or how many there are of each kind where they would fill the terminal.

@@ -118,7 +118,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 groups.add(sample)?;
                 gallery.iter_mut().try_for_each(|gallery| gallery.add(sample))?;
                 if args.spectra.is_some() {
-                    measured.extend(sample.measured()?);
+                    measured.extend(sample.estimate()?.map(|estimate| estimate.measured(sample.id())));
                 }
             }
             Record::Other(_) => {}

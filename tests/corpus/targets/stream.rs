@@ -75,10 +75,8 @@ fn look_at(scene: &Scene) -> Result<(WavelengthGrid, SceneModel)> {
 }
 
 fn look_at_sample(sample: &Sample) -> Result<()> {
-    taken(sample.curve());
-    taken(sample.measured());
     taken(sample.scores());
-    taken(sample.estimate().map(|estimate| estimate.map(|estimate| estimate.doubts())));
+    taken(sample.estimate().map(|estimate| estimate.map(|one| (one.doubts(), sample.curve(&one)))));
     let (Some(truth), Some(estimate)) = (sample.truth()?, sample.estimate()?) else { return Ok(()) };
     let of = |name, nm, values| Spectrum::new(name, nm, values).map(Spectrum::as_reflectance);
     let (truth, estimate) = (
@@ -118,7 +116,7 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
         with_covariance: true,
     };
     match sample.set_estimate(&new) {
-        Ok(()) => assert!(estimate.reflectance.iter().all(|r| (0.0..=1.0).contains(r))),
+        Ok(_) => assert!(estimate.reflectance.iter().all(|r| (0.0..=1.0).contains(r))),
         Err(error) => return Err(Error::field("estimate", error)),
     }
     Ok(())
