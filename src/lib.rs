@@ -2,7 +2,7 @@
 //!
 //! Fold the sheet into a V, photograph it in the sun: light that bounces n times between the panels carries the n-th power
 //! of the reflectance, so the colour gradient along the panels holds far more than three numbers. The five tools in
-//! `src/bin` are thin; everything they do is here.
+//! `src/bin` are thin; everything they do is here. From a photograph to a spectrum it is one call: [`measure::sheet`].
 //!
 //! The method is that of R. Deeb, D. Muselet, M. Hébert, A. Trémeau, "Spectral reflectance estimation from one RGB image using
 //! self-interreflections in a concave object", *Applied Optics* 57 (2018), p. 4918. Where its equations are:
@@ -31,7 +31,7 @@
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message, room
-//! measure              -> scene, stream, estimate, kernel, geometry, camera, spectrum, image
+//! measure              -> scene, stream, estimate, forward, kernel, geometry, camera, spectrum, image
 //! scene                -> stream, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate

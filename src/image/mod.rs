@@ -31,7 +31,7 @@ pub use drawing::{
 pub use edges::{Marked, Refinement, refine};
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,
-    measure_patches, open_sides, pixels_sharing_noise, processing, with_rounding,
+    measure_patches, open_sides, pixels_sharing_noise,
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{

@@ -21,6 +21,5 @@ pub use measurement::{FacetMeasurement, PixelRun};
 pub use open_sides::open_sides;
 pub use panels::{MeasuredPanels, measure_panels};
 pub use patches::{corner_orders, measure_patches};
-pub use processing::{Processing, processing};
-pub use rounding::with_rounding;
+pub use processing::Processing;
 pub use shared_noise::pixels_sharing_noise;

@@ -21,16 +21,7 @@ pub enum Processing {
 /// # Arguments
 /// - `panels`: where the sheet is.
 /// - `facets`: as [`measure`](super::measure) gives them.
-///
-/// # Example
-/// ```
-/// use vfold::image::{Photograph, processing};
-/// let grey = Photograph::from_light(2, 1, vec![0.5, 0.25])?;
-/// assert_eq!(processing(&grey, &[], &[]), None);
-/// # Ok::<(), vfold::Error>(())
-/// ```
-#[must_use]
-pub fn processing(
+pub(super) fn processing(
     photograph: &Photograph,
     panels: &[Homography],
     facets: &[FacetMeasurement],

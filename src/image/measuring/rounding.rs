@@ -11,8 +11,7 @@ use crate::image::photograph::PhotographInfo;
 const ALIKE: f64 = 256.0;
 
 /// A facet with the error of rounding among its standard errors, if the picture is a JPEG.
-#[must_use]
-pub fn with_rounding(facet: FacetMeasurement, info: &PhotographInfo) -> FacetMeasurement {
+pub(super) fn with_rounding(facet: FacetMeasurement, info: &PhotographInfo) -> FacetMeasurement {
     let (Some(mean), Some(errors)) = (&facet.mean, &facet.standard_error) else { return facet };
     if !info.format.starts_with("JPEG") {
         return facet;

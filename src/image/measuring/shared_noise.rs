@@ -35,7 +35,7 @@ const CHI_SQUARE_MEDIAN: f64 = 0.454_936;
 /// It is the sum of the noise's correlation over all distances, px². Standard errors that take every pixel's noise for
 /// its own are too small by its square root. 1 for a mosaic, whose pixels are the sensor's own, and where a panel is too
 /// small to tell (less than 40 px wide or high). What moves all pixels alike, as rounding
-/// does in a JPEG, is not seen: see [`with_rounding`](super::with_rounding).
+/// does in a JPEG, is not seen: see [`measure_panels`](super::measure_panels).
 ///
 /// # Example
 /// ```
