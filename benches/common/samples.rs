@@ -1,18 +1,16 @@
 //! Samples of a stream, ready to be estimated in process as `vestimate` does.
 
-use vfold::estimate::Exposure;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
+use vfold::estimate::measurement::CUTOFF;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::unknowns::SceneModel;
+use vfold::estimate::{Exposure, smooth};
 use vfold::forward::FacetValues;
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
 use vfold::stream::{Reader, Record, Sample};
 use vfold::{Error, Result};
-
-/// Least change that counts, in standard deviations.
-pub const CUTOFF: f64 = 1e-2;
 
 /// A scene and its samples.
 pub struct Batch {
@@ -101,6 +99,6 @@ impl Shot {
     /// The facets, white being 1, as the paper's objective has them.
     pub fn unweighted<'a>(&'a self, scene: &'a SceneModel) -> Result<FacetData<'a>> {
         let ones = self.rgb.map(|_, _| 1.0);
-        FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &ones }, self.exposure, 1e-8)
+        FacetData::new(scene, &Measured { rgb: &self.rgb, sd: &ones }, self.exposure, smooth::CUTOFF)
     }
 }

@@ -14,6 +14,8 @@ use crate::solve::Eigen;
 
 /// Components that the paper uses: three channels under three lights.
 pub const COMPONENTS: usize = 9;
+/// Weight of smoothness: the components are all that the method asks of a spectrum.
+pub const SMOOTHNESS: f64 = 0.0;
 
 /// The combination of `count` components of a set of spectra, with reflectances from 0 to 1, that comes nearest to the sheet's
 /// values, white being 1, plus `smoothness` times its squared second differences.

@@ -14,6 +14,10 @@ use crate::error::{Error, Result};
 use crate::solve::Termination;
 use crate::solve::interior_point::{self, InteriorPoint};
 
+/// Weight of smoothness if none is given.
+pub const SMOOTHNESS: f64 = 1e-5;
+/// Least change of facets that counts, white being 1.
+pub const CUTOFF: f64 = 1e-8;
 const TOLERANCE: f64 = 1e-9;
 pub(super) const ITERATION_LIMIT: u64 = 300;
 /// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of logarithms.

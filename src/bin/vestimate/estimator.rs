@@ -25,11 +25,6 @@ use super::flat::FlatEstimator;
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
-/// Least change that counts to the paper's estimator, white being 1.
-const SMOOTH_CUTOFF: f64 = 1e-8;
-/// Weight of smoothness if none is given.
-const SMOOTHNESS: Smoothness = Smoothness::Weight(1e-5);
-
 /// How spectra are estimated, from `--method` and `--prior`.
 enum Method {
     /// What the prior is made of; none for the built-in one.
@@ -87,7 +82,7 @@ fn method(args: &Args) -> Result<Method> {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
     Ok(match args.prior() {
-        "smooth" => Method::Smooth(args.smoothness.unwrap_or(SMOOTHNESS)),
+        "smooth" => Method::Smooth(args.smoothness.unwrap_or(Smoothness::Weight(smooth::SMOOTHNESS))),
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
         SHEETS => Method::Map(None),
         spec => {
@@ -316,7 +311,7 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
         let measured = Measured { rgb, sd: &alike(rgb) };
-        let data = FacetData::new(&context.told, &measured, exposure, SMOOTH_CUTOFF)?;
+        let data = FacetData::new(&context.told, &measured, exposure, smooth::CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {

@@ -23,11 +23,18 @@ struct FlatMethod {
     estimate: fn(&FlatSheet, &DMatrix<f64>, usize, f64) -> Result<Estimate>,
 }
 
-/// With three lights and no noise the smoothness has its least error on the 24 patches about there.
-static PARK: FlatMethod =
-    FlatMethod { name: "park", components: park::COMPONENTS, smoothness: 1e-4, estimate: park::estimate };
-static KHAN: FlatMethod =
-    FlatMethod { name: "khan", components: khan::COMPONENTS, smoothness: 0.0, estimate: khan::estimate };
+static PARK: FlatMethod = FlatMethod {
+    name: "park",
+    components: park::COMPONENTS,
+    smoothness: park::SMOOTHNESS,
+    estimate: park::estimate,
+};
+static KHAN: FlatMethod = FlatMethod {
+    name: "khan",
+    components: khan::COMPONENTS,
+    smoothness: khan::SMOOTHNESS,
+    estimate: khan::estimate,
+};
 
 /// How a spectrum is found.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
