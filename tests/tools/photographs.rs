@@ -15,7 +15,8 @@ const ALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos");
 
 /// What a picture must reach: facet means, percent rms; RMSE and CIEDE2000 with the exposure known, with it free, and with the
 /// light fitted as well of which nothing is told. Scores are half as large again as measured; an exposure that somebody states is believed
-/// to 2 %, and a camera and a light that are told as far as two of a kind agree, which is what the colours of the fifth are off by.
+/// to 2 %, which is what the colours of the fifth are off by where it is known. Where it is free they are off by a level of 0.001, within the bars,
+/// since photographs of ideal folds are estimated as all photographs are.
 struct Bounds {
     picture: &'static str,
     facets_percent: f64,
