@@ -31,7 +31,7 @@ fn main() -> Result<()> {
         .ok_or_else(|| Error::Numeric("no weight of smoothness; write one after --".to_owned()))?;
     let batch = Batch::read("-")?;
     let prior = Prior::built_in(batch.grid.wavelengths_nm())?;
-    let default = row(&batch, |shot| Ok(map::estimate(&shot.data(&batch.scene)?, &prior, None)))?;
+    let default = row(&batch, |shot| map::estimate(&shot.data(&batch.scene)?, &prior, None))?;
     let grey = vec![0.5; batch.grid.len()];
     let papers = row(&batch, |shot| smooth::estimate(&shot.unweighted(&batch.scene)?, smoothness, &grey))?;
     println!("{default} | {papers}");

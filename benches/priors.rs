@@ -24,7 +24,7 @@ fn main() -> Result<()> {
 
 fn mean_rmse(batch: &Batch, prior: &Prior) -> Result<f64> {
     let error = |shot: &samples::Shot| {
-        Ok(rmse(&shot.truth, &map::estimate(&shot.data(&batch.scene)?, prior, None).reflectance))
+        Ok(rmse(&shot.truth, &map::estimate(&shot.data(&batch.scene)?, prior, None)?.reflectance))
     };
     let sum: f64 = batch.shots.iter().map(error).sum::<Result<f64>>()?;
     Ok(sum / batch.shots.len() as f64)

@@ -68,14 +68,14 @@ impl Row {
             for exposure in [shot.exposure, Exposure::Free] {
                 let shot = shot.clone().with_exposure(exposure);
                 let data = shot.data(&batch.scene)?;
-                let runs = (0..RUNS).map(|_| timed_once(|| map::estimate(&data, &prior, None)));
+                let runs = (0..RUNS).map(|_| timed_once(|| map::estimate(&data, &prior, None).unwrap()));
                 let Some((ms, estimate)) = runs.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { continue };
                 self.times_ms.push(ms);
                 let error = rmse(&shot.truth, &estimate.reflectance);
                 self.errors.push(error);
                 self.hold(nm, &shot.truth, &estimate);
                 if counts_maxima {
-                    let from_truth = map::estimate(&data, &prior, Some(&shot.truth));
+                    let from_truth = map::estimate(&data, &prior, Some(&shot.truth)).unwrap();
                     let least = rmse(&shot.truth, &from_truth.reflectance);
                     self.false_maxima += usize::from(error > least + FURTHER.0 && error > least * FURTHER.1);
                 }

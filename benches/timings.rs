@@ -78,7 +78,7 @@ fn estimates(page: &mut String, work: &Path) {
         let batch = Batch::read(path.to_str().unwrap()).unwrap();
         let prior = Prior::built_in(batch.grid.wavelengths_nm()).unwrap();
         let estimate = |shot: &samples::Shot| {
-            timed_once(|| map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None)).0
+            timed_once(|| map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None).unwrap()).0
         };
         let took = milliseconds(median(batch.shots.iter().map(estimate).collect()));
         line(page, &format!("an estimate, 10x10, facet noise {noise}, median of 24"), &took, target);

@@ -59,7 +59,7 @@ fn folded(panel: &str, set: &str, noise: &str) {
         let batch = photograph(set, noise, &format!("--facets {facets}"), "");
         let prior = prior(&batch);
         score(panel, "default; --facets", facets, &batch, 1, |shot| {
-            map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None)
+            map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None).unwrap()
         });
     }
     for step in STEPS {
@@ -67,7 +67,7 @@ fn folded(panel: &str, set: &str, noise: &str) {
         let batch = photograph(set, noise, "", &format!("--wavelengths-nm 400:700:{nm}"));
         let prior = prior(&batch);
         score(panel, "default; wavelengths by", &format!("{nm} nm"), &batch, step, |shot| {
-            map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None)
+            map::estimate(&shot.data(&batch.scene).unwrap(), &prior, None).unwrap()
         });
     }
     let batch = photograph(set, noise, "", "");
@@ -76,7 +76,7 @@ fn folded(panel: &str, set: &str, noise: &str) {
     let assumed = if noise == "0" { &[] } else { ASSUMED.as_slice() };
     for times in assumed {
         score(panel, "default; --noise-sd x true", &times.to_string(), &batch, 1, |shot| {
-            map::estimate(&shot.clone().with_noise(*times).data(&batch.scene).unwrap(), &prior, None)
+            map::estimate(&shot.clone().with_noise(*times).data(&batch.scene).unwrap(), &prior, None).unwrap()
         });
     }
     let grey = vec![0.5; batch.grid.len()];

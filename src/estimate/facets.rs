@@ -2,16 +2,20 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, SecondDerivatives};
+use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
+use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
+use super::prior::Class;
 use crate::solve::posterior::{Linearised, Model, information};
 
 /// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark sheet sends back some light of all
 /// wavelengths, whatever is beneath. With any value from 0.003 to 0.01 the shares that error bars hold differ less from set to set.
 const SURFACE: f64 = 0.006;
+/// Channels, those of every light counted, that tell classes apart.
+const TELLING_CHANNELS: usize = 3;
 
 /// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
-pub fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
+fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
     let (bands, coordinates) = gaussian.basis().shape();
     let unknowns = jacobian.ncols() - bands;
     let mut all =
@@ -27,12 +31,10 @@ pub struct Facets<'a> {
 }
 
 /// Residuals and the derivatives of the model by logit, then by the scene's unknowns, about a point.
-pub struct ByLogit {
-    pub logit: DVector<f64>,
-    pub unknowns: DVector<f64>,
-    pub residuals: DVector<f64>,
-    pub jacobian: DMatrix<f64>,
-    pub second: Second,
+struct ByLogit {
+    residuals: DVector<f64>,
+    jacobian: DMatrix<f64>,
+    second: Second,
 }
 
 /// What second derivatives by logit are made of.
@@ -55,7 +57,7 @@ impl Facets<'_> {
         (logit, w.rows(coordinates, w.len() - coordinates).into_owned())
     }
 
-    pub fn by_logit(&self, w: &DVector<f64>) -> ByLogit {
+    fn about(&self, w: &DVector<f64>) -> ByLogit {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
         let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
@@ -65,46 +67,89 @@ impl Facets<'_> {
             exposure.slopes[band] *= r * (1.0 - r);
         }
         let second = Second { reflectance, exposure, by_reflectance: second };
-        ByLogit { logit, unknowns, residuals, jacobian, second }
+        ByLogit { residuals, jacobian, second }
     }
 }
 
-/// The most probable point under a Gaussian, and the model about it.
-pub struct AboutMaximum<'a> {
-    pub gaussian: &'a Gaussian,
-    pub logit: &'a DVector<f64>,
-    /// Derivatives of the model by whitened logit, then by unknown of the scene.
-    pub jacobian: &'a DMatrix<f64>,
-    pub exposure: &'a FittedExposure,
-}
+impl SpectrumModel for Facets<'_> {
+    fn gaussian(&self) -> &Gaussian {
+        self.gaussian
+    }
 
-impl AboutMaximum<'_> {
-    /// Laplace's covariance as a factor, `widened` times as wide, carried from whitened logits to reflectances, unknowns and exposure. None
-    /// if the model was not finite.
-    pub fn spread(&self, by_unknown: &[f64], widened: f64) -> Option<DMatrix<f64>> {
+    fn by_logit(&self, w: &DVector<f64>, _: &Linearised<Second>) -> DMatrix<f64> {
+        let bands = self.gaussian.mean().len();
+        self.about(w).jacobian.columns(0, bands).into_owned()
+    }
+
+    /// Reflectances, unknowns in their own units, exposure.
+    fn values(&self, w: &DVector<f64>) -> Vec<f64> {
+        let (logit, unknowns) = self.split(w);
+        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
+        let Residuals { exposure, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
+        let unknowns =
+            self.data.scene().unknowns().iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
+        reflectance.into_iter().chain(unknowns).chain([exposure]).collect()
+    }
+
+    fn spread(&self, w: &DVector<f64>, at: &Linearised<Second>) -> Option<DMatrix<f64>> {
+        let (logit, unknowns) = self.split(w);
         let (bands, coordinates) = self.gaussian.basis().shape();
-        let point = bands + by_unknown.len() + 1;
-        // Derivatives of the point by what is whitened: point by both.
-        let mut slopes = DMatrix::zeros(point, self.jacobian.ncols());
+        let exposure = &at.second.exposure;
+        let point = bands + unknowns.len() + 1;
+        // Derivatives of the values by what is whitened: value by number.
+        let mut slopes = DMatrix::zeros(point, at.jacobian.ncols());
         slopes.view_mut((0, 0), (bands, coordinates)).copy_from(self.gaussian.basis());
-        for (n, slope) in by_unknown.iter().enumerate() {
-            slopes[(bands + n, coordinates + n)] = *slope;
+        for (n, (expected, w)) in self.data.scene().unknowns().iter().zip(&unknowns).enumerate() {
+            slopes[(bands + n, coordinates + n)] = expected.at(*w).1;
         }
-        let of_exposure =
-            DMatrix::from_row_slice(1, self.exposure.slopes.len(), self.exposure.slopes.as_slice());
+        let of_exposure = DMatrix::from_row_slice(1, exposure.slopes.len(), exposure.slopes.as_slice());
         slopes.row_mut(point - 1).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
         // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S these derivatives.
-        let spread = information(self.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
+        let spread = information(&at.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
-        spread[(rows, point - 1)] = self.exposure.sd;
-        spread *= widened;
-        for (mut column, z) in spread.column_iter_mut().zip(self.logit) {
+        spread[(rows, point - 1)] = exposure.sd;
+        spread *= widened(self.rms(&at.residuals));
+        for (mut column, z) in spread.column_iter_mut().zip(&logit) {
             let sd = column.norm();
             let mean = 0.5 * (logistic(z - sd) + logistic(z + sd));
             column *= mean_slope(*z, sd) * mean / (mean + SURFACE);
         }
         Some(spread)
+    }
+
+    fn rms(&self, residuals: &DVector<f64>) -> f64 {
+        self.data.rms(residuals)
+    }
+
+    fn ln_whitening(&self) -> f64 {
+        0.0
+    }
+}
+
+/// All facets of a sample have one scene: there is but one hypothesis.
+impl Family for FacetData<'_> {
+    type Hypothesis = ();
+    type Second = Second;
+    type Model<'m>
+        = Facets<'m>
+    where
+        Self: 'm;
+
+    fn model<'m>(&'m self, (): (), gaussian: &'m Gaussian) -> Option<Facets<'m>> {
+        Some(Facets { data: self, gaussian })
+    }
+
+    fn ln_share(&self, class: &Class) -> f64 {
+        class.ln_share
+    }
+
+    fn tells_classes(&self) -> bool {
+        self.channels() >= TELLING_CHANNELS
+    }
+
+    fn peak(&self) -> f64 {
+        self.peak()
     }
 }
 
@@ -122,7 +167,7 @@ impl Model for Facets<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let ByLogit { residuals, jacobian, second, .. } = self.by_logit(w);
+        let ByLogit { residuals, jacobian, second } = self.about(w);
         Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
     }
 

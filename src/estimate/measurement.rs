@@ -107,7 +107,7 @@ impl<'a> Inference<'a> {
     pub fn measure(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
         let ideal = || map::estimate(data, self.prior, self.start);
         let Some(photograph) = facets.photograph else {
-            let estimate = ideal();
+            let estimate = ideal()?;
             let doubts = beyond_chance(&estimate, data.size().1).into_iter().collect();
             return Ok(self.judged(facets, estimate, doubts));
         };
@@ -115,11 +115,11 @@ impl<'a> Inference<'a> {
         let parts = match &photograph.parts {
             Some(Ok(parts)) => parts,
             Some(Err(why)) if self.is_auto => {
-                let estimate = ideal();
+                let estimate = ideal()?;
                 let unmodelled = (estimate.residual_rms >= EXPLAINED).then_some(*why);
                 return Ok(Measurement { unmodelled, ..self.judged(facets, estimate, doubts) });
             }
-            Some(Err(_)) | None => return Ok(self.judged(facets, ideal(), doubts)),
+            Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
         let mut real = photograph::estimate(slice::from_ref(parts), self.prior, ModelError::OF_PHOTOGRAPHS)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
@@ -130,7 +130,7 @@ impl<'a> Inference<'a> {
             return Ok(self.judged(facets, real, doubts));
         }
         doubts.extend(other_angle(&real, parts.told.angle_deg));
-        let estimate = Estimate { without_bounces: real.without_bounces, ..ideal() };
+        let estimate = Estimate { without_bounces: real.without_bounces, ..ideal()? };
         Ok(self.judged(facets, estimate, doubts))
     }
 

@@ -22,6 +22,9 @@ const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;
 
+/// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
+/// with a scale for each of them its tails are heavy.
+pub const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 0.05)];
 /// How many times what is usual a spectrum may do beyond its class, and how often: some are smoother than others, whatever their class.
 pub const ROUGHNESSES: [(f64, f64); 2] = [(0.75, 0.65), (1.7, 0.35)];
 

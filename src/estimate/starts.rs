@@ -5,21 +5,19 @@
 
 use nalgebra::DVector;
 
-use super::data::FacetData;
-use super::facets::Facets;
+use super::family::Family;
 use super::gaussian::logistic;
-use super::likely::{Likely, Start, of_most_evidence, tell_classes};
+use super::linear::{Linear, Start, candidates};
 use super::prior::{Class, Prior};
+use super::search::{APART, of_most_evidence};
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, first_inflation, maximise};
 
-/// So near to the maximum under all spectra, in standard deviations, that what is tried does not depend on the start.
-pub const SORTING_TOLERANCE: f64 = 0.01;
 /// Maxima from the means of classes are told apart this near to them.
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
-/// Most iterations of a search that sorts.
-pub const ITERATION_LIMIT: usize = 500;
-/// Searches are from so many means that come nearest to the facets, the noise being so many times that at which the searches end: from all
+/// Most iterations of a search from a mean.
+const ITERATION_LIMIT: usize = 500;
+/// Searches are from so many means that come nearest to the data, the noise being so many times that at which the searches end: from all
 /// of them no fewer maxima are false.
 const MEANS: usize = 24;
 const NEAREST_INFLATION: f64 = 10.0;
@@ -42,17 +40,20 @@ const ESTIMATE_LIMIT: usize = 260;
 const PLACES: usize = 5;
 const SEARCHED: usize = 4;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
-/// Spectra of a class are one if their root mean square difference is less.
-pub const APART: f64 = 0.005;
 
-/// The classes of most evidence at the maxima that the means nearest to the facets lead to, the noise `inflation` times its size; all of them
+/// The classes of most evidence at the maxima that the means nearest to the data lead to, the noise `inflation` times its size; all of them
 /// if so few channels do not tell classes apart.
-pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start> {
-    let tell_apart = tell_classes(data);
+pub fn from_means<F: Family>(
+    family: &F,
+    hypothesis: F::Hypothesis,
+    prior: &Prior,
+    inflation: f64,
+) -> Vec<Start<F::Hypothesis>> {
+    let tell_apart = family.tells_classes();
     let means = if tell_apart { MEANS } else { usize::MAX };
     let noise = (f64::INFINITY, inflation);
-    let search = FromMeans { means, noise, limit: ITERATION_LIMIT, coordinates: usize::MAX };
-    let mut found = search.starts(data, prior);
+    let search = FromMeans { hypothesis, means, noise, limit: ITERATION_LIMIT, coordinates: usize::MAX };
+    let mut found = search.starts(family, prior);
     if tell_apart {
         found.truncate(of_most_evidence(&found, |start| start.ln_evidence, true).len());
     }
@@ -61,34 +62,41 @@ pub fn from_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<Start>
 
 /// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse` times its size, then to the end
 /// near `fine` times, after an estimate has taken so many iterations.
-pub fn between_means(
-    data: &FacetData,
+pub fn between_means<F: Family>(
+    family: &F,
+    hypothesis: F::Hypothesis,
     prior: &Prior,
     [coarse, fine]: [f64; 2],
     iterations: usize,
     trace: &mut Vec<Vec<Iteration>>,
-) -> Vec<Start> {
+) -> Vec<Start<F::Hypothesis>> {
     let noise = (QUICK_INFLATION * coarse, coarse);
-    let quick = FromMeans { means: MEANS, noise, limit: QUICK_LIMIT, coordinates: QUICK_COORDINATES };
+    let quick =
+        FromMeans { hypothesis, means: MEANS, noise, limit: QUICK_LIMIT, coordinates: QUICK_COORDINATES };
     let fine = FOLLOWED_INFLATION * fine;
     let mut left = ESTIMATE_LIMIT.saturating_sub(iterations).max(FOLLOWED_LIMIT);
-    let follow = |start: Start| {
-        let facets = Facets { data, gaussian: &start.gaussian };
+    let follow = |start: Start<F::Hypothesis>| {
+        let model = family.model(hypothesis, &start.gaussian)?;
         let noise = (start.inflation, fine);
-        let found = maximise(&facets, start.w, noise, FOLLOWED_TOLERANCE, FOLLOWED_LIMIT.min(left));
+        let found = maximise(&model, start.w, noise, FOLLOWED_TOLERANCE, FOLLOWED_LIMIT.min(left));
         left -= found.trace.len();
         let ln_evidence = start.ln_share + found.ln_evidence(fine)?;
         let is_found = matches!(found.termination, Termination::Converged { .. });
         trace.push(found.trace);
+        drop(model);
         is_found.then_some(Start { ln_evidence, inflation: fine, w: found.w, ..start })
     };
-    let quick = quick.starts(data, prior).into_iter();
+    let quick = quick.starts(family, prior).into_iter();
     let places = distinct(quick.take(FOLLOWED).filter_map(follow).collect());
-    let classes = |start: Start| {
-        let facets = Facets { data, gaussian: &start.gaussian };
-        Likely::new(&facets, &start.w, prior, fine).map_or_else(Vec::new, |likely| likely.starts())
+    let classes = |start: Start<F::Hypothesis>| {
+        let model = family.model(hypothesis, &start.gaussian)?;
+        let linear = Linear::about(&model, (&start.w, &model.linearise(&start.w)), fine, (hypothesis, 0.0))?;
+        let is_telling = linear.is_telling(&start.gaussian);
+        let candidates = candidates(family, vec![linear], prior);
+        let likely = of_most_evidence(&candidates, |one| one.ln_evidence, is_telling);
+        Some(likely.iter().filter_map(|one| one.start(family, prior)).collect::<Vec<_>>())
     };
-    let mut found = distinct(places.into_iter().take(PLACES).flat_map(classes).collect());
+    let mut found = distinct(places.into_iter().take(PLACES).filter_map(classes).flatten().collect());
     let least = found.first().map_or(0.0, |most| most.ln_evidence + LN_EVIDENCE_NEAR);
     found.retain(|start| start.ln_evidence >= least);
     found.truncate(SEARCHED);
@@ -96,7 +104,8 @@ pub fn between_means(
 }
 
 /// Searches from the means of classes.
-struct FromMeans {
+struct FromMeans<H> {
+    hypothesis: H,
     /// From so many that are nearest to the facets.
     means: usize,
     /// How many times its size the noise is at first, if not less, and at last.
@@ -107,28 +116,28 @@ struct FromMeans {
     coordinates: usize,
 }
 
-impl FromMeans {
+impl<H: Copy> FromMeans<H> {
     /// Classes by their evidence where the searches end.
-    fn starts(&self, data: &FacetData, prior: &Prior) -> Vec<Start> {
-        let &Self { means, noise: (most, last), limit, coordinates } = self;
+    fn starts<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Vec<Start<H>> {
+        let &Self { hypothesis, means, noise: (most, last), limit, coordinates } = self;
         let of_class = |class: &Class| {
             let gaussian = class.gaussian();
             let moved = gaussian.leading(coordinates);
-            let facets = Facets { data, gaussian: &moved };
-            let w = DVector::zeros(facets.unknowns());
-            let first = first_inflation(&facets, &w, last).min(most);
-            let found = maximise(&facets, w, (first, last), TOLERANCE_FROM_MEANS, limit);
-            let ln_evidence = class.ln_share + found.ln_evidence(last)?;
+            let model = family.model(hypothesis, &moved)?;
+            let w = DVector::zeros(model.unknowns());
+            let first = first_inflation(&model, &w, last).min(most);
+            let found = maximise(&model, w, (first, last), TOLERANCE_FROM_MEANS, limit);
+            let ln_evidence = family.ln_share(class) + found.ln_evidence(last)?;
             let moved = moved.basis().ncols();
             let w = found.w.insert_rows(moved, gaussian.basis().ncols() - moved, 0.0);
             ln_evidence.is_finite().then_some((ln_evidence, w))
         };
-        let nearest = nearest_means(data, prior, NEAREST_INFLATION * last).into_iter().take(means);
-        let found = nearest.filter_map(|class| {
+        let nearest = nearest_means(family, hypothesis, prior, NEAREST_INFLATION * last);
+        let found = nearest.into_iter().take(means).filter_map(|class| {
             let of_prior = &prior.classes()[class];
             let (ln_evidence, w) = of_class(of_prior)?;
-            let (ln_share, gaussian) = (of_prior.ln_share, of_prior.gaussian().clone());
-            Some(Start { class, inflation: last, ln_evidence, ln_share, gaussian, w })
+            let (ln_share, gaussian) = (family.ln_share(of_prior), of_prior.gaussian().clone());
+            Some(Start { hypothesis, class, inflation: last, ln_evidence, ln_share, gaussian, w })
         });
         let mut found: Vec<_> = found.collect();
         found.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
@@ -136,27 +145,32 @@ impl FromMeans {
     }
 }
 
-/// Classes by how near their means come to the facets, the noise `inflation` times its size, and by their shares.
-fn nearest_means(data: &FacetData, prior: &Prior, inflation: f64) -> Vec<usize> {
+/// Classes by how near their means come to the data, the noise `inflation` times its size, and by their shares.
+fn nearest_means<F: Family>(
+    family: &F,
+    hypothesis: F::Hypothesis,
+    prior: &Prior,
+    inflation: f64,
+) -> Vec<usize> {
     let near = |(class, of_prior): (usize, &Class)| {
-        let facets = Facets { data, gaussian: of_prior.gaussian() };
-        let misfit = facets.residuals(&DVector::zeros(facets.unknowns())) / inflation;
-        (of_prior.ln_share - 0.5 * misfit.norm_squared(), class)
+        let model = family.model(hypothesis, of_prior.gaussian())?;
+        let misfit = model.residuals(&DVector::zeros(model.unknowns())) / inflation;
+        Some((family.ln_share(of_prior) - 0.5 * misfit.norm_squared(), class))
     };
-    let mut nearest: Vec<_> = prior.classes().iter().enumerate().map(near).collect();
+    let mut nearest: Vec<_> = prior.classes().iter().enumerate().filter_map(near).collect();
     nearest.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     nearest.into_iter().map(|(_, class)| class).collect()
 }
 
 /// By their evidence, most first, and none that is another one again.
-fn distinct(mut starts: Vec<Start>) -> Vec<Start> {
+fn distinct<H>(mut starts: Vec<Start<H>>) -> Vec<Start<H>> {
     starts.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
-    let mut kept: Vec<(Start, DVector<f64>)> = Vec::new();
+    let mut kept: Vec<(Start<H>, DVector<f64>)> = Vec::new();
     for start in starts {
         let coordinates = start.w.rows(0, start.gaussian.basis().ncols()).into_owned();
         let reflectance = start.gaussian.logit_at(&coordinates).map(logistic);
         let near = APART * (reflectance.len() as f64).sqrt();
-        let is_again = |(other, of_other): &(Start, DVector<f64>)| {
+        let is_again = |(other, of_other): &(Start<H>, DVector<f64>)| {
             other.class == start.class && of_other.metric_distance(&reflectance) < near
         };
         if !kept.iter().any(is_again) {

@@ -50,7 +50,7 @@ fn few_estimates_end_in_a_false_maximum() {
             let rgb = FacetValues::from(&scene.facets().facet_rgb(&truth));
             let sd = deviations(&rgb, |_| 0.0, 0.0);
             let data = FacetData::new(&scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2).unwrap();
-            let off = |start| rmse(&truth, &map::estimate(&data, &prior, start).reflectance);
+            let off = |start| rmse(&truth, &map::estimate(&data, &prior, start).unwrap().reflectance);
             let (found, from_truth) = (off(None), off(Some(&truth[..])));
             estimates += 1;
             if found > from_truth + 0.01 && found > 2.0 * from_truth {

@@ -3,9 +3,11 @@
 use nalgebra::DVector;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::error::ModelError;
-use vfold::estimate::photograph::imperfection::Imperfection;
-use vfold::estimate::photograph::kinds::{Kind, Kinds};
-use vfold::estimate::photograph::model::{Hypothesis, PhotographModel};
+use vfold::estimate::photograph::hypotheses::{
+    Hypothesis, Mistake, hypotheses_without_bounces, usual_hypotheses,
+};
+use vfold::estimate::photograph::kinds::Kinds;
+use vfold::estimate::photograph::model::PhotographModel;
 use vfold::estimate::photograph::parts::Eye;
 use vfold::estimate::photograph::{Parts, Told};
 use vfold::estimate::prior::Prior;
@@ -42,12 +44,9 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let kinds = Kinds::of(&parts).remove(0);
     let whitening =
         ModelError::OF_PHOTOGRAPHS.whitening(&parts[0].places, &parts[0].values, &parts[0].sd).unwrap();
-    let [usual, angle, camera, _] = Imperfection::ALL;
-    let fold = |kind, imperfection| Hypothesis { kind, imperfection, has_bounces: true };
-    let flat = Hypothesis { has_bounces: false, ..fold(Kind::Matt, usual) };
-    let of_kinds = Kind::ALL.map(|kind| fold(kind, usual));
-    let others = [fold(Kind::Matt, angle), fold(Kind::Matt, camera), flat];
-    for hypothesis in of_kinds.into_iter().chain(others) {
+    let ideal = [None, Some(Mistake::Angle), Some(Mistake::Exposure)].map(Hypothesis::ideal);
+    let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
+    for hypothesis in all {
         let model = PhotographModel::new(&parts[0], &kinds, hypothesis, prior.broad(), &whitening);
         // away from where all is as it is told
         let w = DVector::from_fn(model.unknowns(), |n, _| 0.3 * (n as f64 + 1.0).sin());

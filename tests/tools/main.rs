@@ -9,6 +9,7 @@ mod cli;
 mod cluster;
 #[path = "../common/mod.rs"]
 mod common;
+mod continuity;
 mod cornell;
 mod coverage;
 mod daylight;

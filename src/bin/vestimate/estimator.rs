@@ -198,7 +198,7 @@ impl<'a> Estimator<'a> {
         let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
         let inference = context.inference(self.prior_of(context)?, self.is_auto());
         let data = inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
-        Ok(map::estimate(&data, inference.prior, inference.start))
+        map::estimate(&data, inference.prior, inference.start)
     }
 
     /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow each other on the same

@@ -68,6 +68,14 @@ pub struct Told {
     pub has_sky_illuminant: bool,
 }
 
+impl Told {
+    /// Whether somebody stated the exposure, rather than that a chart or a card shows it.
+    #[must_use]
+    pub fn is_exposure_stated(&self) -> bool {
+        self.exposure.is_some() && !self.by_chart
+    }
+}
+
 /// Daylight of a reciprocal colour temperature, 1e-6/K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Daylight {

@@ -6,9 +6,10 @@ use std::cell::OnceCell;
 use nalgebra::{DMatrix, DVector};
 
 use super::error::{ModelError, Whitening};
+use super::hypotheses::Hypothesis;
 use super::imperfection::Discrepancy;
 use super::kinds::Kinds;
-use super::model::{Hypothesis, PhotographModel};
+use super::model::PhotographModel;
 use super::parts::Parts;
 use crate::estimate::gaussian::Gaussian;
 use crate::solve::posterior::{Linearised, Model};
@@ -126,10 +127,9 @@ impl<'a> JointModel<'a> {
         Some(Self { members, count })
     }
 
-    /// Logarithm of the factor by which whitening makes volumes of errors larger.
-    #[must_use]
-    pub fn ln_whitening(&self) -> f64 {
-        self.members.iter().map(|member| member.model.whitening().ln_determinant()).sum()
+    /// The first of the photographs: spectrum and sheet are the same in all.
+    pub fn first(&self) -> &Member<'a> {
+        &self.members[0]
     }
 
     /// The photographs.

@@ -6,9 +6,10 @@ use std::borrow::Cow;
 use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
-use super::conditions::Conditions;
+use super::conditions::{Conditions, Told};
+use super::corners;
 use super::error::Whitening;
-use super::imperfection::Imperfection;
+use super::hypotheses::Hypothesis;
 use super::kinds::{Kind, Kinds};
 use super::lighting::Lighting;
 use super::number::Number;
@@ -23,17 +24,6 @@ use crate::solve::posterior::{Linearised, Model};
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
 
-/// What a photograph is taken to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hypothesis {
-    /// The kind of its sheet.
-    pub kind: Kind,
-    /// How far it is from an ideal one.
-    pub imperfection: Imperfection,
-    /// Whether light bounces between the panels, as it does in a fold.
-    pub has_bounces: bool,
-}
-
 /// The model under one hypothesis and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
@@ -41,6 +31,8 @@ pub struct PhotographModel<'a> {
     hypothesis: Hypothesis,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
+    /// What was stated of the photograph, as far as it is believed.
+    told: Told,
     numbers: Vec<Number>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
@@ -71,13 +63,15 @@ impl<'a> PhotographModel<'a> {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
         let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
+        let told = hypothesis.told(&parts.told);
         Self {
             parts,
             kinds,
             hypothesis,
             gaussian,
             whitening,
-            numbers: Number::all(&parts.told, hypothesis.imperfection),
+            told,
+            numbers: Number::all(&told, hypothesis),
             coefficients,
         }
     }
@@ -99,7 +93,7 @@ impl<'a> PhotographModel<'a> {
 
     /// Conditions at `w`.
     fn conditions(&self, w: &DVector<f64>) -> Conditions {
-        let told = &self.parts.told;
+        let told = &self.told;
         let mut conditions = Conditions {
             exposure: told.exposure.unwrap_or(1.0),
             gains: [1.0; 2],
@@ -130,7 +124,7 @@ impl<'a> PhotographModel<'a> {
 
     fn terms(&self, albedo: &[f64]) -> Terms {
         let count = self.coefficients.nrows();
-        if self.hypothesis.has_bounces {
+        if self.hypothesis.has_bounces() {
             let (values, slopes) = chebyshev(albedo, count);
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
@@ -183,7 +177,7 @@ impl<'a> PhotographModel<'a> {
             curve
                 .iter_mut()
                 .zip(error.as_slice())
-                .for_each(|(value, error)| *value += self.hypothesis.imperfection.told * size * error);
+                .for_each(|(value, error)| *value += self.hypothesis.imperfection.scale * size * error);
         }
         sensitivities
     }
@@ -236,7 +230,7 @@ impl<'a> PhotographModel<'a> {
         terms: &DMatrix<f64>,
         Predicted { values, lights, lens, .. }: &Predicted,
     ) {
-        let (facets, camera) = (values.nrows(), self.hypothesis.imperfection.told);
+        let (facets, camera) = (values.nrows(), self.hypothesis.imperfection.scale);
         for (mut out, (channel, error)) in out.column_iter_mut().zip(&self.parts.eye.errors) {
             let seen = &mut out.as_mut_slice()[channel * facets..][..facets];
             for light in lights {
@@ -260,10 +254,11 @@ impl<'a> PhotographModel<'a> {
         smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
     }
 
-    /// What the photograph is taken to be.
+    /// What a small shift of each corner does to the residuals.
     #[must_use]
-    pub fn hypothesis(&self) -> Hypothesis {
-        self.hypothesis
+    pub fn shifts(&self) -> Vec<DVector<f64>> {
+        let shifts = corners::shifts(&self.parts.places, &self.parts.values);
+        shifts.iter().map(|shift| self.whitening.of(shift)).collect()
     }
 
     /// What makes its residuals standard normal.
@@ -342,7 +337,7 @@ impl Model for PhotographModel<'_> {
             add_product(&mut radiances, &change, &sun.to_channels);
             jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
-        if imperfection.told > 0.0 {
+        if !imperfection.is_ideal() {
             self.by_curves(&mut jacobian.columns_mut(camera, end - camera), &terms.values, &here);
         }
         Linearised {

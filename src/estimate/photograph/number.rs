@@ -1,8 +1,8 @@
 //! An unknown of a photograph as a standard normal number.
 
 use super::conditions::Told;
-use super::imperfection::Imperfection;
-use crate::estimate::unknowns::{Effect, Known, Normal, TABLE, Unknown};
+use super::hypotheses::{Hypothesis, Mistake};
+use crate::estimate::unknowns::{ANGLE, Effect, Known, Normal, TABLE, Unknown};
 
 /// How heavy the tails are of what was stated, now and then by mistake, and of what an ideal fold does not have, of which an otherwise careful
 /// photograph may have much; 0: those of a normal number.
@@ -24,22 +24,18 @@ pub struct Number {
 impl Number {
     /// Those of a photograph.
     #[must_use]
-    pub fn all(told: &Told, imperfection: Imperfection) -> Vec<Self> {
+    pub fn all(told: &Told, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
         let number = |unknown: &&'static Unknown| {
             let effect = unknown.photograph.as_ref()?;
             let (prior, known) = ((effect.prior)(told)?, (effect.known)(told));
-            let size = match known {
-                Known::Usual => 1.0,
-                Known::Stated | Known::Shown => imperfection.stated,
-                Known::Told => imperfection.told,
-                Known::Imperfection | Known::OfImperfection => imperfection.scale,
-            };
+            let is_turned = mistake == Some(Mistake::Angle) && **unknown == ANGLE;
+            let matters = known == Known::Usual || is_turned || !imperfection.is_ideal();
             let tail = match known {
                 Known::Stated => STATED_TAIL,
                 Known::Imperfection => IMPERFECTION_TAIL,
                 Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
             };
-            Some(Self { unknown, effect, prior, tail, matters: size > 0.0 })
+            Some(Self { unknown, effect, prior, tail, matters })
         };
         TABLE.iter().filter_map(number).collect()
     }

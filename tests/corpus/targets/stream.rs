@@ -103,7 +103,7 @@ fn estimate((grid, scene): &(WavelengthGrid, SceneModel), sample: &Sample) -> Re
     let noise = unexplained(scene.facets(), &rgb);
     let sd = deviations(&rgb, |[_, channel]| noise.get(channel).copied().unwrap_or(0.0), 1e-3);
     let data = FacetData::new(scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2)?;
-    let estimate = map::estimate(&data, &prior, None);
+    let estimate = map::estimate(&data, &prior, None)?;
     let mut sample = sample.clone();
     let new = NewEstimate {
         method: "interreflection",

@@ -1,0 +1,374 @@
+//! Classes of spectra by their evidence, the model taken to be linear about a point.
+//!
+//! What data tell of a spectrum whatever the rest of the scene is are a few numbers of standard deviation 1; under a class of spectra these are
+//! normal, too. So the evidence of all classes at all widths takes no more than small matrices.
+
+use std::rc::Rc;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::family::{Family, SpectrumModel};
+use super::gaussian::Gaussian;
+use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
+use crate::solve::Eigen;
+use crate::solve::posterior::{Linearised, Model};
+
+/// Widths at which every class is weighed; at others, which takes most of the time of it, only those that come so near to the best class, as
+/// the logarithm of a share of its evidence.
+const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
+const LN_EVIDENCE_NEAR: f64 = -6.0;
+/// Directions of logits that data must tell more of than is known of all spectra to tell classes apart.
+const TOLD: usize = 3;
+/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
+const NEGLIGIBLE: f64 = 1e-3;
+/// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
+const NEARLY: f64 = 0.1;
+
+/// A width that a class may have: places in [`SCALES`] and [`ROUGHNESSES`].
+#[derive(Clone, Copy)]
+struct Width {
+    scale: usize,
+    roughness: usize,
+}
+
+impl Width {
+    fn all() -> impl Iterator<Item = Self> {
+        let of_scale = |scale| (0..ROUGHNESSES.len()).map(move |roughness| Self { scale, roughness });
+        (0..SCALES.len()).flat_map(of_scale)
+    }
+
+    fn ln_share(self) -> f64 {
+        (SCALES[self.scale].1 * ROUGHNESSES[self.roughness].1).ln()
+    }
+}
+
+/// The model under a hypothesis, linear about a point.
+pub struct Linear<H> {
+    hypothesis: H,
+    /// Logarithm of how often it is true.
+    ln_share: f64,
+    /// Factor by which the noise was inflated; all that follows is in units of that noise.
+    inflation: f64,
+    logit: DVector<f64>,
+    others: DVector<f64>,
+    by_logit: DMatrix<f64>,
+    by_others: DMatrix<f64>,
+    /// What is left at that spectrum, all others being as expected.
+    residuals: DVector<f64>,
+    of_others: Cholesky<f64, Dyn>,
+    /// What the data tell of logits: value by waveband, each of standard deviation 1, and how far the values are off there.
+    told: DMatrix<f64>,
+    off: DVector<f64>,
+    /// What no spectrum changes of the logarithm of the determinant, and of the sum of squares.
+    ln_determinant: f64,
+    left: f64,
+}
+
+/// A class of spectra under a hypothesis, by its evidence.
+pub struct Candidate<H> {
+    linear: Rc<Linear<H>>,
+    /// The place of the class in the prior.
+    pub class: usize,
+    /// How wide it is likely to be, and a place in [`ROUGHNESSES`].
+    scale: f64,
+    roughness: usize,
+    /// Logarithm of the evidence and of the share, at all widths.
+    pub ln_evidence: f64,
+    /// Logarithm of the share that it would have if all its spectra were as wide.
+    ln_share: f64,
+}
+
+/// Where to set out for a maximum.
+pub struct Start<H> {
+    /// What is taken to be so.
+    pub hypothesis: H,
+    /// The place of the class of spectra in the prior.
+    pub class: usize,
+    /// Factor by which the noise was inflated where it was found.
+    pub inflation: f64,
+    /// Logarithm of the evidence and of the share, where it was found.
+    pub ln_evidence: f64,
+    /// Logarithm of its share of all that may be, as if all spectra of the class were as wide as `gaussian`.
+    pub ln_share: f64,
+    /// Its spectra, as wide as they are likely to be.
+    pub gaussian: Gaussian,
+    pub w: DVector<f64>,
+}
+
+/// The maximum of the linear model under a class.
+pub struct LinearMaximum {
+    pub w: DVector<f64>,
+    /// Logarithm of the evidence but for the misfit there, which the model itself tells.
+    pub ln_evidence_of_fit: f64,
+}
+
+impl<H: Copy> Linear<H> {
+    /// About `w`, the noise `inflation` times its size, under a hypothesis that is so often true; none if the model is not finite.
+    ///
+    /// # Source
+    /// The others marginalised: Schur complement of their information (docs/model.md).
+    pub fn about<M: SpectrumModel>(
+        model: &M,
+        (w, at): (&DVector<f64>, &Linearised<M::Second>),
+        inflation: f64,
+        (hypothesis, ln_share): (H, f64),
+    ) -> Option<Self> {
+        let scene = model.gaussian().basis().ncols();
+        let count = w.len() - scene;
+        let others = w.rows(scene, count).into_owned();
+        let by_logit = model.by_logit(w, at) / inflation;
+        let by_others = at.jacobian.columns(scene, count) / inflation;
+        let residuals = &at.residuals / inflation + &by_others * &others;
+        let mut information = by_others.tr_mul(&by_others);
+        (0..count).for_each(|n| information[(n, n)] += 1.0);
+        let of_others = Cholesky::new(information)?;
+        let ln_determinant = of_others.ln_determinant() - 2.0 * model.ln_whitening();
+        let Told { values: told, off, left } = if count < by_logit.ncols() {
+            Told::of_few_others(&by_logit, &by_others, &residuals)
+        } else {
+            Told::of_many_others(&by_logit, &by_others, &residuals, &of_others)
+        };
+        let logit = model.gaussian().logit_at(&w.rows(0, scene).into_owned());
+        Some(Self {
+            hypothesis,
+            ln_share,
+            inflation,
+            logit,
+            others,
+            by_logit,
+            by_others,
+            residuals,
+            of_others,
+            told,
+            off,
+            ln_determinant,
+            left,
+        })
+        .filter(|linear| (linear.ln_determinant + linear.left).is_finite())
+    }
+
+    /// Whether the data tell so much of a spectrum that classes of less evidence may be left out.
+    pub fn is_telling(&self, gaussian: &Gaussian) -> bool {
+        let spread = &self.told * gaussian.basis();
+        if spread.nrows() < TOLD || spread.iter().any(|value| !value.is_finite()) {
+            return false;
+        }
+        let information = Eigen::of_symmetric(&spread * spread.transpose()).values;
+        information.iter().filter(|value| **value > 1.0).count() >= TOLD
+    }
+}
+
+/// What data tell of logits whatever the others are.
+struct Told {
+    /// Value by waveband, each of standard deviation 1.
+    values: DMatrix<f64>,
+    /// How far the values are off.
+    off: DVector<f64>,
+    /// What is left of the sum of squares.
+    left: f64,
+}
+
+impl Told {
+    /// By orthogonal transformations: information would lose half of the digits of precise data.
+    ///
+    /// # Source
+    /// Bierman, *Factorization Methods for Discrete Sequential Estimation* (1977), section IV.2.
+    fn of_few_others(by_logit: &DMatrix<f64>, by_others: &DMatrix<f64>, residuals: &DVector<f64>) -> Self {
+        let ((data, bands), others) = (by_logit.shape(), by_others.ncols());
+        let mut all = DMatrix::zeros(data + others, others + bands + 1);
+        all.view_mut((0, 0), (data, others)).copy_from(by_others);
+        all.view_mut((0, others), (data, bands)).copy_from(by_logit);
+        all.view_mut((0, others + bands), (data, 1)).copy_from(residuals);
+        (0..others).for_each(|n| all[(data + n, n)] = 1.0);
+        let r = all.qr().unpack_r();
+        let count = (r.nrows() - others).min(bands);
+        let last = others + bands;
+        Self {
+            values: r.view((others, others), (count, bands)).into_owned(),
+            off: r.view((others, last), (count, 1)).column(0).into_owned(),
+            left: if r.nrows() > last { r[(last, last)].powi(2) } else { 0.0 },
+        }
+    }
+
+    /// Through the information on logits, of which few directions count.
+    fn of_many_others(
+        by_logit: &DMatrix<f64>,
+        by_others: &DMatrix<f64>,
+        residuals: &DVector<f64>,
+        of_others: &Cholesky<f64, Dyn>,
+    ) -> Self {
+        let both = by_others.tr_mul(by_logit);
+        let left = of_others.solve(&both);
+        let by_others_off = by_others.tr_mul(residuals);
+        let information = by_logit.tr_mul(by_logit) - both.tr_mul(&left);
+        let off = by_logit.tr_mul(residuals) - left.tr_mul(&by_others_off);
+        let Eigen { values, vectors } = Eigen::of_symmetric(information);
+        let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
+        let told = DMatrix::from_fn(kept.len(), by_logit.ncols(), |row, band| {
+            values[kept[row]].sqrt() * vectors[(band, kept[row])]
+        });
+        let off = kept.iter().map(|n| vectors.column(*n).dot(&off) / values[*n].sqrt());
+        let off = DVector::from_iterator(kept.len(), off);
+        let explained = by_others_off.dot(&of_others.solve(&by_others_off)) + off.norm_squared();
+        Self { values: told, off, left: residuals.norm_squared() - explained }
+    }
+}
+
+/// That model under a class.
+struct LinearClass {
+    /// How far off the mean of the class is.
+    off: DVector<f64>,
+    /// Covariance of what is told by the class, without what its spectra do beyond it.
+    by_class: DMatrix<f64>,
+}
+
+/// A class at several widths.
+struct AtWidths {
+    /// Logarithm of the evidence, the widths being as frequent as they are.
+    ln_evidence: f64,
+    /// Root mean square by evidence: where data do not tell the width of a class, error bars are those of all widths.
+    scale: f64,
+    /// Of most evidence, a place in [`ROUGHNESSES`].
+    roughness: usize,
+}
+
+impl LinearClass {
+    fn new<H>(linear: &Linear<H>, class: &Class) -> Self {
+        let off = &linear.off + &linear.told * (&linear.logit - class.mean());
+        let own = &linear.told * class.own();
+        Self { off, by_class: &own * own.transpose() }
+    }
+
+    fn covariance(
+        &self,
+        by_beyond: &DMatrix<f64>,
+        scale: f64,
+        roughness: usize,
+    ) -> Option<Cholesky<f64, Dyn>> {
+        let (scale, roughness) = (scale.powi(2), ROUGHNESSES[roughness].0.powi(2));
+        let mut covariance = self
+            .by_class
+            .zip_map(by_beyond, |by_class, by_beyond| scale * (by_class + roughness * by_beyond));
+        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
+        Cholesky::new(covariance)
+    }
+
+    /// The evidence at a width; none if the numbers are not finite.
+    fn ln_evidence(&self, by_beyond: &DMatrix<f64>, scale: f64, roughness: usize) -> Option<f64> {
+        let factor = self.covariance(by_beyond, scale, roughness)?;
+        let cost = factor.l_dirty().solve_lower_triangular(&self.off)?.norm_squared();
+        let ln_evidence = -0.5 * (cost + factor.ln_determinant());
+        ln_evidence.is_finite().then_some(ln_evidence)
+    }
+
+    /// None if no number is finite.
+    fn at_widths(&self, by_beyond: &DMatrix<f64>, widths: impl Iterator<Item = Width>) -> Option<AtWidths> {
+        let weighed = |width: Width| {
+            let ln_of_width = self.ln_evidence(by_beyond, SCALES[width.scale].0, width.roughness)?;
+            Some((ln_of_width + width.ln_share(), width))
+        };
+        let all: Vec<_> = widths.filter_map(weighed).collect();
+        let &(most, Width { roughness, .. }) = all.iter().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (ln_evidence, width) in &all {
+            let odds = (ln_evidence - most).exp();
+            sum += odds;
+            squares += odds * SCALES[width.scale].0.powi(2);
+        }
+        Some(AtWidths { ln_evidence: most + sum.ln(), scale: (squares / sum).sqrt(), roughness })
+    }
+}
+
+/// Classes under all hypotheses by their evidence, most first.
+pub fn candidates<F: Family>(
+    family: &F,
+    linears: Vec<Linear<F::Hypothesis>>,
+    prior: &Prior,
+) -> Vec<Candidate<F::Hypothesis>> {
+    let mut first = Vec::new();
+    for linear in linears.into_iter().map(Rc::new) {
+        let by_beyond = Rc::new(&linear.told * prior.beyond() * linear.told.transpose());
+        let known = linear.ln_share - 0.5 * (linear.ln_determinant + linear.left);
+        for (class, of_prior) in prior.classes().iter().enumerate() {
+            let known = known + family.ln_share(of_prior);
+            let told = LinearClass::new(&linear, of_prior);
+            if let Some(at) = told.at_widths(&by_beyond, FIRST_WIDTHS.into_iter()) {
+                first.push((
+                    known + at.ln_evidence,
+                    known,
+                    class,
+                    told,
+                    Rc::clone(&linear),
+                    Rc::clone(&by_beyond),
+                ));
+            }
+        }
+    }
+    let most = first.iter().map(|(ln_evidence, ..)| *ln_evidence).fold(f64::NEG_INFINITY, f64::max);
+    let near = first.into_iter().filter(|(ln_evidence, ..)| *ln_evidence >= most + LN_EVIDENCE_NEAR);
+    let weighed = near.filter_map(|(_, known, class, told, linear, by_beyond)| {
+        let AtWidths { ln_evidence, scale, roughness } = told.at_widths(&by_beyond, Width::all())?;
+        let ln_share = linear.ln_share + family.ln_share(&prior.classes()[class]) + ln_evidence
+            - told.ln_evidence(&by_beyond, scale, roughness)?;
+        Some(Candidate { linear, class, scale, roughness, ln_evidence: known + ln_evidence, ln_share })
+    });
+    let mut weighed: Vec<_> = weighed.collect();
+    weighed.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+    weighed
+}
+
+impl<H: Copy> Candidate<H> {
+    /// What is taken to be so.
+    pub fn hypothesis(&self) -> H {
+        self.linear.hypothesis
+    }
+
+    /// The Gaussian of the class, as wide as it is likely to be.
+    pub fn gaussian(&self, prior: &Prior) -> Gaussian {
+        prior.classes()[self.class].rough(self.roughness).scaled(self.scale)
+    }
+
+    /// Where to look for the maximum: where the linear model has it or, if that is further off, where that model was made.
+    pub fn start<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Option<Start<H>> {
+        let Linear { hypothesis, inflation, .. } = *self.linear;
+        let gaussian = self.gaussian(prior);
+        let model = family.model(hypothesis, &gaussian)?;
+        let cost = |w: &DVector<f64>| (model.residuals(w) / inflation).norm_squared() + w.norm_squared();
+        let (maximum, here) = (self.maximum(&gaussian)?.w, self.in_coordinates_of(&gaussian)?);
+        let w = if cost(&here) < cost(&maximum) { here } else { maximum };
+        let Self { class, ln_evidence, ln_share, .. } = *self;
+        drop(model);
+        Some(Start { hypothesis, class, inflation, ln_evidence, ln_share, gaussian, w })
+    }
+
+    /// Where the linear model was made in the coordinates of a Gaussian, as nearly as that has it.
+    fn in_coordinates_of(&self, own: &Gaussian) -> Option<DVector<f64>> {
+        let (basis, linear) = (own.basis(), &self.linear);
+        let mut information = basis.tr_mul(basis);
+        (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
+        let spectrum = Cholesky::new(information)?.solve(&basis.tr_mul(&(&linear.logit - own.mean())));
+        Some(joined(&spectrum, &linear.others))
+    }
+
+    /// The maximum of the linear model under a Gaussian of spectra.
+    pub fn maximum(&self, own: &Gaussian) -> Option<LinearMaximum> {
+        let linear = &self.linear;
+        let away = &linear.logit - own.mean();
+        let spread = &linear.told * own.basis();
+        let mut covariance = &spread * spread.transpose();
+        (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
+        let factor = Cholesky::new(covariance)?;
+        let spectrum = spread.tr_mul(&factor.solve(&(&linear.off + &linear.told * &away)));
+        let left = &linear.residuals + &linear.by_logit * (away - own.basis() * &spectrum);
+        let w = joined(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));
+        let ln_determinant = factor.ln_determinant() + linear.ln_determinant;
+        Some(LinearMaximum {
+            ln_evidence_of_fit: self.ln_share - 0.5 * (w.norm_squared() + ln_determinant),
+            w,
+        })
+    }
+}
+
+fn joined(spectrum: &DVector<f64>, others: &DVector<f64>) -> DVector<f64> {
+    DVector::from_iterator(spectrum.len() + others.len(), spectrum.iter().chain(others).copied())
+}

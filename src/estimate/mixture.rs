@@ -1,0 +1,110 @@
+//! Maxima and their mean by evidence: what an estimate is made of.
+
+use nalgebra::{DMatrix, DVector, RowDVector};
+
+use super::family::{Family, SpectrumModel};
+use super::linear::{Candidate, LinearMaximum, Start};
+use super::prior::Prior;
+use crate::solve::Termination;
+use crate::solve::posterior::{Iteration, Linearised, Model, Solution};
+
+/// The maximum under a hypothesis and a class of spectra.
+pub struct Maximum<H, S> {
+    /// Where the search ended.
+    pub start: Start<H>,
+    pub at: Linearised<S>,
+    pub ln_evidence: f64,
+    /// As [`SpectrumModel::values`], and [`SpectrumModel::spread`].
+    values: Vec<f64>,
+    spread: Option<DMatrix<f64>>,
+    pub rms: f64,
+    /// As [`Solution::surprise`].
+    pub surprise: f64,
+    pub trace: Vec<Iteration>,
+    pub termination: Termination,
+}
+
+/// A class that was not searched, where the linear model has its maximum.
+pub struct Beside {
+    pub ln_evidence: f64,
+    values: Vec<f64>,
+}
+
+/// What is expected, all maxima being weighed by their evidence.
+pub struct Mixture<H, S> {
+    /// As [`SpectrumModel::values`], and [`SpectrumModel::spread`].
+    pub values: Vec<f64>,
+    pub spread: Option<DMatrix<f64>>,
+    /// The maximum of most evidence.
+    pub best: Maximum<H, S>,
+    /// Logarithm of the evidence for all.
+    pub ln_evidence: f64,
+}
+
+impl<H: Copy, S> Maximum<H, S> {
+    /// Where a search from `start` ended.
+    pub fn of<M: SpectrumModel<Second = S>>(model: &M, found: Solution<S>, start: Start<H>) -> Self {
+        let ln_evidence = found
+            .ln_evidence(1.0)
+            .map_or(f64::NEG_INFINITY, |ln_evidence| ln_evidence + model.ln_whitening() + start.ln_share);
+        Self {
+            ln_evidence,
+            values: model.values(&found.w),
+            spread: model.spread(&found.w, &found.at),
+            rms: model.rms(&found.at.residuals),
+            surprise: found.surprise(),
+            start: Start { w: found.w, inflation: 1.0, ..start },
+            at: found.at,
+            trace: found.trace,
+            termination: found.termination,
+        }
+    }
+
+    /// Whether it is the same maximum, reflectances in so many `bands` being as near as that.
+    pub fn is_again(&self, other: &Self, bands: usize, apart: f64) -> bool {
+        let off = self.values.iter().zip(&other.values).take(bands).map(|(a, b)| (a - b).powi(2));
+        self.start.class == other.start.class && off.sum::<f64>() < apart * apart * bands as f64
+    }
+}
+
+impl Beside {
+    /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is not finite.
+    pub fn of<F: Family>(family: &F, candidate: &Candidate<F::Hypothesis>, prior: &Prior) -> Option<Self> {
+        let gaussian = candidate.gaussian(prior);
+        let LinearMaximum { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
+        let model = family.model(candidate.hypothesis(), &gaussian)?;
+        let ln_evidence = ln_evidence_of_fit - 0.5 * model.residuals(&w).norm_squared();
+        ln_evidence.is_finite().then(|| Self { ln_evidence, values: model.values(&w) })
+    }
+}
+
+impl<H, S> Mixture<H, S> {
+    /// The mean of the maxima and of what is `beside` them by evidence, its errors widened by how far they are from it. What was not searched
+    /// counts for no more than the best that was, and is taken to be known as the maxima are in the mean. None if there is no maximum.
+    pub fn of(mut maxima: Vec<Maximum<H, S>>, beside: &[Beside]) -> Option<Self> {
+        maxima.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+        let most = maxima.first()?;
+        let all = maxima.iter().map(|one| (one.ln_evidence, &one.values));
+        let all: Vec<_> = all.chain(beside.iter().map(|one| (one.ln_evidence, &one.values))).collect();
+        let odds: Vec<f64> = all.iter().map(|(ln, _)| (ln - most.ln_evidence).min(0.0).exp()).collect();
+        let (sum, of_maxima) = (odds.iter().sum::<f64>(), odds[..maxima.len()].iter().sum::<f64>());
+        let mut values = DVector::zeros(most.values.len());
+        for ((_, own), odds) in all.iter().zip(&odds) {
+            values.axpy(odds / sum, &DVector::from_column_slice(own), 1.0);
+        }
+        let within = maxima
+            .iter()
+            .zip(&odds)
+            .map(|(one, odds)| one.spread.as_ref().map(|spread| (odds / of_maxima).sqrt() * spread));
+        let within: Option<Vec<_>> = within.collect();
+        let spread = within.map(|within| {
+            let apart = all.iter().zip(&odds).map(|((_, own), odds)| {
+                (odds / sum).sqrt() * (RowDVector::from_row_slice(own) - values.transpose())
+            });
+            let rows = within.iter().flat_map(|spread| spread.row_iter().map(nalgebra::Matrix::into_owned));
+            DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
+        });
+        let ln_evidence = most.ln_evidence + sum.ln();
+        Some(Self { values: values.data.into(), spread, best: maxima.swap_remove(0), ln_evidence })
+    }
+}

@@ -1,0 +1,175 @@
+//! Photographs of one sheet as a family of models.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::hypotheses::Hypothesis;
+use super::joint::{JointModel, Member, Photograph};
+use super::model::Point;
+use crate::estimate::Fitted;
+use crate::estimate::family::{Family, SpectrumModel, widened};
+use crate::estimate::gaussian::Gaussian;
+use crate::estimate::mixture::Maximum;
+use crate::estimate::prior::{Class, Prior};
+use crate::estimate::unknowns::EXPOSURE;
+use crate::solve::posterior::{Linearised, Model, information};
+
+/// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
+const SHARE_POWER: f64 = 0.36;
+/// Channels that tell classes apart.
+const TELLING_CHANNELS: usize = 3;
+/// A number is told by the facets if its standard deviation is below that share of what it was before.
+const SUPPORTED: f64 = 0.8;
+/// Step of difference quotients, in standard deviations.
+const STEP: f64 = 1e-3;
+
+/// Photographs of one sheet.
+pub struct Photographs<'a>(pub Vec<Photograph<'a>>);
+
+/// A photograph at a maximum.
+pub struct Seen {
+    /// Exposure.
+    pub exposure: f64,
+    /// Unknowns of the scene that make a difference.
+    pub fitted: Vec<Fitted>,
+    /// What is left of the facets, whitened.
+    pub residuals: DVector<f64>,
+    /// What is left of the light, as a share.
+    pub unexplained: f64,
+    /// What corners do to the facets, whitened.
+    pub shifts: Vec<DVector<f64>>,
+}
+
+impl Photographs<'_> {
+    /// Logarithm of the sum of the shares of all classes.
+    pub fn ln_all_shares(&self, prior: &Prior) -> f64 {
+        prior.classes().iter().map(|class| self.ln_share(class).exp()).sum::<f64>().ln()
+    }
+
+    /// Each photograph at a maximum; none if the model is not finite.
+    pub fn seen(&self, Maximum { start, at, .. }: &Maximum<Hypothesis, ()>) -> Option<Vec<Seen>> {
+        let model = self.model(start.hypothesis, &start.gaussian)?;
+        let lower = information(&at.jacobian)?.l();
+        let own = lower.solve_lower_triangular(&DMatrix::identity(start.w.len(), start.w.len()))?;
+        let widened = widened(model.rms(&at.residuals));
+        let of = |(member, residuals): (&Member, DVector<f64>)| {
+            let w = member.own(&start.w);
+            let exposure = member.model.point(&w).exposure;
+            let [scene, ..] = member.model.layout();
+            let numbers = member.model.scene_unknowns().iter().zip(scene..);
+            let fitted = numbers.filter(|(number, _)| number.matters()).map(|(number, n)| {
+                let (value, slope) = number.at(w[n]);
+                let value = if number.unknown == &EXPOSURE { exposure } else { value };
+                let sd = widened * own.column(member.place(n)).norm();
+                Fitted { unknown: number.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
+            });
+            Seen {
+                exposure,
+                fitted: fitted.collect(),
+                residuals,
+                unexplained: member.model.left_over(&w).norm()
+                    / member.model.values().norm().max(f64::MIN_POSITIVE),
+                shifts: member.model.shifts(),
+            }
+        };
+        Some(model.members().iter().zip(model.each(&at.residuals)).map(of).collect())
+    }
+}
+
+impl<'a> Family for Photographs<'a> {
+    type Hypothesis = Hypothesis;
+    type Second = ();
+    type Model<'m>
+        = JointModel<'m>
+    where
+        Self: 'm;
+
+    fn model<'m>(&'m self, hypothesis: Hypothesis, gaussian: &'m Gaussian) -> Option<JointModel<'m>> {
+        JointModel::new(&self.0, hypothesis, gaussian)
+    }
+
+    fn ln_share(&self, class: &Class) -> f64 {
+        SHARE_POWER * class.ln_share
+    }
+
+    fn tells_classes(&self) -> bool {
+        self.0.iter().any(|photograph| photograph.parts.values.ncols() >= TELLING_CHANNELS)
+    }
+
+    /// Noise of photographs is not so small that classes are told apart at a larger one.
+    fn peak(&self) -> f64 {
+        0.0
+    }
+}
+
+impl SpectrumModel for JointModel<'_> {
+    fn gaussian(&self) -> &Gaussian {
+        self.first().model.gaussian()
+    }
+
+    fn by_logit(&self, _: &DVector<f64>, at: &Linearised<()>) -> DMatrix<f64> {
+        let basis = self.gaussian().basis();
+        let coordinates_of = basis.tr_mul(basis).cholesky().map(|factor| factor.solve(&basis.transpose()));
+        let (coordinates, bands) = (basis.ncols(), basis.nrows());
+        let coordinates_of = coordinates_of.unwrap_or_else(|| DMatrix::zeros(coordinates, bands));
+        at.jacobian.columns(0, coordinates) * coordinates_of
+    }
+
+    /// 45:0 reflectance, then albedo.
+    fn values(&self, w: &DVector<f64>) -> Vec<f64> {
+        let first = self.first();
+        let Point { albedo, departure, .. } = first.model.point(&first.own(w));
+        let [slope, offset] = departure.reflectance;
+        let reflectance = albedo.iter().map(|albedo| (slope * albedo + offset).clamp(0.0, 1.0));
+        reflectance.chain(albedo.iter().copied()).collect()
+    }
+
+    fn spread(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
+        let first = self.first();
+        let lower = information(&at.jacobian)?.l();
+        let point = first.model.point(&first.own(w));
+        let slopes = slopes(first, self.unknowns(), &first.own(w), &point);
+        let spread = widened(self.rms(&at.residuals)) * lower.solve_lower_triangular(&slopes.transpose())?;
+        Some(match first.model.instrument_errors(&point.albedo) {
+            Some(errors) => {
+                let errors = errors.resize_horizontally(spread.ncols(), 0.0);
+                DMatrix::from_rows(&spread.row_iter().chain(errors.row_iter()).collect::<Vec<_>>())
+            }
+            None => spread,
+        })
+    }
+
+    fn rms(&self, residuals: &DVector<f64>) -> f64 {
+        (residuals.norm_squared() / residuals.len() as f64).sqrt()
+    }
+
+    fn ln_whitening(&self) -> f64 {
+        self.members().iter().map(|member| member.model.whitening().ln_determinant()).sum()
+    }
+}
+
+/// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, the numbers of the `first` being `w`.
+fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
+    let [scene, sheet, camera, _] = first.model.layout();
+    let basis = first.model.gaussian().basis();
+    let bands = point.albedo.len();
+    let mut slopes = DMatrix::zeros(2 * bands, unknowns);
+    for (band, albedo) in point.albedo.iter().enumerate() {
+        for n in 0..scene {
+            let change = albedo * (1.0 - albedo) * basis[(band, n)];
+            slopes[(band, first.place(n))] = point.departure.reflectance[0] * change;
+            slopes[(bands + band, first.place(n))] = change;
+        }
+    }
+    let numbers = first.model.scene_unknowns().iter().zip(scene..);
+    let of_sheet = numbers.filter(|(number, _)| number.unknown.is_of_sheet()).map(|(_, n)| n);
+    for n in of_sheet.chain(sheet..camera) {
+        let mut beside = w.clone();
+        beside[n] += STEP;
+        let moved = first.model.point(&beside).departure.reflectance;
+        let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
+        for (band, albedo) in point.albedo.iter().enumerate() {
+            slopes[(band, first.place(n))] = slope * albedo + offset;
+        }
+    }
+    slopes
+}

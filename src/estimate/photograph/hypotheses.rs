@@ -1,0 +1,98 @@
+//! What a photograph may be taken to be, and how often it is so.
+
+use super::conditions::Told;
+use super::imperfection::Imperfection;
+use super::joint::Photograph;
+use super::kinds::Kind;
+
+/// What a photograph is taken to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// The kind of its sheet.
+    pub kind: Kind,
+    /// How far it is from an ideal one.
+    pub imperfection: Imperfection,
+    /// What is not as it was stated, if anything is.
+    pub mistake: Option<Mistake>,
+}
+
+/// What may be another thing altogether than was stated. Angle and exposure are never exact in photographs as people take them, where mistakes
+/// are in the tails of their priors; in a scene that is computed they are, or are mistaken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mistake {
+    /// No light bounces between the panels: a flat sheet, a ridge, corners elsewhere.
+    NoFold,
+    /// The exposure that somebody stated is not that of the picture.
+    Exposure,
+    /// The angle that somebody stated is not that of the fold.
+    Angle,
+}
+
+impl Mistake {
+    /// How often it is made: no fold in each of two ways, else as often as with any number that people measure and type.
+    fn share(self) -> f64 {
+        match self {
+            Self::NoFold => 0.01,
+            Self::Exposure | Self::Angle => 0.05,
+        }
+    }
+}
+
+/// All hypotheses on photographs of folds, the most probable first.
+pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
+    let mut all = usual_hypotheses();
+    // the curves of another camera are never those of this one; an ideal fold is the same whatever its sheet's kind
+    if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
+        all.extend([Hypothesis::ideal(None), Hypothesis::ideal(Some(Mistake::Angle))]);
+        if photographs.iter().any(|photograph| photograph.parts.told.is_exposure_stated()) {
+            all.push(Hypothesis::ideal(Some(Mistake::Exposure)));
+        }
+    }
+    all
+}
+
+/// Hypotheses on photographs as people take them.
+pub fn usual_hypotheses() -> Vec<Hypothesis> {
+    Kind::ALL.map(Hypothesis::usual).to_vec()
+}
+
+/// Hypotheses on what is no fold.
+pub fn hypotheses_without_bounces() -> [Hypothesis; 2] {
+    let mistake = Some(Mistake::NoFold);
+    [Hypothesis { mistake, ..Hypothesis::usual(Kind::Matt) }, Hypothesis::ideal(mistake)]
+}
+
+impl Hypothesis {
+    /// A photograph as people take them, of this kind of sheet.
+    #[must_use]
+    pub fn usual(kind: Kind) -> Self {
+        Self { kind, imperfection: Imperfection::USUAL, mistake: None }
+    }
+
+    /// One of an ideal fold, all as stated but for a mistake.
+    #[must_use]
+    pub fn ideal(mistake: Option<Mistake>) -> Self {
+        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, mistake }
+    }
+
+    /// Logarithm of how often it is true.
+    pub fn ln_share(&self) -> f64 {
+        let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share().ln());
+        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share() };
+        let of_fold = self.imperfection.ln_share() + of_kind;
+        if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
+    }
+
+    /// Whether light bounces between the panels, as it does in a fold.
+    pub fn has_bounces(&self) -> bool {
+        self.mistake != Some(Mistake::NoFold)
+    }
+
+    /// What of all that was stated is to be believed.
+    pub fn told(&self, told: &Told) -> Told {
+        match self.mistake {
+            Some(Mistake::Exposure) if told.is_exposure_stated() => Told { exposure: None, ..*told },
+            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle) | None => *told,
+        }
+    }
+}

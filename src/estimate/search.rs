@@ -1,0 +1,258 @@
+//! The most probable spectrum under all hypotheses and all classes of spectra: one search for whatever has a prior.
+//!
+//! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there says which classes of spectra are likely under it
+//! ([`linear`](super::linear)). Those of most evidence are searched to their own maxima, and the estimate is the mean of these by their evidence
+//! ([`mixture`](super::mixture)).
+
+use nalgebra::DVector;
+
+use super::family::{Family, SpectrumModel};
+use super::linear::{Candidate, Linear, Start, candidates};
+use super::mixture::{Beside, Maximum, Mixture};
+use super::prior::Prior;
+use super::starts::{between_means, from_means};
+use crate::solve::Termination;
+use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+
+/// A maximum counts as found within this many standard deviations of it, one at which classes are told apart, and one that only sorts.
+const TOLERANCE: f64 = 1e-3;
+const TELLING_TOLERANCE: f64 = 0.01;
+const SORTING_TOLERANCE: f64 = 0.3;
+const SORTING_LIMIT: usize = 500;
+/// Classes are told apart at these noises, relative to the brightest datum, or at the true one if that is larger: at the coarse one all spectra
+/// lead to where the model is nearly linear, at the fine one the likeliest class of these does.
+const SORTING_NOISE: f64 = 1e-3;
+const FINE_NOISE: f64 = 1e-5;
+/// The search that leads there ends so near to its maximum, in standard deviations, or after so many iterations.
+const FINE_TOLERANCE: f64 = 0.01;
+const FINE_LIMIT: usize = 30;
+/// Most candidates that are searched, and the least evidence for one of them, as the logarithm of its share of the first's; and where data do not
+/// tell classes apart.
+const TRIED: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -3.0;
+const UNTOLD_TRIED: usize = 24;
+const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
+/// The least evidence, likewise, for one that counts without a search, and how many do.
+const BESIDE_LN_EVIDENCE_LEAST: f64 = -4.0;
+const BESIDE: usize = 15;
+/// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which may be of another scene than was
+/// told, so many that no search that explains them comes near to that.
+const LIMIT: usize = 90;
+const NOISY_LIMIT: usize = 600;
+/// Of precise data, maxima so many standard deviations from what chance has may be false, and those that a search took more than [`LONG`]
+/// iterations to: one from another start counts by its evidence if it explains the data.
+const SURPRISE: f64 = 0.0;
+const LONG: usize = 10;
+/// Most iterations of each of these searches, where data are precise.
+const ANOTHER_LIMIT: usize = 20;
+/// The best search is carried on for so many iterations where none has come to the data.
+const CARRIED_ON: usize = 40;
+/// A maximum explains the data if it leaves them within so many times their noise; further off the scene is not the one that was
+/// photographed, and evidence says nothing.
+const MISFIT_MOST: f64 = 1.1;
+/// Spectra of a class are one if their root mean square difference is less.
+pub const APART: f64 = 0.005;
+
+/// A hypothesis under all spectra as one Gaussian.
+pub struct Sorted<H, S> {
+    pub hypothesis: H,
+    /// Logarithm of how often it is true.
+    pub ln_share: f64,
+    /// Logarithm of its evidence, the noise as it was inflated.
+    pub ln_evidence: f64,
+    pub solution: Solution<S>,
+}
+
+impl<H, S> Sorted<H, S> {
+    /// Logarithm of its evidence and of how often it is true.
+    pub fn ln_weight(&self) -> f64 {
+        self.ln_share + self.ln_evidence
+    }
+}
+
+/// A search within a family of models.
+pub struct Search<'a, F: Family> {
+    family: &'a F,
+    prior: &'a Prior,
+    /// Factors by which the noise is inflated while hypotheses and classes are told apart.
+    coarse: f64,
+    fine: f64,
+    /// What happened, by runs.
+    pub trace: Vec<Vec<Iteration>>,
+    /// Candidates that the evidence is against.
+    pub skipped: usize,
+}
+
+type Maxima<F> = Vec<Maximum<<F as Family>::Hypothesis, <F as Family>::Second>>;
+
+impl<'a, F: Family> Search<'a, F> {
+    pub fn new(family: &'a F, prior: &'a Prior) -> Self {
+        let [coarse, fine] = [SORTING_NOISE, FINE_NOISE].map(|noise| (noise * family.peak()).max(1.0));
+        Self { family, prior, coarse, fine, trace: Vec::new(), skipped: 0 }
+    }
+
+    /// A hypothesis that is so often true, from `start` on; none if there is no maximum.
+    pub fn sort(
+        &mut self,
+        (hypothesis, ln_share): (F::Hypothesis, f64),
+        start: Option<DVector<f64>>,
+    ) -> Option<Sorted<F::Hypothesis, F::Second>> {
+        let model = self.family.model(hypothesis, self.prior.broad())?;
+        let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
+        let first = first_inflation(&model, &start, self.coarse);
+        let solution = maximise(&model, start, (first, self.coarse), SORTING_TOLERANCE, SORTING_LIMIT);
+        self.trace.push(solution.trace.clone());
+        let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
+        ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
+    }
+
+    /// The mean of all maxima of evidence under hypotheses that are `sorted`.
+    pub fn mixture(
+        &mut self,
+        sorted: &[Sorted<F::Hypothesis, F::Second>],
+    ) -> Option<Mixture<F::Hypothesis, F::Second>> {
+        let Self { family, prior, coarse, fine, .. } = *self;
+        let are_precise = coarse.min(fine) > 1.0;
+        let (mut likely, mut is_telling) = (Vec::new(), false);
+        if family.tells_classes() {
+            let about = |one: &Sorted<F::Hypothesis, F::Second>| {
+                let model = family.model(one.hypothesis, prior.broad())?;
+                let w = one.solution.w.clone();
+                let Solution { w, at, .. } =
+                    maximise(&model, w, (coarse, coarse), TELLING_TOLERANCE, SORTING_LIMIT);
+                Linear::about(&model, (&w, &at), coarse, (one.hypothesis, one.ln_share))
+            };
+            let linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
+            likely = candidates(family, linears, prior);
+        }
+        if fine < coarse
+            && let Some(first) = likely.first()
+            && let Some(start) = first.start(family, prior)
+        {
+            likely = self.nearer(start).unwrap_or(likely);
+        }
+        let tried = of_most_evidence(&likely, |one| one.ln_evidence, is_telling).len();
+        self.skipped = likely.len() - tried;
+        let starts: Vec<_> = likely[..tried].iter().filter_map(|one| one.start(family, prior)).collect();
+        let limit = if are_precise { LIMIT } else { NOISY_LIMIT } / starts.len().max(1);
+        let mut starts = starts.into_iter();
+        let mut found = Vec::new();
+        for start in starts.by_ref() {
+            found.extend(self.maximum(start, limit));
+            // the others set out beside it: more is likely to be found from elsewhere
+            if are_precise && !found.iter().any(explains) {
+                break;
+            }
+        }
+        let more = if found.is_empty() && !family.tells_classes() {
+            from_means(family, sorted.first()?.hypothesis, prior, coarse)
+        } else if !found.iter().any(explains) || (are_precise && is_doubtful(&found)) {
+            let taken = self.trace.iter().chain(found.iter().map(|one| &one.trace)).map(Vec::len).sum();
+            let hypothesis = sorted.first()?.hypothesis;
+            between_means(family, hypothesis, prior, [coarse, fine], taken, &mut self.trace)
+        } else {
+            Vec::new()
+        };
+        let another_limit =
+            if family.tells_classes() { ANOTHER_LIMIT } else { NOISY_LIMIT / more.len().max(1) };
+        let more: Vec<_> = more.into_iter().filter_map(|start| self.maximum(start, another_limit)).collect();
+        add(&mut found, more, prior.broad().mean().len());
+        let is_explained = |found: &Maxima<F>| !are_precise || found.iter().any(explains);
+        if !is_explained(&found) {
+            found.extend(starts.filter_map(|start| self.maximum(start, limit)));
+        }
+        if !is_explained(&found) {
+            self.carry_on(&mut found);
+        }
+        if found.is_empty() {
+            let Sorted { hypothesis, ln_share, ln_evidence, solution } = sorted.first()?;
+            let (gaussian, w) = (prior.broad().clone(), solution.w.clone());
+            let all = Start {
+                hypothesis: *hypothesis,
+                class: usize::MAX,
+                inflation: coarse,
+                ln_evidence: *ln_evidence,
+                ln_share: *ln_share,
+                gaussian,
+                w,
+            };
+            found.extend(self.maximum(all, 0));
+        }
+        self.trace.extend(found.iter().map(|one| one.trace.clone()));
+        // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which does not explain them
+        let count = if are_precise { 0 } else { BESIDE };
+        let least = likely.first().map_or(0.0, |first| first.ln_evidence + BESIDE_LN_EVIDENCE_LEAST);
+        let beside = likely[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
+        let beside: Vec<_> = beside.filter_map(|one| Beside::of(family, one, prior)).collect();
+        Mixture::of(found, &beside)
+    }
+
+    fn maximum(
+        &self,
+        start: Start<F::Hypothesis>,
+        limit: usize,
+    ) -> Option<Maximum<F::Hypothesis, F::Second>> {
+        let gaussian = start.gaussian.clone();
+        let model = self.family.model(start.hypothesis, &gaussian)?;
+        let found = maximise(&model, start.w.clone(), (start.inflation, 1.0), TOLERANCE, limit);
+        Some(Maximum::of(&model, found, start))
+    }
+
+    /// Candidates about the maximum under one of them at the fine noise; none if the search does not come to its end.
+    fn nearer(&mut self, start: Start<F::Hypothesis>) -> Option<Vec<Candidate<F::Hypothesis>>> {
+        let model = self.family.model(start.hypothesis, &start.gaussian)?;
+        let found = maximise(&model, start.w, (start.inflation, self.fine), FINE_TOLERANCE, FINE_LIMIT);
+        self.trace.push(found.trace);
+        match found.termination {
+            Termination::Converged { .. } => {
+                let linear =
+                    Linear::about(&model, (&found.w, &found.at), self.fine, (start.hypothesis, 0.0))?;
+                Some(candidates(self.family, vec![linear], self.prior))
+            }
+            Termination::NoProgress { .. } | Termination::IterationLimit => None,
+        }
+    }
+
+    /// Carries on the search of most evidence.
+    fn carry_on(&self, found: &mut Maxima<F>) {
+        let most = (0..found.len()).max_by(|a, b| found[*a].ln_evidence.total_cmp(&found[*b].ln_evidence));
+        if let Some(Maximum { start, trace, .. }) = most.map(|most| found.swap_remove(most))
+            && let Some(mut further) = self.maximum(start, CARRIED_ON)
+        {
+            further.trace = [trace, further.trace].concat();
+            found.push(further);
+        }
+    }
+}
+
+/// Whether the data are as near to it as their noise lets them be.
+fn explains<H, S>(one: &Maximum<H, S>) -> bool {
+    one.rms < MISFIT_MOST
+}
+
+/// Adds maxima that the data allow, each once; all of them if there are no others.
+fn add<H: Copy, S>(found: &mut Vec<Maximum<H, S>>, more: Vec<Maximum<H, S>>, bands: usize) {
+    let all_count = found.is_empty();
+    for one in more {
+        if (all_count || explains(&one)) && !found.iter().any(|other| one.is_again(other, bands, APART)) {
+            found.push(one);
+        }
+    }
+}
+
+/// Whether another maximum may have more evidence than those that were found: data that are precise show it already where the search was
+/// long.
+fn is_doubtful<H, S>(found: &[Maximum<H, S>]) -> bool {
+    let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
+    most.is_none_or(|most| most.surprise > SURPRISE || most.trace.len() > LONG)
+}
+
+/// Those of most evidence, of which the first has most; more of them if data are not `telling`.
+pub fn of_most_evidence<T>(found: &[T], ln_evidence: impl Fn(&T) -> f64, is_telling: bool) -> &[T] {
+    let (most, ln_least) =
+        if is_telling { (TRIED, LN_EVIDENCE_LEAST) } else { (UNTOLD_TRIED, UNTOLD_LN_EVIDENCE_LEAST) };
+    let least = found.first().map_or(0.0, |best| ln_evidence(best) + ln_least);
+    let enough = found.partition_point(|one| ln_evidence(one) >= least);
+    &found[..enough.min(most)]
+}
