@@ -8,7 +8,6 @@ use std::slice;
 
 use super::data::FacetData;
 use super::measured::Measured;
-use super::photograph::error::ModelError;
 use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
 use super::prior::Prior;
 use super::shading::Shading;
@@ -121,7 +120,7 @@ impl<'a> Inference<'a> {
             }
             Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
-        let mut real = photograph::estimate(slice::from_ref(parts), self.prior, ModelError::OF_PHOTOGRAPHS)?;
+        let mut real = photograph::estimate(slice::from_ref(parts), self.prior)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
@@ -190,7 +189,7 @@ impl<'a> Inference<'a> {
 /// # Errors
 /// [`Error::Field`] if they are those of several sheets, [`Error::Numeric`] if facets are not finite.
 pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> Result<SheetEstimate> {
-    let estimate = |all: &[Parts]| photograph::estimate_usual(all, prior, ModelError::OF_PHOTOGRAPHS);
+    let estimate = |all: &[Parts]| photograph::estimate_usual(all, prior);
     let together = estimate(photographs)?;
     let mut apart = 0.0;
     for one in photographs {

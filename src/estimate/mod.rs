@@ -30,8 +30,9 @@ pub mod unknowns;
 pub mod verdict;
 
 use nalgebra::DMatrix;
+use photograph::beliefs::Beliefs;
 use smooth_errors::smooth_errors;
-use unknowns::{EXPOSURE_OF_PHOTOGRAPH, Normal, Unknown};
+use unknowns::{Normal, Unknown};
 
 use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
@@ -63,11 +64,11 @@ impl Exposure {
         }
     }
 
-    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](EXPOSURE_OF_PHOTOGRAPH).
+    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](Beliefs::exposure).
     #[must_use]
     pub fn of_photograph(self) -> Self {
         match self {
-            Self::Free => Self::Expected(EXPOSURE_OF_PHOTOGRAPH),
+            Self::Free => Self::Expected(Beliefs::USUAL.exposure()),
             stated => stated,
         }
     }

@@ -6,7 +6,8 @@
 
 use std::{fmt, iter};
 
-use super::unknowns::{ANGLE, EXPOSURE, EXPOSURE_OF_PHOTOGRAPH, Normal};
+use super::photograph::beliefs::Beliefs;
+use super::unknowns::{ANGLE, EXPOSURE, Normal};
 use super::{Estimate, Exposure, Fitted, MISFIT};
 use crate::error::{Error, Result};
 
@@ -159,7 +160,7 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     let exposure = stated.unwrap_or(estimate.exposure);
     let brightest = estimate.reflectance.iter().copied().fold(DARKEST_SHEET, f64::max);
     let longer = 0.5 * (DARK_SHEET / brightest).ln().max(0.0);
-    let Normal { mean, sd } = EXPOSURE_OF_PHOTOGRAPH;
+    let Normal { mean, sd } = Beliefs::USUAL.exposure();
     let off = (exposure.ln() - mean - longer) / sd;
     let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
     let remedy = if stated.is_some() {

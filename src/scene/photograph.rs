@@ -15,6 +15,7 @@ use ndarray::Array2;
 use super::FoldSetting;
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
+use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::estimate::photograph::{Told, Unmodelled};
@@ -63,6 +64,7 @@ impl<'a> Picture<'a> {
 pub struct PhotographedFold<'a> {
     setting: &'a FoldSetting,
     nodes: Vec<f64>,
+    beliefs: &'static Beliefs,
     /// Name of a measured sheet that is taken to be unknown.
     left_out: Option<String>,
 }
@@ -71,13 +73,19 @@ impl<'a> PhotographedFold<'a> {
     /// That of a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting) -> Self {
-        Self { setting, nodes: nodes(NODES), left_out: None }
+        Self { setting, nodes: nodes(NODES), beliefs: &Beliefs::USUAL, left_out: None }
     }
 
     /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes of a sheet that nobody measured.
     #[must_use]
     pub fn leaving_out(self, sheet: &str) -> Self {
         Self { left_out: Some(sheet.to_owned()), ..self }
+    }
+
+    /// The same believed otherwise, to see what that changes.
+    #[must_use]
+    pub fn believing(self, beliefs: &'static Beliefs) -> Self {
+        Self { beliefs, ..self }
     }
 
     /// The parts of a photograph of which facets were measured, or why there are none.
@@ -116,7 +124,7 @@ impl<'a> PhotographedFold<'a> {
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
         let (optics, facets) = (self.setting.optics()?, fold.facets());
-        let eye = eye::of(optics)?;
+        let eye = eye::of(optics, self.beliefs)?;
         let shape = [2 * facets.len(), eye.sensitivities.ncols()];
         check_shape("facet_rgb", measured.rgb, shape)?;
         check_shape("facet_sd", measured.sd, shape)?;
@@ -125,6 +133,7 @@ impl<'a> PhotographedFold<'a> {
         let sun = light.towards();
         let up = pose.up(sun, SUN_HEIGHT);
         let told = Told {
+            beliefs: self.beliefs,
             exposure,
             by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),

@@ -42,8 +42,9 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let parts = [parts];
     let prior = Prior::built_in(wavelengths_nm).unwrap();
     let kinds = Kinds::of(&parts).remove(0);
-    let whitening =
-        ModelError::OF_PHOTOGRAPHS.whitening(&parts[0].places, &parts[0].values, &parts[0].sd).unwrap();
+    let whitening = ModelError::of(parts[0].told.beliefs)
+        .whitening(&parts[0].places, &parts[0].values, &parts[0].sd)
+        .unwrap();
     let ideal = [None, Some(Mistake::Angle), Some(Mistake::Exposure)].map(Hypothesis::ideal);
     let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
     for hypothesis in all {

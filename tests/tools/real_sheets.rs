@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph;
-use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::prior::Prior;
 use vfold::image::Point;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture, Setting};
@@ -161,7 +160,7 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let parts = fold.parts(&Picture::of(&sample, &measured, exposure).unwrap()).unwrap().unwrap();
     let grid = scene.grid().unwrap();
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
-    let estimate = photograph::estimate(&[parts], &prior, ModelError::OF_PHOTOGRAPHS).unwrap();
+    let estimate = photograph::estimate(&[parts], &prior).unwrap();
     let estimate = &estimate.photographs[0];
     let sample = json!({"estimate": {"reflectance": estimate.reflectance, "reflectance_sd": estimate.reflectance_sd()}});
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();

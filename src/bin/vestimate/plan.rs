@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use vfold::cli::{self, Common, OpticsArgs};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
-use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::{Estimate, Exposure};
 use vfold::forward::FacetValues;
@@ -181,7 +180,7 @@ impl Planned {
                 };
                 let of = |(n, own): (usize, &Parts)| {
                     let pictures: Vec<Parts> = others.get(n).into_iter().chain([own]).cloned().collect();
-                    let mut found = photograph::estimate_usual(&pictures, prior, ModelError::OF_PHOTOGRAPHS)?;
+                    let mut found = photograph::estimate_usual(&pictures, prior)?;
                     found.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))
                 };
                 sheets.par_iter().enumerate().map(of).collect()

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beliefs::Beliefs;
 use crate::spectrum::daylight_weights;
 
 /// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
@@ -50,6 +51,8 @@ pub struct Conditions {
 /// What was said of a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Told {
+    /// What is believed before it is looked at.
+    pub beliefs: &'static Beliefs,
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
     /// Whether a chart or a card in the light of sun and sky told the exposure and balanced the channels.

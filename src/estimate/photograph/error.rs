@@ -2,6 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
+use super::beliefs::Beliefs;
 use super::corners::shifts;
 use super::parts::Place;
 use super::sums::add;
@@ -23,27 +24,37 @@ pub struct ModelError {
     pub at_outer_side: f64,
     /// How far a corner is from where it is marked, in depths of a panel.
     pub corner: f64,
+    /// Length over which it is correlated, in depths of a panel.
+    pub length: f64,
+    /// Correlation between places that mirror each other on the two panels.
+    pub between_panels: f64,
 }
 
-/// Length over which the error is correlated, in depths of a panel.
-const LENGTH: f64 = 0.6;
-/// Correlation between places that mirror each other on the two panels.
-const BETWEEN_PANELS: f64 = 0.3;
 /// Depth over which the crease or an outer side matters, in depths of a panel.
 const SIDE_DEPTH: f64 = 0.06;
 /// Share of the variance there that is alike in all channels.
 const SIDE_SHARED: f64 = 0.8;
 
 impl ModelError {
-    /// That of photographs of sheets that the kinds describe. Sizes and the length over which it is correlated are those of most evidence in
-    /// the facets of rendered photographs, whatever the spectra behind them.
-    pub const OF_PHOTOGRAPHS: Self =
-        Self { shared: 0.015, own: 0.01, white: 0.004, at_crease: 0.05, at_outer_side: 0.03, corner: 0.008 };
+    /// That of photographs of sheets that the kinds describe.
+    #[must_use]
+    pub fn of(beliefs: &Beliefs) -> Self {
+        Self {
+            shared: beliefs.discrepancy_shared,
+            own: beliefs.discrepancy_own,
+            white: beliefs.discrepancy_white,
+            at_crease: beliefs.discrepancy_at_crease,
+            at_outer_side: beliefs.discrepancy_at_outer_side,
+            corner: beliefs.corner,
+            length: beliefs.discrepancy_length,
+            between_panels: beliefs.discrepancy_between_panels,
+        }
+    }
 
     /// The same in a photograph that is so many times as far from an ideal one.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
-        let &Self { shared, own, white, at_crease, at_outer_side, corner } = self;
+        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, between_panels } = self;
         Self {
             shared: by * shared,
             own: by * own,
@@ -51,6 +62,8 @@ impl ModelError {
             at_crease: by * at_crease,
             at_outer_side: by * at_outer_side,
             corner: by * corner,
+            length,
+            between_panels,
         }
     }
 
@@ -65,7 +78,7 @@ impl ModelError {
         let covariance = |i: usize, j: usize| {
             let ((a, c), (b, d)) = ((i % facets, i / facets), (j % facets, j / facets));
             let own = if c == d { self.own.powi(2) } else { 0.0 };
-            let mut relative = (self.shared.powi(2) + own) * correlation(&places[a], &places[b]);
+            let mut relative = (self.shared.powi(2) + own) * self.correlation(&places[a], &places[b]);
             if a == b {
                 let at = |sd: f64, away: f64| (sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
                 let sides =
@@ -93,6 +106,12 @@ impl ModelError {
         }
         let ln_determinant = inverse.diagonal().iter().map(|value| value.ln()).sum();
         Some(Whitening { inverse, ln_determinant })
+    }
+
+    fn correlation(&self, a: &Place, b: &Place) -> f64 {
+        let square = ((a.depth - b.depth).powi(2) + (a.along - b.along).powi(2)) / self.length.powi(2);
+        let panels = if a.panel == b.panel { 1.0 } else { self.between_panels };
+        panels * (-0.5 * square).exp()
     }
 }
 
@@ -141,10 +160,4 @@ impl Whitening {
             (self.inverse.view((start, 0), (end - start, end)), end)
         })
     }
-}
-
-fn correlation(a: &Place, b: &Place) -> f64 {
-    let square = ((a.depth - b.depth).powi(2) + (a.along - b.along).powi(2)) / LENGTH.powi(2);
-    let panels = if a.panel == b.panel { 1.0 } else { BETWEEN_PANELS };
-    panels * (-0.5 * square).exp()
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beliefs::Beliefs;
 use super::hypotheses::Hypothesis;
 use super::joint::{JointModel, Member, Photograph};
 use super::model::Point;
@@ -13,8 +14,6 @@ use crate::estimate::prior::{Class, Prior};
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::posterior::{Linearised, Model, information};
 
-/// Power of the shares that classes have of all spectra: people fold paper and cloth more often than painted chips, of which most is known.
-const SHARE_POWER: f64 = 0.36;
 /// Channels that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
@@ -40,6 +39,11 @@ pub struct Seen {
 }
 
 impl Photographs<'_> {
+    /// What is believed of them.
+    pub fn beliefs(&self) -> &'static Beliefs {
+        self.0.first().map_or(&Beliefs::USUAL, |photograph| photograph.parts.told.beliefs)
+    }
+
     /// Logarithm of the sum of the shares of all classes.
     pub fn ln_all_shares(&self, prior: &Prior) -> f64 {
         prior.classes().iter().map(|class| self.ln_share(class).exp()).sum::<f64>().ln()
@@ -88,7 +92,7 @@ impl<'a> Family for Photographs<'a> {
     }
 
     fn ln_share(&self, class: &Class) -> f64 {
-        SHARE_POWER * class.ln_share
+        self.beliefs().class_share_power * class.ln_share
     }
 
     fn tells_classes(&self) -> bool {

@@ -1,5 +1,6 @@
 //! What a photograph may be taken to be, and how often it is so.
 
+use super::beliefs::Beliefs;
 use super::conditions::Told;
 use super::imperfection::Imperfection;
 use super::joint::Photograph;
@@ -29,11 +30,11 @@ pub enum Mistake {
 }
 
 impl Mistake {
-    /// How often it is made: no fold in each of two ways, else as often as with any number that people measure and type.
-    fn share(self) -> f64 {
+    /// How often it is made.
+    fn share(self, beliefs: &Beliefs) -> f64 {
         match self {
-            Self::NoFold => 0.01,
-            Self::Exposure | Self::Angle => 0.05,
+            Self::NoFold => beliefs.no_fold_share,
+            Self::Exposure | Self::Angle => beliefs.mistake_share,
         }
     }
 }
@@ -76,10 +77,10 @@ impl Hypothesis {
     }
 
     /// Logarithm of how often it is true.
-    pub fn ln_share(&self) -> f64 {
-        let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share().ln());
-        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share() };
-        let of_fold = self.imperfection.ln_share() + of_kind;
+    pub fn ln_share(&self, beliefs: &Beliefs) -> f64 {
+        let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(beliefs).ln());
+        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(beliefs) };
+        let of_fold = self.imperfection.ln_share(beliefs) + of_kind;
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }
 

@@ -1,5 +1,7 @@
 //! How far a photograph is from one of an ideal fold.
 
+use super::beliefs::Beliefs;
+
 /// How much there is of all that an ideal fold lacks at once.
 ///
 /// None is chosen: estimates are made under each that the facets leave possible, and weighed by evidence.
@@ -10,8 +12,6 @@ pub struct Imperfection {
     pub scale: f64,
     /// How much no unknown explains.
     pub discrepancy: Discrepancy,
-    /// How often it is so.
-    share: f64,
 }
 
 /// How much no unknown explains, that of photographs as people take them being 1.
@@ -42,15 +42,15 @@ impl Discrepancy {
 
 impl Imperfection {
     /// A photograph as people take them.
-    pub const USUAL: Self = Self { scale: 1.0, discrepancy: Discrepancy::Usual, share: 0.96 };
+    pub const USUAL: Self = Self { scale: 1.0, discrepancy: Discrepancy::Usual };
     /// That of an ideal fold, of a perfectly matt sheet, in a scene that is exactly as it was stated: one that was computed. With what is
     /// between the two weighed as well, facets are explained wrongly and surely (docs/design-notes.md).
-    pub const IDEAL: Self = Self { scale: 0.0, discrepancy: Discrepancy::None, share: 0.04 };
+    pub const IDEAL: Self = Self { scale: 0.0, discrepancy: Discrepancy::None };
 
     /// Logarithm of how often it is so.
     #[must_use]
-    pub fn ln_share(&self) -> f64 {
-        self.share.ln()
+    pub fn ln_share(&self, beliefs: &Beliefs) -> f64 {
+        if self.is_ideal() { beliefs.ideal_share.ln() } else { (1.0 - beliefs.ideal_share).ln() }
     }
 
     /// Whether the fold is an ideal one, of a sheet that is perfectly matt.

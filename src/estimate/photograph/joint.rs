@@ -33,9 +33,9 @@ const DARKEST: f64 = 0.1;
 impl<'a> Photograph<'a> {
     /// Photographs of one sheet.
     #[must_use]
-    pub fn all(of: &'a [Parts], error: ModelError) -> Vec<Self> {
+    pub fn all(of: &'a [Parts]) -> Vec<Self> {
         let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
-            let values = parts.values.clone();
+            let (values, error) = (parts.values.clone(), ModelError::of(parts.told.beliefs));
             Self { parts, kinds, error, values, whitenings: Default::default() }
                 .relative_to(parts.values.clone())
         };

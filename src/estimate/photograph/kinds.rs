@@ -2,17 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beliefs::Beliefs;
 use super::conditions::Conditions;
 use super::parts::{Parts, Radiance};
 use super::sheets::{Departure, FAMILY_NODES, FUZZ, FamilyNodes, Sheets};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
-
-/// How far a sheet is from the mean of those that were measured, in standard deviations of these: more than one, as they are few.
-const MEASURED_VARIATION: f64 = 1.4;
-/// How far sheets of a family vary beyond its numbers, and matt ones from being that, in the same unit.
-const FAMILY_VARIATION: f64 = 0.4;
-const MATT_VARIATION: f64 = 0.2;
 
 /// Numbers by which measured sheets vary.
 const VARIATIONS: usize = 8;
@@ -35,6 +30,7 @@ pub enum Kind {
 
 /// The kinds that are known, as one photograph shows them.
 pub struct Kinds<'a> {
+    beliefs: &'a Beliefs,
     sheets: &'a Sheets,
     /// The mean of measured sheets.
     measured: Departure,
@@ -48,20 +44,20 @@ impl Kind {
 
     /// Logarithm of how many sheets are of the kind.
     #[must_use]
-    pub fn ln_share(self) -> f64 {
-        let share: f64 = match self {
-            Self::Matt => 0.1,
-            Self::Family | Self::Measured => 0.45,
+    pub fn ln_share(self, beliefs: &Beliefs) -> f64 {
+        let share = match self {
+            Self::Matt => beliefs.matt_share,
+            Self::Family | Self::Measured => 0.5 * (1.0 - beliefs.matt_share),
         };
         share.ln()
     }
 
     /// Standard deviation of its variations, that of measured sheets from their mean being 1.
-    fn variation(self) -> f64 {
+    fn variation(self, beliefs: &Beliefs) -> f64 {
         match self {
-            Self::Measured => MEASURED_VARIATION,
-            Self::Matt => MATT_VARIATION,
-            Self::Family => FAMILY_VARIATION,
+            Self::Measured => beliefs.measured_variation,
+            Self::Matt => beliefs.matt_variation,
+            Self::Family => beliefs.family_variation,
         }
     }
 
@@ -84,6 +80,7 @@ impl<'a> Kinds<'a> {
         let of = |(parts, measured): (&'a Parts, &Vec<Departure>)| {
             let mean = vec![1.0 / measured.len() as f64; measured.len()];
             Self {
+                beliefs: parts.told.beliefs,
                 sheets: &parts.sheets,
                 measured: sum(measured, &mean),
                 variations: ways.iter().map(|shares| sum(measured, shares)).collect(),
@@ -100,7 +97,7 @@ impl<'a> Kinds<'a> {
 
     /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a photograph so far from an ideal one.
     pub fn by_variation(&self, kind: Kind, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
-        self.variations.iter().map(move |own| scale * kind.variation() * &own.radiance)
+        self.variations.iter().map(move |own| scale * kind.variation(self.beliefs) * &own.radiance)
     }
 
     /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a photograph so far from an ideal one.
@@ -125,7 +122,7 @@ impl<'a> Kinds<'a> {
             Kind::Family => self.family(conditions),
         };
         for (own, size) in self.variations.iter().zip(variations) {
-            sum.add(scale * kind.variation() * size, own, [0.0, 0.0]);
+            sum.add(scale * kind.variation(self.beliefs) * size, own, [0.0, 0.0]);
         }
         sum
     }

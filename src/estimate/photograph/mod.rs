@@ -6,6 +6,7 @@
 //! the channels ([`error`]). [`parts`] holds what the facets are made of, [`model`] puts it together, [`kinds`] are the kinds of sheets
 //! that a prior of measured materials knows, and [`search`] finds the most probable spectrum under all of them.
 
+pub mod beliefs;
 pub mod chebyshev;
 pub mod conditions;
 pub mod corners;

@@ -4,11 +4,6 @@ use super::conditions::Told;
 use super::hypotheses::{Hypothesis, Mistake};
 use crate::estimate::unknowns::{ANGLE, Effect, Known, Normal, TABLE, Unknown};
 
-/// How heavy the tails are of what was stated, now and then by mistake, and of what an ideal fold does not have, of which an otherwise careful
-/// photograph may have much; 0: those of a normal number.
-const STATED_TAIL: f64 = 0.5;
-const IMPERFECTION_TAIL: f64 = 1.0;
-
 /// An unknown, and what is known of it in a photograph of some imperfection.
 #[derive(Clone, Copy)]
 pub struct Number {
@@ -31,8 +26,8 @@ impl Number {
             let is_turned = mistake == Some(Mistake::Angle) && **unknown == ANGLE;
             let matters = known == Known::Usual || is_turned || !imperfection.is_ideal();
             let tail = match known {
-                Known::Stated => STATED_TAIL,
-                Known::Imperfection => IMPERFECTION_TAIL,
+                Known::Stated => told.beliefs.stated_tail,
+                Known::Imperfection => told.beliefs.imperfection_tail,
                 Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
             };
             Some(Self { unknown, effect, prior, tail, matters })

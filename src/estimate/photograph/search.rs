@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::corners;
-use super::error::ModelError;
 use super::family::{Photographs, Seen};
 use super::findings::findings;
 use super::hypotheses::{Hypothesis, hypotheses, hypotheses_without_bounces, usual_hypotheses};
@@ -36,37 +35,36 @@ pub struct SheetEstimate {
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<SheetEstimate> {
+pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, error, hypotheses).ok_or_else(not_finite)
+    under(parts, prior, hypotheses).ok_or_else(not_finite)
 }
 
 /// The estimate from photographs that are as people take them, however ideal their facets are, as those of photographs that are only planned.
 ///
 /// # Errors
 /// As [`estimate`].
-pub fn estimate_usual(parts: &[Parts], prior: &Prior, error: ModelError) -> Result<SheetEstimate> {
+pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, error, |_| usual_hypotheses()).ok_or_else(not_finite)
+    under(parts, prior, |_| usual_hypotheses()).ok_or_else(not_finite)
 }
 
 fn under(
     parts: &[Parts],
     prior: &Prior,
-    error: ModelError,
     hypotheses: impl Fn(&[Photograph]) -> Vec<Hypothesis>,
 ) -> Option<SheetEstimate> {
-    let family = relative_to_predictions(Photographs(Photograph::all(parts, error)), prior)?;
+    let family = relative_to_predictions(Photographs(Photograph::all(parts)), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let sorted = sorted(&mut search, all);
+    let sorted = sorted(&mut search, all.map(|one| (one, one.ln_share(family.beliefs()))));
     let without_bounces = without_bounces(&sorted);
     let found = search.mixture(&folds(sorted))?;
     let ln_evidence = found.ln_evidence - family.ln_all_shares(prior);
     let seen = family.seen(&found.best)?;
     let of = |(photograph, seen): (&Photograph, Seen)| {
         let (findings, skipped) =
-            (all_findings(photograph, &found, &seen, error), skipped(&seen.fitted, search.skipped));
+            (all_findings(photograph, &found, &seen), skipped(&seen.fitted, search.skipped));
         Estimate { findings, without_bounces, skipped, ..of_photograph(&found, seen, &search.trace) }
     };
     Some(SheetEstimate { photographs: family.0.iter().zip(seen).map(of).collect(), ln_evidence })
@@ -90,11 +88,14 @@ fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option
 }
 
 /// Hypotheses with their evidence under all spectra, each from where the one before led, those of most evidence first.
-fn sorted(search: &mut Search<Photographs>, hypotheses: impl IntoIterator<Item = Hypothesis>) -> Vec<Tried> {
+fn sorted(
+    search: &mut Search<Photographs>,
+    hypotheses: impl Iterator<Item = (Hypothesis, f64)>,
+) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
-    for hypothesis in hypotheses {
+    for one in hypotheses {
         let start = all.last().map(|one| one.solution.w.clone());
-        all.extend(search.sort((hypothesis, hypothesis.ln_share()), start));
+        all.extend(search.sort(one, start));
     }
     weigh_against_ideal(search, &mut all);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
@@ -148,12 +149,15 @@ fn all_findings(
     Photograph { parts, .. }: &Photograph,
     found: &Mixture<Hypothesis, ()>,
     seen: &Seen,
-    error: ModelError,
 ) -> Vec<super::Finding> {
     let imperfection = found.best.start.hypothesis.imperfection;
     let mut findings = findings(&seen.fitted, &parts.told);
     if !imperfection.is_ideal() {
-        findings.extend(corners::findings(&seen.shifts, &seen.residuals, imperfection.scale * error.corner));
+        findings.extend(corners::findings(
+            &seen.shifts,
+            &seen.residuals,
+            imperfection.scale * parts.told.beliefs.corner,
+        ));
     }
     findings
 }

@@ -64,9 +64,6 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-/// Standard deviation in a photograph of a fold whose angle was measured, degrees.
-const PHOTOGRAPH_SD_DEG: f64 = 1.2;
-
 fn of_photograph(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.angle_deg, sd: PHOTOGRAPH_SD_DEG })
+    Some(Normal { mean: told.angle_deg, sd: told.beliefs.angle_sd_deg })
 }

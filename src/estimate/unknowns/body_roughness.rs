@@ -25,9 +25,6 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     }),
 };
 
-/// Paper and paint have 0 to 20 degrees.
-const PRIOR: Normal = Normal { mean: 1.0, sd: 1.2 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.body_roughness_mean, sd: told.beliefs.body_roughness_sd })
 }

@@ -28,9 +28,6 @@ pub(super) const BOWED: Symptom = Symptom {
     remedy: "hold them flat, by stiff card behind them",
 };
 
-/// Sheets that are held at their edges turn by a few degrees.
-const PRIOR: Normal = Normal { mean: 0.0, sd: 1.5 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: 0.0, sd: told.beliefs.bow_sd_deg })
 }

@@ -21,9 +21,6 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     }),
 };
 
-/// The panels of one sheet bow much alike.
-const PRIOR: Normal = Normal { mean: 0.0, sd: 0.7 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: 0.0, sd: told.beliefs.bow_difference_sd_deg })
 }

@@ -25,9 +25,6 @@ pub static CREASE: Unknown = Unknown {
     }),
 };
 
-/// Folded sheets have radii of 0 to 3 % of their depth.
-const PRIOR: Normal = Normal { mean: 0.9, sd: 0.9 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.crease_mean, sd: told.beliefs.crease_sd })
 }

@@ -24,16 +24,9 @@ pub static EXPOSURE: Unknown = Unknown {
     }),
 };
 
-/// Standard deviations of the logarithm of an exposure: one that was given; and one by a chart or a card, which is uneven, not quite where
-/// the sheet is, nor turned as it was said to be.
-const GIVEN_SD: f64 = 0.02;
-const CHART_SD: f64 = 0.04;
-/// The logarithm of an exposure that nobody states: people expose so that white that faces the sun lies within a third and three times the
-/// white level of the picture in nineteen cases of twenty.
-pub const EXPOSURE_OF_PHOTOGRAPH: Normal = Normal { mean: 0.0, sd: 0.55 };
-
 fn of_photograph(told: &Told) -> Option<Normal> {
-    let sd = if told.by_chart { CHART_SD } else { GIVEN_SD };
+    let beliefs = told.beliefs;
+    let sd = if told.by_chart { beliefs.exposure_shown_sd } else { beliefs.exposure_stated_sd };
     let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd });
-    Some(known.unwrap_or(EXPOSURE_OF_PHOTOGRAPH))
+    Some(known.unwrap_or(beliefs.exposure()))
 }

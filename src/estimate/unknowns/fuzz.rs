@@ -25,9 +25,6 @@ pub static FUZZ: Unknown = Unknown {
     }),
 };
 
-/// Paper and paint have next to none, cloth some, felt up to 1.
-const PRIOR: Normal = Normal { mean: -2.0, sd: 2.5 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.fuzz_mean, sd: told.beliefs.fuzz_sd })
 }

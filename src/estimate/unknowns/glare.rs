@@ -25,9 +25,6 @@ pub static GLARE: Unknown = Unknown {
     }),
 };
 
-/// Lenses spread 0 to 2 %.
-const PRIOR: Normal = Normal { mean: 0.5, sd: 1.2 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.glare_mean, sd: told.beliefs.glare_sd })
 }

@@ -25,9 +25,6 @@ pub static GLOSS: Unknown = Unknown {
     }),
 };
 
-/// Matte papers and paints have up to a bare surface of it.
-const PRIOR: Normal = Normal { mean: 0.2, sd: 1.3 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.gloss_mean, sd: told.beliefs.gloss_sd })
 }

@@ -20,9 +20,6 @@ pub static GLOSS_ROUGHNESS: Unknown = Unknown {
     }),
 };
 
-/// Matte surfaces have 0.3 to 0.6.
-const PRIOR: Normal = Normal { mean: -0.85, sd: 0.18 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.gloss_roughness_mean, sd: told.beliefs.gloss_roughness_sd })
 }

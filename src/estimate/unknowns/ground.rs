@@ -25,9 +25,6 @@ pub static GROUND: Unknown = Unknown {
     }),
 };
 
-/// A table, grass, sand: 0.1 to 0.4.
-const PRIOR: Normal = Normal { mean: 0.8, sd: 0.8 };
-
 fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| PRIOR)
+    told.daylight.map(|_| Normal { mean: told.beliefs.ground_mean, sd: told.beliefs.ground_sd })
 }

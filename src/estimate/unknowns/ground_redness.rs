@@ -20,9 +20,7 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     }),
 };
 
-/// Earth and wood are brown: they reflect half as much again in the red.
-const PRIOR: Normal = Normal { mean: 0.4, sd: 0.3 };
-
 fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| PRIOR)
+    told.daylight
+        .map(|_| Normal { mean: told.beliefs.ground_redness_mean, sd: told.beliefs.ground_redness_sd })
 }

@@ -21,9 +21,6 @@ pub static LAST_GAIN: Unknown = Unknown {
     }),
 };
 
-/// Cameras of one model differ by 2 %.
-const PRIOR: Normal = Normal { mean: 0.0, sd: 0.015 };
-
 fn prior(told: &Told) -> Option<Normal> {
-    (told.channels == 3).then_some(PRIOR)
+    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd })
 }

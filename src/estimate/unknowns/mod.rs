@@ -39,7 +39,7 @@ use body_roughness::BODY_ROUGHNESS;
 use bow::BOW;
 use bow_difference::BOW_DIFFERENCE;
 use crease::CREASE;
-pub use exposure::{EXPOSURE, EXPOSURE_OF_PHOTOGRAPH};
+pub use exposure::EXPOSURE;
 pub use factor::Factor;
 use first_gain::FIRST_GAIN;
 use fuzz::FUZZ;

@@ -46,9 +46,6 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-/// In a photograph with direct sun: what a clear sky gives to a horizontal plane.
-const OF_PHOTOGRAPH: Normal = Normal { mean: 0.12, sd: 0.06 };
-
 fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| OF_PHOTOGRAPH)
+    told.daylight.map(|_| Normal { mean: told.beliefs.sky_mean, sd: told.beliefs.sky_sd })
 }

@@ -57,9 +57,7 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
 }
 
-/// A clear sky's, in photographs that have direct sun: 10500 K, two of three between 9100 K and 12500 K.
-const OF_PHOTOGRAPH: Normal = Normal { mean: 95.0, sd: 15.0 };
-
 fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| OF_PHOTOGRAPH)
+    let prior = Normal { mean: told.beliefs.sky_mired, sd: told.beliefs.sky_mired_sd };
+    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| prior)
 }

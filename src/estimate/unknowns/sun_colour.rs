@@ -6,6 +6,7 @@ use super::{
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
+use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::conditions::Daylight;
 
 /// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight takes the place of what was said.
@@ -23,7 +24,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
         prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
-            ideal: |told| 1e6 / told.daylight.map_or(ANY_MIRED, Daylight::mired),
+            ideal: |told| 1e6 / told.daylight.map_or(told.beliefs.sun_mired, Daylight::mired),
             least: 400.0,
             words: |_, _| "the sun has another colour than was to be expected".to_owned(),
             remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
@@ -31,25 +32,20 @@ pub static SUN_COLOUR: Unknown = Unknown {
     }),
 };
 
-/// Direct sunlight has 5000 K to 5800 K, whatever kind of daylight was said.
-const ANY_MIRED: f64 = 187.0;
-/// As much as a tenth more or less aerosol (optical depth at 500 nm) makes of it.
-const SD_MIRED: f64 = 7.0;
-
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok(scene.daylight.map(of_daylight))
+    Ok(scene.daylight.map(|said| of_daylight(said, &Beliefs::USUAL)))
 }
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.map(of_daylight)
+    told.daylight.map(|said| of_daylight(said, told.beliefs))
 }
 
-fn of_daylight(said: Daylight) -> Normal {
+fn of_daylight(said: Daylight, beliefs: &Beliefs) -> Normal {
     let mean = match said {
-        Daylight::Cie { .. } => ANY_MIRED,
+        Daylight::Cie { .. } => beliefs.sun_mired,
         Daylight::OfSun { mired } => mired,
     };
-    Normal { mean, sd: SD_MIRED }
+    Normal { mean, sd: beliefs.sun_mired_sd }
 }
 
 /// Every sun becomes three of other colours.

@@ -52,9 +52,6 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-/// Standard deviation in a photograph whose sheet was turned to the sun with care, degrees.
-const PHOTOGRAPH_SD_DEG: f64 = 2.0;
-
 fn of_photograph(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.tilt_deg, sd: PHOTOGRAPH_SD_DEG })
+    Some(Normal { mean: told.tilt_deg, sd: told.beliefs.tilt_sd_deg })
 }

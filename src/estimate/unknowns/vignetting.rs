@@ -25,9 +25,6 @@ pub static VIGNETTING: Unknown = Unknown {
     }),
 };
 
-/// Lenses lose 0 to 30 %.
-const PRIOR: Normal = Normal { mean: 0.8, sd: 0.8 };
-
-fn prior(_: &Told) -> Option<Normal> {
-    Some(PRIOR)
+fn prior(told: &Told) -> Option<Normal> {
+    Some(Normal { mean: told.beliefs.vignetting_mean, sd: told.beliefs.vignetting_sd })
 }

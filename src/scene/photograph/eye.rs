@@ -3,17 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Result;
+use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::conditions::{Daylight, MOST_MIRED};
 use crate::estimate::photograph::parts::Eye;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
 use crate::stream::Optics;
 
-/// Two laboratories that measure the same model of a camera differ by that share of the highest point of a curve, and over that many
-/// nanometres alike.
-const CURVE_SD: f64 = 0.02;
-const CURVE_STEP_NM: f64 = 40.0;
-/// Share of the error that does not fall with the sensitivity.
-const CURVE_FLOOR: f64 = 0.03;
 /// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the sun's if that is: computed suns
 /// are off by 0.025, and by 0.05 where they stand 10° high; of lamps the nearest is off by 0.27.
 const CIE: f64 = 0.005;
@@ -22,7 +17,7 @@ const DAYLIGHT: f64 = 0.06;
 const LEAST_MIRED: f64 = 125.0;
 
 /// The camera of a scene.
-pub fn of(Optics { grid, camera, illuminants, sky }: &Optics) -> Result<Eye> {
+pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs) -> Result<Eye> {
     let wavelengths_nm = grid.wavelengths_nm().to_vec();
     let bands = wavelengths_nm.len();
     let widths = grid.trapezoid_weights_nm();
@@ -34,8 +29,9 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics) -> Result<Eye> {
     let daylight = vectors(grid)?;
     let white = sensitivities.tr_mul(&sun);
     // a camera that stands in for another is off by what such cameras were measured to be
-    let sd = camera.stands_in.as_ref().map_or(CURVE_SD, |one| one.curve_error.max(CURVE_SD));
-    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, sd);
+    let curve_sd =
+        camera.stands_in.as_ref().map_or(beliefs.curve_sd, |one| one.curve_error.max(beliefs.curve_sd));
+    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs });
     let is_stand_in = camera.stands_in.is_some();
     Ok(Eye {
         wavelengths_nm,
@@ -60,10 +56,11 @@ fn errors(
     sensitivities: &[Vec<f64>],
     wavelengths_nm: &[f64],
     widths: &[f64],
-    sd: f64,
+    beliefs: &Beliefs,
 ) -> Vec<(usize, DVector<f64>)> {
+    let Beliefs { curve_sd, curve_step_nm, curve_floor, .. } = *beliefs;
     let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
-    let count = ((last - first) / CURVE_STEP_NM).round().max(1.0) as usize;
+    let count = ((last - first) / curve_step_nm).round().max(1.0) as usize;
     let mut all = Vec::new();
     for (channel, curve) in sensitivities.iter().enumerate() {
         let most = curve.iter().copied().fold(0.0, f64::max);
@@ -73,9 +70,9 @@ fn errors(
         for bump in 0..=count {
             let middle = first + (last - first) * bump as f64 / count as f64;
             let of = |band: usize| {
-                let off = (wavelengths_nm[band] - middle) / CURVE_STEP_NM;
-                let envelope = (curve[band] / most + CURVE_FLOOR).sqrt().min(1.0);
-                sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
+                let off = (wavelengths_nm[band] - middle) / curve_step_nm;
+                let envelope = (curve[band] / most + curve_floor).sqrt().min(1.0);
+                curve_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
             };
             all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
         }

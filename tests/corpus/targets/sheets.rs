@@ -3,7 +3,6 @@
 use vfold::Result;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
-use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::{Parts, estimate};
 use vfold::estimate::prior::Prior;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture};
@@ -49,7 +48,7 @@ fn look_at(photographs: &[Parts], grid: &WavelengthGrid) -> Result<()> {
     let on_grid = |spectrum: &Spectrum| spectrum.on(grid, Outside::Refuse);
     let spectra: Vec<_> = chart.iter().map(on_grid).collect::<Result<_>>()?;
     let prior = Prior::from_spectra(grid.wavelengths_nm(), &spectra, Some(&[0; 24]))?;
-    let sheet = estimate(photographs, &prior, ModelError::OF_PHOTOGRAPHS)?;
+    let sheet = estimate(photographs, &prior)?;
     assert!(!sheet.ln_evidence.is_nan(), "evidence");
     for estimate in &sheet.photographs {
         assert!(estimate.reflectance.iter().all(|r| (0.0..=1.0).contains(r)), "{:?}", estimate.reflectance);

@@ -1,0 +1,188 @@
+//! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior foretells the truth.
+//!
+//! `cargo bench --bench beliefs -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance;
+//! `cargo bench --bench beliefs -- --fit [NAME...] STREAM...` changes all numbers, or those named, one after the other by a quarter as long as that
+//! raises the score, and prints those that changed. `benches/beliefs.sh` makes the streams.
+
+#![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
+#![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
+
+use rayon::prelude::*;
+use vfold::estimate::measured::Measured;
+use vfold::estimate::photograph;
+use vfold::estimate::photograph::beliefs::Beliefs;
+use vfold::estimate::prior::Prior;
+use vfold::forward::FacetValues;
+use vfold::scene::{FoldSetting, PhotographedFold, Picture};
+use vfold::score::rmse;
+use vfold::stream::{Reader, Record, Sample};
+use vfold::{Error, Result};
+
+/// A truth further off than so many standard deviations counts as one that far: a posterior is not judged by one waveband.
+const FURTHEST: f64 = 7.0;
+/// What a fit changes a number by, and the least that it has to gain.
+const STEP: f64 = 1.25;
+const LEAST_GAIN: f64 = 1e-3;
+
+/// A photograph of a sheet that is known.
+struct Known {
+    setting: FoldSetting,
+    sample: Sample,
+    rgb: FacetValues,
+    sd: FacetValues,
+    wavelengths_nm: Vec<f64>,
+    prior: Prior,
+    truth: Vec<f64>,
+}
+
+/// How good estimates are, in the mean over photographs.
+#[derive(Clone, Copy)]
+struct Quality {
+    score: f64,
+    rmse: f64,
+    within_two_sd: f64,
+}
+
+impl Known {
+    fn read(path: &str) -> Result<Self> {
+        let mut reader = Reader::open(path)?;
+        let (Some(Record::Scene(scene)), Some(Record::Sample(sample))) = (reader.read()?, reader.read()?)
+        else {
+            return Err(Error::Numeric(format!("{path}: no scene with a sample")));
+        };
+        let missing = |field| Error::field(field, format!("missing in {path}"));
+        let wavelengths_nm = scene.grid()?.wavelengths_nm().to_vec();
+        Ok(Self {
+            setting: FoldSetting::of(&scene)?,
+            rgb: sample.facet_rgb()?,
+            sd: sample.facet_sd()?.ok_or_else(|| missing("facet_sd"))?,
+            prior: Prior::built_in(&wavelengths_nm)?,
+            wavelengths_nm,
+            truth: sample.truth()?.ok_or_else(|| missing("truth"))?.reflectance,
+            sample,
+        })
+    }
+
+    fn quality(&self, beliefs: &'static Beliefs) -> Result<Quality> {
+        let measured = Measured { rgb: &self.rgb, sd: &self.sd };
+        let picture = Picture::of(&self.sample, &measured, self.sample.exposure()?)?;
+        let parts = PhotographedFold::of(&self.setting).believing(beliefs).parts(&picture)?;
+        let parts = parts.map_err(|why| Error::Numeric(format!("{}: {why}", self.sample.id())))?;
+        let mut sheet = photograph::estimate(&[parts], &self.prior)?;
+        let estimate = sheet.photographs.remove(0).in_stated_light(&self.wavelengths_nm);
+        let sd = estimate.reflectance_sd().unwrap();
+        let off: Vec<f64> = estimate
+            .reflectance
+            .iter()
+            .zip(&self.truth)
+            .zip(&sd)
+            .map(|((r, truth), sd)| (r - truth) / sd)
+            .collect();
+        let bands = off.len() as f64;
+        let score = |(off, sd): (&f64, &f64)| -0.5 * off.powi(2).min(FURTHEST.powi(2)) - sd.ln();
+        Ok(Quality {
+            score: off.iter().zip(&sd).map(score).sum::<f64>() / bands,
+            rmse: rmse(&estimate.reflectance, &self.truth),
+            within_two_sd: off.iter().filter(|off| off.abs() < 2.0).count() as f64 / bands,
+        })
+    }
+}
+
+fn quality(all: &[Known], beliefs: Beliefs) -> Result<Quality> {
+    // a photograph's parts hold them as long as they like
+    let beliefs: &'static Beliefs = Box::leak(Box::new(beliefs));
+    let each: Vec<Quality> = all.par_iter().map(|one| one.quality(beliefs)).collect::<Result<_>>()?;
+    let mean = |of: fn(&Quality) -> f64| each.iter().map(of).sum::<f64>() / each.len() as f64;
+    Ok(Quality {
+        score: mean(|one| one.score),
+        rmse: mean(|one| one.rmse),
+        within_two_sd: mean(|one| one.within_two_sd),
+    })
+}
+
+/// The same with one number changed: by a factor, or, if it is a mean, by as many standard deviations as the factor is doublings, halved.
+fn changed(mut beliefs: Beliefs, number: usize, factor: f64) -> Beliefs {
+    let (name, of) = Beliefs::NUMBERS[number];
+    let sd_of_mean = Beliefs::NUMBERS.get(number + 1).filter(|(next, _)| {
+        next.strip_suffix("_sd").is_some_and(|stem| stem == name || Some(stem) == name.strip_suffix("_mean"))
+    });
+    match sd_of_mean {
+        Some((_, sd)) => {
+            let sd = *sd(&mut beliefs);
+            *of(&mut beliefs) += 0.5 * factor.log2() * sd;
+        }
+        None => *of(&mut beliefs) *= factor,
+    }
+    beliefs
+}
+
+fn table(all: &[Known]) -> Result<()> {
+    let usual = quality(all, Beliefs::USUAL)?;
+    println!("| number | value | half: score | error | double: score | error |\n|---|---|---|---|---|---|");
+    println!(
+        "| all as they are: score {:.3}, error {:.4}, within two sd {:.0} % | | | | | |",
+        usual.score,
+        usual.rmse,
+        100.0 * usual.within_two_sd
+    );
+    for (number, (name, of)) in Beliefs::NUMBERS.iter().enumerate() {
+        print!("| `{name}` | {}", *of(&mut Beliefs::USUAL.clone()));
+        for factor in [0.5, 2.0] {
+            let other = quality(all, changed(Beliefs::USUAL, number, factor))?;
+            print!(" | {:+.3} | {:.4}", other.score - usual.score, other.rmse);
+        }
+        println!(" |");
+    }
+    Ok(())
+}
+
+fn fit(all: &[Known], names: &[String]) -> Result<()> {
+    let mut best = (quality(all, Beliefs::USUAL)?, Beliefs::USUAL);
+    println!("score {:.4}, error {:.4}", best.0.score, best.0.rmse);
+    let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
+    loop {
+        let before = best.0.score;
+        for (number, (name, of)) in
+            Beliefs::NUMBERS.iter().enumerate().filter(|(_, (name, _))| is_asked(name))
+        {
+            for factor in [STEP, STEP.recip()] {
+                let start = best.0.score;
+                loop {
+                    let beliefs = changed(best.1, number, factor);
+                    let one = quality(all, beliefs)?;
+                    if one.score < best.0.score + LEAST_GAIN {
+                        break;
+                    }
+                    best = (one, beliefs);
+                    println!("{name} {:.4}: score {:.4}, error {:.4}", *of(&mut best.1), one.score, one.rmse);
+                }
+                if best.0.score > start {
+                    break;
+                }
+            }
+        }
+        if best.0.score < before + LEAST_GAIN {
+            break;
+        }
+    }
+    let within = 100.0 * best.0.within_two_sd;
+    println!("score {:.4}, error {:.4}, within two sd {within:.0} %", best.0.score, best.0.rmse);
+    for (name, of) in Beliefs::NUMBERS {
+        let (was, is) = (*of(&mut Beliefs::USUAL.clone()), *of(&mut best.1));
+        if (was - is).abs() > 0.0 {
+            println!("{name}: {was} -> {is:.4}");
+        }
+    }
+    Ok(())
+}
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let (streams, rest): (Vec<_>, Vec<_>) = arguments.into_iter().partition(|one| one.ends_with(".ndjson"));
+    let all: Vec<Known> = streams.iter().map(|path| Known::read(path)).collect::<Result<_>>()?;
+    match rest.split_first() {
+        Some((flag, names)) if flag == "--fit" => fit(&all, names),
+        Some((other, _)) => Err(Error::Numeric(format!("{other}: neither a stream (*.ndjson) nor --fit"))),
+        None => table(&all),
+    }
+}

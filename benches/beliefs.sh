@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# What each number that is believed of photographs does to estimates, half and double of it, on the photographs that they are fitted on:
+# benches/results/beliefs.md, in ten minutes. `--fit [NAME...]` changes numbers, or these, as long as that brings more, and prints what it found.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. benches/machine.sh
+cargo build --quiet --release --bins
+bin=${CARGO_TARGET_DIR:-target}/release
+train=${SHARED:-../shared}/train
+page=benches/results/beliefs.md
+if [ ! -e "$train" ]; then
+    echo "benches/beliefs.sh: no photographs in $train; left out" >&2
+    exit
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 -B benches/beliefs.py "$bin" "$train" "$work"
+if [ "${1:-}" = --fit ]; then
+    cargo bench --quiet --bench beliefs -- "$@" "$work"/*.ndjson
+    exit
+fi
+{
+    echo '# What is believed of photographs'
+    echo
+    machine "$bin/vkernel"
+    echo
+    echo 'Every number of `src/estimate/photograph/beliefs.rs`, and what half and double of it do on the 48 photographs of `train`; of a mean, half of its standard'
+    echo 'deviation less and more. Score: mean logarithm of the density that the posterior has at the truth, waveband by waveband, more being better, the difference'
+    echo 'from the first row; error: RMSE in the mean. Of `train` alone, on which numbers may be fitted: sets that are reported are in [sheets](sheets.md).'
+    echo
+    cargo bench --quiet --bench beliefs -- "$work"/*.ndjson
+} | tee "$page.new"
+mv "$page.new" "$page"

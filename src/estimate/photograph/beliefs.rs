@@ -1,0 +1,160 @@
+//! What is believed of photographs before one is looked at.
+
+use crate::estimate::unknowns::Normal;
+
+/// Declares the numbers, each once: a field, its usual value, and a row of the table of all.
+macro_rules! beliefs {
+    ($($(#[$about:meta])* $name:ident: $usual:expr,)*) => {
+        /// Every number that the model of a photograph is made of and that is neither physics nor geometry nor numerics.
+        ///
+        /// Means and standard deviations of unknowns are on the [scale](crate::estimate::unknowns::Scale) of each: of quantities that are
+        /// never negative about 0 is half the unit, 2 two of them.
+        ///
+        /// # Example
+        /// ```
+        /// use vfold::estimate::photograph::beliefs::Beliefs;
+        /// let careful = Beliefs { angle_sd_deg: 0.3, ..Beliefs::USUAL };
+        /// assert!(careful.angle_sd_deg < Beliefs::USUAL.angle_sd_deg);
+        /// assert!(Beliefs::NUMBERS.len() <= 60);
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Beliefs {
+            $($(#[$about])* pub $name: f64,)*
+        }
+
+        impl Beliefs {
+            /// Those about photographs as people take them.
+            pub const USUAL: Self = Self { $($name: $usual,)* };
+            /// All of them by name, to be varied.
+            pub const NUMBERS: &'static [(&'static str, fn(&mut Self) -> &mut f64)] =
+                &[$((stringify!($name), |beliefs: &mut Self| &mut beliefs.$name),)*];
+        }
+    };
+}
+
+beliefs! {
+    /// How far an angle is off that somebody measured, degrees: a protractor, and a sheet that springs back.
+    angle_sd_deg: 1.2,
+    /// How far a sheet is turned off the sun that was turned to it with care, degrees.
+    tilt_sd_deg: 2.0,
+    /// Logarithm of an exposure that was stated.
+    exposure_stated_sd: 0.02,
+    /// Of one by a chart or a card, which is uneven, not quite where the sheet is, nor turned as it was said to be.
+    exposure_shown_sd: 0.04,
+    /// Of one that nobody states: people expose so that white that faces the sun lies within a third and three times the white level of the
+    /// picture in nineteen cases of twenty.
+    exposure_mean: 0.0,
+    /// See `exposure_mean`.
+    exposure_sd: 0.55,
+    /// How heavy the tails are of what was stated, now and then by mistake; 0: those of a normal number.
+    stated_tail: 0.5,
+
+    /// The reciprocal colour temperature of direct sunlight, 1e-6/K, whatever kind of daylight was said: 5000 K to 5800 K.
+    sun_mired: 187.0,
+    /// As much as a tenth more or less aerosol (optical depth at 500 nm) makes of it.
+    sun_mired_sd: 7.0,
+    /// Logarithm of the gain of the first and the last channel: cameras of one model differ by 2 %.
+    gain_sd: 0.015,
+    /// By how much two laboratories differ that measure the same model of a camera, relative to the highest point of a curve.
+    curve_sd: 0.02,
+    /// Over so many nanometres they are off alike.
+    curve_step_nm: 40.0,
+    /// Share of that error that does not fall with the sensitivity.
+    curve_floor: 0.03,
+
+    /// How heavy the tails are of what an ideal fold does not have, of which an otherwise careful photograph may have much.
+    imperfection_tail: 1.0,
+    /// Irradiance by the sky of an open horizontal plane, direct sun being 1: what a clear one gives.
+    sky_mean: 0.12,
+    /// See `sky_mean`.
+    sky_sd: 0.06,
+    /// Reciprocal colour temperature of a clear sky, 1e-6/K: 10500 K, two of three between 9100 K and 12500 K.
+    sky_mired: 95.0,
+    /// See `sky_mired`.
+    sky_mired_sd: 15.0,
+    /// Reflectance of the ground, in units of 0.15: a table, grass, sand have 0.1 to 0.4.
+    ground_mean: 0.8,
+    /// See `ground_mean`.
+    ground_sd: 0.8,
+    /// Rise of the ground's reflectance to 700 nm: earth and wood are brown, they reflect half as much again in the red.
+    ground_redness_mean: 0.4,
+    /// See `ground_redness_mean`.
+    ground_redness_sd: 0.3,
+    /// Radius of the crease, in units of 1 % of a panel's depth: folded sheets have 0 to 3 %.
+    crease_mean: 0.9,
+    /// See `crease_mean`.
+    crease_sd: 0.9,
+    /// Bow of both panels, degrees: sheets that are held at their edges turn by a few.
+    bow_sd_deg: 1.5,
+    /// Bow of one panel beside the other, degrees: those of one sheet bow much alike.
+    bow_difference_sd_deg: 0.7,
+    /// Light that the lens loses in the corners, in units of 10 %: 0 to 30 %.
+    vignetting_mean: 0.8,
+    /// See `vignetting_mean`.
+    vignetting_sd: 0.8,
+    /// Light that the lens spreads over the picture, in units of 0.6 %: 0 to 2 %.
+    glare_mean: 0.5,
+    /// See `glare_mean`.
+    glare_sd: 1.2,
+    /// Strength of the surface's reflection, in units of 0.3: matte papers and paints have up to a bare surface of it.
+    gloss_mean: 0.2,
+    /// See `gloss_mean`.
+    gloss_sd: 1.3,
+    /// Logarithm of the roughness of the surface: matte ones have 0.3 to 0.6.
+    gloss_roughness_mean: -0.85,
+    /// See `gloss_roughness_mean`.
+    gloss_roughness_sd: 0.18,
+    /// Roughness of the body, in units of 8 degrees: paper and paint have 0 to 20 degrees.
+    body_roughness_mean: 1.0,
+    /// See `body_roughness_mean`.
+    body_roughness_sd: 1.2,
+    /// Fibres, in units of 0.15: paper and paint have next to none, cloth some, felt up to 1.
+    fuzz_mean: -2.0,
+    /// See `fuzz_mean`.
+    fuzz_sd: 2.5,
+
+    /// How many sheets are perfectly matt, or nearly so; of the others half are of the family, half like those that were measured.
+    matt_share: 0.1,
+    /// How far a sheet is from the mean of those that were measured, in standard deviations of these: more than one, as they are few.
+    measured_variation: 1.4,
+    /// How far sheets of a family vary beyond its numbers, in the same unit.
+    family_variation: 0.4,
+    /// How far matt ones are from being that, in the same unit.
+    matt_variation: 0.2,
+
+    /// What no unknown explains, relative to predicted values, in all channels alike. These eight are those of most evidence in the facets of
+    /// rendered photographs, whatever the spectra behind them.
+    discrepancy_shared: 0.015,
+    /// In each channel by itself.
+    discrepancy_own: 0.01,
+    /// In each facet by itself.
+    discrepancy_white: 0.004,
+    /// In the facets at the crease, which is not as sharp, nor as round, as the model has it.
+    discrepancy_at_crease: 0.05,
+    /// In those at the outer sides: an edge is not straight, nor sharp, so that some of the background is taken for the sheet.
+    discrepancy_at_outer_side: 0.03,
+    /// How far a corner is from where it is marked, in depths of a panel.
+    corner: 0.008,
+    /// Length over which the discrepancy is correlated, in depths of a panel.
+    discrepancy_length: 0.6,
+    /// Its correlation between places that mirror each other on the two panels.
+    discrepancy_between_panels: 0.3,
+
+    /// How many photographs are of an ideal fold in a scene exactly as stated: computed ones.
+    ideal_share: 0.04,
+    /// How many stated numbers are mistaken.
+    mistake_share: 0.05,
+    /// How many photographs are of no fold, in each of two ways.
+    no_fold_share: 0.01,
+    /// Power of the shares that classes of spectra have of all spectra: people fold paper and cloth more often than painted chips, of which most
+    /// is known.
+    class_share_power: 0.36,
+}
+
+impl Beliefs {
+    /// Logarithm of an exposure that nobody states.
+    #[must_use]
+    pub const fn exposure(&self) -> Normal {
+        Normal { mean: self.exposure_mean, sd: self.exposure_sd }
+    }
+}
