@@ -1,4 +1,4 @@
-//! The most probable spectrum under all that photographs of a sheet may be: as people take them or nearly ideal, of each kind of sheet.
+//! The most probable spectrum under all that photographs of a sheet may be: as people take them, of each kind of sheet, or of an ideal fold.
 
 use nalgebra::{DMatrix, DVector};
 
