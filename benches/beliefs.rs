@@ -1,6 +1,7 @@
 //! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior foretells the truth.
 //!
-//! `cargo bench --bench beliefs -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance;
+//! `cargo bench --bench beliefs -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance, measured sheets being
+//! unknown where one of their names is in that of the stream;
 //! `cargo bench --bench beliefs -- --fit [NAME...] STREAM...` changes all numbers, or those named, one after the other by a quarter as long as that
 //! raises the score, and prints those that changed. `benches/beliefs.sh` makes the streams.
 
@@ -14,7 +15,7 @@ use vfold::estimate::photograph::beliefs::Beliefs;
 use vfold::estimate::prior::Prior;
 use vfold::forward::FacetValues;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture};
-use vfold::score::rmse;
+use vfold::sheet::measured_names;
 use vfold::stream::{Reader, Record, Sample};
 use vfold::{Error, Result};
 
@@ -32,7 +33,10 @@ struct Known {
     sd: FacetValues,
     wavelengths_nm: Vec<f64>,
     prior: Prior,
-    truth: Vec<f64>,
+    /// Wavebands in which the truth is known, and the reflectance there.
+    truth: Vec<(usize, f64)>,
+    /// The measured sheet that it is of, which nobody is to know.
+    left_out: Option<String>,
 }
 
 /// How good estimates are, in the mean over photographs.
@@ -52,13 +56,17 @@ impl Known {
         };
         let missing = |field| Error::field(field, format!("missing in {path}"));
         let wavelengths_nm = scene.grid()?.wavelengths_nm().to_vec();
+        let truth = sample.truth()?.ok_or_else(|| missing("truth"))?;
+        let band = |nm: &f64| wavelengths_nm.iter().position(|own| (own - nm).abs() < 0.1);
+        let known = truth.wavelengths_nm.iter().zip(&truth.reflectance);
         Ok(Self {
             setting: FoldSetting::of(&scene)?,
             rgb: sample.facet_rgb()?,
             sd: sample.facet_sd()?.ok_or_else(|| missing("facet_sd"))?,
             prior: Prior::built_in(&wavelengths_nm)?,
+            truth: known.filter_map(|(nm, reflectance)| Some((band(nm)?, *reflectance))).collect(),
+            left_out: measured_names().find(|name| path.contains(name)).map(ToOwned::to_owned),
             wavelengths_nm,
-            truth: sample.truth()?.ok_or_else(|| missing("truth"))?.reflectance,
             sample,
         })
     }
@@ -66,24 +74,22 @@ impl Known {
     fn quality(&self, beliefs: &'static Beliefs) -> Result<Quality> {
         let measured = Measured { rgb: &self.rgb, sd: &self.sd };
         let picture = Picture::of(&self.sample, &measured, self.sample.exposure()?)?;
-        let parts = PhotographedFold::of(&self.setting).believing(beliefs).parts(&picture)?;
-        let parts = parts.map_err(|why| Error::Numeric(format!("{}: {why}", self.sample.id())))?;
+        let fold = PhotographedFold::of(&self.setting).believing(beliefs);
+        let fold = self.left_out.iter().fold(fold, |fold, name| fold.leaving_out(name));
+        let parts =
+            fold.parts(&picture)?.map_err(|why| Error::Numeric(format!("{}: {why}", self.sample.id())))?;
         let mut sheet = photograph::estimate(&[parts], &self.prior)?;
         let estimate = sheet.photographs.remove(0).in_stated_light(&self.wavelengths_nm);
         let sd = estimate.reflectance_sd().unwrap();
-        let off: Vec<f64> = estimate
-            .reflectance
-            .iter()
-            .zip(&self.truth)
-            .zip(&sd)
-            .map(|((r, truth), sd)| (r - truth) / sd)
-            .collect();
-        let bands = off.len() as f64;
-        let score = |(off, sd): (&f64, &f64)| -0.5 * off.powi(2).min(FURTHEST.powi(2)) - sd.ln();
+        let off = |(band, truth): &(usize, f64)| (estimate.reflectance[*band] - truth, sd[*band]);
+        let off: Vec<(f64, f64)> = self.truth.iter().map(off).collect();
+        let mean = |of: &dyn Fn(f64, f64) -> f64| {
+            off.iter().map(|(off, sd)| of(*off, *sd)).sum::<f64>() / off.len() as f64
+        };
         Ok(Quality {
-            score: off.iter().zip(&sd).map(score).sum::<f64>() / bands,
-            rmse: rmse(&estimate.reflectance, &self.truth),
-            within_two_sd: off.iter().filter(|off| off.abs() < 2.0).count() as f64 / bands,
+            score: mean(&|off, sd| -0.5 * (off / sd).powi(2).min(FURTHEST.powi(2)) - sd.ln()),
+            rmse: mean(&|off, _| off.powi(2)).sqrt(),
+            within_two_sd: mean(&|off, sd| f64::from(u8::from(off.abs() < 2.0 * sd))),
         })
     }
 }

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector};
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
-use super::prior::Class;
 use crate::solve::posterior::{Linearised, Model, information};
 
 /// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark sheet sends back some light of all
@@ -13,6 +12,8 @@ use crate::solve::posterior::{Linearised, Model, information};
 const SURFACE: f64 = 0.006;
 /// Channels, those of every light counted, that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
+/// A maximum counts as found within this many standard deviations of it.
+const TOLERANCE: f64 = 1e-3;
 
 /// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
 fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
@@ -140,8 +141,8 @@ impl Family for FacetData<'_> {
         Some(Facets { data: self, gaussian })
     }
 
-    fn ln_share(&self, class: &Class) -> f64 {
-        class.ln_share
+    fn class_share_power(&self, (): ()) -> f64 {
+        1.0
     }
 
     fn tells_classes(&self) -> bool {
@@ -150,6 +151,10 @@ impl Family for FacetData<'_> {
 
     fn peak(&self) -> f64 {
         self.peak()
+    }
+
+    fn tolerance(&self) -> f64 {
+        TOLERANCE
     }
 }
 

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::gaussian::Gaussian;
-use super::prior::Class;
 use crate::solve::posterior::{Linearised, Model};
 
 /// A model whose first numbers are those of a spectrum; the others are the scene's.
@@ -36,14 +35,17 @@ pub trait Family {
     /// The model for spectra of a Gaussian; none if it is not finite.
     fn model<'m>(&'m self, hypothesis: Self::Hypothesis, gaussian: &'m Gaussian) -> Option<Self::Model<'m>>;
 
-    /// Logarithm of the share that a class of spectra has of all that are measured so.
-    fn ln_share(&self, class: &Class) -> f64;
+    /// Power of the shares that classes of spectra have under a hypothesis; 1: those of the spectra that are known.
+    fn class_share_power(&self, hypothesis: Self::Hypothesis) -> f64;
 
     /// Whether there are channels enough to tell classes apart.
     fn tells_classes(&self) -> bool;
 
     /// The brightest datum, in units of its noise.
     fn peak(&self) -> f64;
+
+    /// A maximum counts as found within this many standard deviations of it.
+    fn tolerance(&self) -> f64;
 }
 
 /// By how much error bars are wider than the noise makes them. Data further from the model than their noise: the noise, or the scene, is

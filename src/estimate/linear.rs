@@ -288,14 +288,15 @@ pub fn candidates<F: Family>(
     let mut first = Vec::new();
     for linear in linears.into_iter().map(Rc::new) {
         let by_beyond = Rc::new(&linear.told * prior.beyond() * linear.told.transpose());
-        let known = linear.ln_share - 0.5 * (linear.ln_determinant + linear.left);
-        for (class, of_prior) in prior.classes().iter().enumerate() {
-            let known = known + family.ln_share(of_prior);
+        let known = -0.5 * (linear.ln_determinant + linear.left);
+        let ln_shares = prior.ln_shares(family.class_share_power(linear.hypothesis));
+        for (class, (of_prior, ln_share)) in prior.classes().iter().zip(ln_shares).enumerate() {
+            let ln_share = linear.ln_share + ln_share;
             let told = LinearClass::new(&linear, of_prior);
             if let Some(at) = told.at_widths(&by_beyond, FIRST_WIDTHS.into_iter()) {
                 first.push((
-                    known + at.ln_evidence,
-                    known,
+                    known + ln_share + at.ln_evidence,
+                    (known, ln_share),
                     class,
                     told,
                     Rc::clone(&linear),
@@ -306,11 +307,17 @@ pub fn candidates<F: Family>(
     }
     let most = first.iter().map(|(ln_evidence, ..)| *ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let near = first.into_iter().filter(|(ln_evidence, ..)| *ln_evidence >= most + LN_EVIDENCE_NEAR);
-    let weighed = near.filter_map(|(_, known, class, told, linear, by_beyond)| {
+    let weighed = near.filter_map(|(_, (known, ln_share), class, told, linear, by_beyond)| {
         let AtWidths { ln_evidence, scale, roughness } = told.at_widths(&by_beyond, Width::all())?;
-        let ln_share = linear.ln_share + family.ln_share(&prior.classes()[class]) + ln_evidence
-            - told.ln_evidence(&by_beyond, scale, roughness)?;
-        Some(Candidate { linear, class, scale, roughness, ln_evidence: known + ln_evidence, ln_share })
+        let of_width = told.ln_evidence(&by_beyond, scale, roughness)?;
+        Some(Candidate {
+            linear,
+            class,
+            scale,
+            roughness,
+            ln_evidence: known + ln_share + ln_evidence,
+            ln_share: ln_share + ln_evidence - of_width,
+        })
     });
     let mut weighed: Vec<_> = weighed.collect();
     weighed.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));

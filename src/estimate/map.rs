@@ -50,7 +50,7 @@ fn most_probable(
 ) -> Option<(Found, Vec<Vec<Iteration>>)> {
     let all = Facets { data, gaussian: prior.broad() };
     let mut search = Search::new(data, prior);
-    let sorted = search.sort(((), 0.0), start.map(|start| all.set_out_from(start)))?;
+    let sorted = search.sort(((), 0.0), start.map(|start| all.set_out_from(start)), f64::NEG_INFINITY)?;
     let mixture = search.mixture(&[sorted])?;
     Some((mixture, search.trace))
 }

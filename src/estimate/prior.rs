@@ -168,6 +168,14 @@ impl Prior {
         &self.classes
     }
 
+    /// Logarithm of the share of each class, where shares are as that power of those of the spectra that are known.
+    #[must_use]
+    pub fn ln_shares(&self, power: f64) -> Vec<f64> {
+        let powers: Vec<f64> = self.classes.iter().map(|class| power * class.ln_share).collect();
+        let ln_all = powers.iter().map(|ln| ln.exp()).sum::<f64>().ln();
+        powers.into_iter().map(|ln| ln - ln_all).collect()
+    }
+
     /// Covariance of what spectra usually do beyond their class, waveband by waveband.
     #[must_use]
     pub fn beyond(&self) -> &DMatrix<f64> {

@@ -12,12 +12,12 @@ use super::mixture::{Beside, Maximum, Mixture};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, maximise};
 
-/// A maximum counts as found within this many standard deviations of it, one at which classes are told apart, and one that only sorts.
-const TOLERANCE: f64 = 1e-3;
-const TELLING_TOLERANCE: f64 = 0.01;
+/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are told apart within so
+/// many times the [tolerance](Family::tolerance).
 const SORTING_TOLERANCE: f64 = 0.3;
+const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
 /// Classes are told apart at these noises, relative to the brightest datum, or at the true one if that is larger: at the coarse one all spectra
 /// lead to where the model is nearly linear, at the fine one the likeliest class of these does.
@@ -91,16 +91,20 @@ impl<'a, F: Family> Search<'a, F> {
         Self { family, prior, coarse, fine, trace: Vec::new(), skipped: 0 }
     }
 
-    /// A hypothesis that is so often true, from `start` on; none if there is no maximum.
+    /// A hypothesis that is so often true, from `start` on, or from the mean; none if there is no maximum. The search is given up where the
+    /// logarithm of evidence and share cannot be as high as `ln_least`.
     pub fn sort(
         &mut self,
         (hypothesis, ln_share): (F::Hypothesis, f64),
         start: Option<DVector<f64>>,
+        ln_least: f64,
     ) -> Option<Sorted<F::Hypothesis, F::Second>> {
         let model = self.family.model(hypothesis, self.prior.broad())?;
         let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
         let first = first_inflation(&model, &start, self.coarse);
-        let solution = maximise(&model, start, (first, self.coarse), SORTING_TOLERANCE, SORTING_LIMIT);
+        let cost = 2.0 * (model.ln_whitening() + ln_share - ln_least);
+        let limits = Limits { iterations: SORTING_LIMIT, cost };
+        let solution = maximise(&model, start, (first, self.coarse), SORTING_TOLERANCE, limits);
         self.trace.push(solution.trace.clone());
         let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
@@ -117,10 +121,14 @@ impl<'a, F: Family> Search<'a, F> {
         if family.tells_classes() {
             let about = |one: &Sorted<F::Hypothesis, F::Second>| {
                 let model = family.model(one.hypothesis, prior.broad())?;
-                let w = one.solution.w.clone();
+                let of = (one.hypothesis, one.ln_share);
+                let tolerance = TELLING_TOLERANCE * family.tolerance();
+                if tolerance >= SORTING_TOLERANCE {
+                    return Linear::about(&model, (&one.solution.w, &one.solution.at), coarse, of);
+                }
                 let Solution { w, at, .. } =
-                    maximise(&model, w, (coarse, coarse), TELLING_TOLERANCE, SORTING_LIMIT);
-                Linear::about(&model, (&w, &at), coarse, (one.hypothesis, one.ln_share))
+                    maximise(&model, one.solution.w.clone(), (coarse, coarse), tolerance, SORTING_LIMIT);
+                Linear::about(&model, (&w, &at), coarse, of)
             };
             let linears: Vec<_> = sorted.iter().filter_map(about).collect();
             is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
@@ -195,7 +203,7 @@ impl<'a, F: Family> Search<'a, F> {
     ) -> Option<Maximum<F::Hypothesis, F::Second>> {
         let gaussian = start.gaussian.clone();
         let model = self.family.model(start.hypothesis, &gaussian)?;
-        let found = maximise(&model, start.w.clone(), (start.inflation, 1.0), TOLERANCE, limit);
+        let found = maximise(&model, start.w.clone(), (start.inflation, 1.0), self.family.tolerance(), limit);
         Some(Maximum::of(&model, found, start))
     }
 

@@ -120,23 +120,23 @@ impl<H: Copy> FromMeans<H> {
     /// Classes by their evidence where the searches end.
     fn starts<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Vec<Start<H>> {
         let &Self { hypothesis, means, noise: (most, last), limit, coordinates } = self;
-        let of_class = |class: &Class| {
-            let gaussian = class.gaussian();
+        let ln_shares = prior.ln_shares(family.class_share_power(hypothesis));
+        let of_class = |class: usize| {
+            let gaussian = prior.classes()[class].gaussian();
             let moved = gaussian.leading(coordinates);
             let model = family.model(hypothesis, &moved)?;
             let w = DVector::zeros(model.unknowns());
             let first = first_inflation(&model, &w, last).min(most);
             let found = maximise(&model, w, (first, last), TOLERANCE_FROM_MEANS, limit);
-            let ln_evidence = family.ln_share(class) + found.ln_evidence(last)?;
+            let ln_evidence = ln_shares[class] + found.ln_evidence(last)?;
             let moved = moved.basis().ncols();
             let w = found.w.insert_rows(moved, gaussian.basis().ncols() - moved, 0.0);
             ln_evidence.is_finite().then_some((ln_evidence, w))
         };
         let nearest = nearest_means(family, hypothesis, prior, NEAREST_INFLATION * last);
         let found = nearest.into_iter().take(means).filter_map(|class| {
-            let of_prior = &prior.classes()[class];
-            let (ln_evidence, w) = of_class(of_prior)?;
-            let (ln_share, gaussian) = (family.ln_share(of_prior), of_prior.gaussian().clone());
+            let (ln_evidence, w) = of_class(class)?;
+            let (ln_share, gaussian) = (ln_shares[class], prior.classes()[class].gaussian().clone());
             Some(Start { hypothesis, class, inflation: last, ln_evidence, ln_share, gaussian, w })
         });
         let mut found: Vec<_> = found.collect();
@@ -152,10 +152,11 @@ fn nearest_means<F: Family>(
     prior: &Prior,
     inflation: f64,
 ) -> Vec<usize> {
+    let ln_shares = prior.ln_shares(family.class_share_power(hypothesis));
     let near = |(class, of_prior): (usize, &Class)| {
         let model = family.model(hypothesis, of_prior.gaussian())?;
         let misfit = model.residuals(&DVector::zeros(model.unknowns())) / inflation;
-        Some((family.ln_share(of_prior) - 0.5 * misfit.norm_squared(), class))
+        Some((ln_shares[class] - 0.5 * misfit.norm_squared(), class))
     };
     let mut nearest: Vec<_> = prior.classes().iter().enumerate().filter_map(near).collect();
     nearest.sort_by(|(a, _), (b, _)| b.total_cmp(a));

@@ -118,6 +118,22 @@ impl<S> Solution<S> {
     }
 }
 
+/// Where a search ends before its minimum.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// After so many iterations.
+    pub iterations: usize,
+    /// Where the cost cannot fall below that: none of a smaller noise is below that of a larger one.
+    pub cost: f64,
+}
+
+impl From<usize> for Limits {
+    /// After so many iterations.
+    fn from(iterations: usize) -> Self {
+        Self { iterations, cost: f64::INFINITY }
+    }
+}
+
 /// Factor of `I + JᵀJ`, J being the derivatives of the model: the inverse of Laplace's covariance. None if the model was not finite.
 #[must_use]
 pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
@@ -140,9 +156,10 @@ pub fn maximise<M: Model>(
     start: DVector<f64>,
     inflation: (f64, f64),
     tolerance: f64,
-    limit: usize,
+    limits: impl Into<Limits>,
 ) -> Solution<M::Second> {
     let (mut now, last) = inflation;
+    let limits = limits.into();
     let mut search = Search {
         model,
         at: model.linearise(&start),
@@ -167,8 +184,13 @@ pub fn maximise<M: Model>(
         } else if gradient_norm <= tolerance {
             break Termination::Converged { gradient_norm };
         }
-        if search.trace.len() >= limit {
+        if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
+        }
+        // the linear model says how low the cost may fall, but at the start
+        let is_near = now < inflation.0 || gradient_norm < END_OF_STAGE;
+        if is_near && search.cost(&newton) - gradient_norm.powi(2) > limits.cost {
+            break Termination::NoProgress { gradient_norm };
         }
         steps += 1;
         search.note(&newton);
@@ -239,9 +261,13 @@ impl<M: Model> Search<'_, M> {
         Some(GaussNewton { weight, hessian, factor, descent, direction, decrement })
     }
 
+    fn cost(&self, newton: &GaussNewton) -> f64 {
+        cost(newton.weight, &self.w, &self.at.residuals)
+    }
+
     fn note(&mut self, newton: &GaussNewton) {
         self.trace.push(Iteration {
-            cost: cost(newton.weight, &self.w, &self.at.residuals),
+            cost: self.cost(newton),
             gradient_norm: newton.decrement,
             damping: self.damping,
             inflation: newton.weight.sqrt().recip(),

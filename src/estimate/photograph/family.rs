@@ -10,12 +10,13 @@ use crate::estimate::Fitted;
 use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::Maximum;
-use crate::estimate::prior::{Class, Prior};
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::posterior::{Linearised, Model, information};
 
 /// Channels that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
+/// A maximum counts as found within this many standard deviations of it.
+const TOLERANCE: f64 = 0.03;
 /// A number is told by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
 /// Step of difference quotients, in standard deviations.
@@ -42,11 +43,6 @@ impl Photographs<'_> {
     /// What is believed of them.
     pub fn beliefs(&self) -> &'static Beliefs {
         self.0.first().map_or(&Beliefs::USUAL, |photograph| photograph.parts.told.beliefs)
-    }
-
-    /// Logarithm of the sum of the shares of all classes.
-    pub fn ln_all_shares(&self, prior: &Prior) -> f64 {
-        prior.classes().iter().map(|class| self.ln_share(class).exp()).sum::<f64>().ln()
     }
 
     /// Each photograph at a maximum; none if the model is not finite.
@@ -91,8 +87,9 @@ impl<'a> Family for Photographs<'a> {
         JointModel::new(&self.0, hypothesis, gaussian)
     }
 
-    fn ln_share(&self, class: &Class) -> f64 {
-        self.beliefs().class_share_power * class.ln_share
+    /// Computed pictures are of spectra that are known.
+    fn class_share_power(&self, hypothesis: Hypothesis) -> f64 {
+        if hypothesis.imperfection.is_ideal() { 1.0 } else { self.beliefs().class_share_power }
     }
 
     fn tells_classes(&self) -> bool {
@@ -102,6 +99,10 @@ impl<'a> Family for Photographs<'a> {
     /// Noise of photographs is not so small that classes are told apart at a larger one.
     fn peak(&self) -> f64 {
         0.0
+    }
+
+    fn tolerance(&self) -> f64 {
+        TOLERANCE
     }
 }
 

@@ -20,6 +20,9 @@ use crate::solve::posterior::Iteration;
 /// Ideal folds that come so near to the best of real sheets, as the logarithm of a share of its evidence, are weighed against these anew.
 const LN_EVIDENCE_NEAR: f64 = -5.0;
 
+/// Hypotheses that are further behind the best, likewise, are out of the question, and not searched to their end.
+const LN_EVIDENCE_HOPELESS: f64 = -20.0;
+
 type Tried = Sorted<Hypothesis, ()>;
 
 /// A sheet as its photographs show it.
@@ -60,20 +63,22 @@ fn under(
     let sorted = sorted(&mut search, all.map(|one| (one, one.ln_share(family.beliefs()))));
     let without_bounces = without_bounces(&sorted);
     let found = search.mixture(&folds(sorted))?;
-    let ln_evidence = found.ln_evidence - family.ln_all_shares(prior);
     let seen = family.seen(&found.best)?;
     let of = |(photograph, seen): (&Photograph, Seen)| {
         let (findings, skipped) =
             (all_findings(photograph, &found, &seen), skipped(&seen.fitted, search.skipped));
         Estimate { findings, without_bounces, skipped, ..of_photograph(&found, seen, &search.trace) }
     };
-    Some(SheetEstimate { photographs: family.0.iter().zip(seen).map(of).collect(), ln_evidence })
+    Some(SheetEstimate {
+        photographs: family.0.iter().zip(seen).map(of).collect(),
+        ln_evidence: found.ln_evidence,
+    })
 }
 
 /// Photographs with errors relative to the values that a model predicts, not to those that were measured.
 fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option<Photographs<'a>> {
     let first = *usual_hypotheses().first()?;
-    let found = Search::new(&family, prior).sort((first, 0.0), None)?;
+    let found = Search::new(&family, prior).sort((first, 0.0), None, f64::NEG_INFINITY)?;
     let model = family.model(first, prior.broad())?;
     let predicted =
         model.members().iter().map(|member| member.model.values_at(&member.own(&found.solution.w)));
@@ -87,15 +92,17 @@ fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option
     Some(Photographs(family.0.into_iter().zip(predicted).map(relative).collect()))
 }
 
-/// Hypotheses with their evidence under all spectra, each from where the one before led, those of most evidence first.
+/// Hypotheses with their evidence under all spectra, each from where the best before led, those of most evidence first.
 fn sorted(
     search: &mut Search<Photographs>,
     hypotheses: impl Iterator<Item = (Hypothesis, f64)>,
 ) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
     for one in hypotheses {
-        let start = all.last().map(|one| one.solution.w.clone());
-        all.extend(search.sort(one, start));
+        let best = all.iter().max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()));
+        let start = best.map(|best| best.solution.w.clone());
+        let ln_least = best.map_or(f64::NEG_INFINITY, |best| best.ln_weight() + LN_EVIDENCE_HOPELESS);
+        all.extend(search.sort(one, start, ln_least));
     }
     weigh_against_ideal(search, &mut all);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
@@ -121,7 +128,7 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
         let less =
             real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter_map(|imperfection| {
                 let hypothesis = Hypothesis { imperfection, ..real.hypothesis };
-                search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()))
+                search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()), f64::NEG_INFINITY)
             });
         let more = less.map(|one| one.ln_evidence - real.ln_evidence).fold(0.0, f64::max);
         all.iter_mut().filter(|one| is_weighed(one)).for_each(|one| one.ln_share += more);
