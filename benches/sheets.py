@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Photographs of real sheets: how near estimates are, how often error bars hold and how long they take, as rows of a table.
 
-    sheets.py TOOLS SHARED SET.csv...        TOOLS: folder of the tools; SHARED: folder of `real` and `materials`
+    sheets.py TOOLS SHARED SET.csv...        TOOLS: folder of the tools; SHARED: folder of `real`, `sky`, `ground` and `materials`
 
 First those that others rendered or measured, then forty sheets drawn of each set, which vforward photographs: gloss, rough bodies, a blue
 sky, a warm sun and a camera of which another measurement is told; angle, tilt, light and corners are told as a user knows them, of half of
@@ -28,6 +28,8 @@ GIVEN = [
     ("rendered, one effect", of_real, "real/one_*.json", []),
     ("rendered, all effects, more", of_real, "real/more/*.json", []),
     ("rendered, two of one sheet", of_real, "real/pairs/*.json", []),
+    ("rendered, other skies", of_real, "sky/*.json", []),
+    ("rendered, other grounds", of_real, "ground/*.json", []),
     ("measured materials", of_material, "materials/*.json", ["--exposure", "1"]),
 ]
 

@@ -24,7 +24,7 @@ unseen=$(unseen_sets "$work" cri2012 tm30_kept) && left_out= || left_out="luxpy 
     echo
     echo "$made_by"
     echo
-    echo 'Rendered photographs and folds of measured materials, which others made (`real`, `materials`); then forty sheets drawn of each set, which vforward'
+    echo 'Rendered photographs and folds of measured materials, which others made (`real`, `sky`, `ground`, `materials`); then forty sheets drawn of each set, which vforward'
     echo 'photographs: gloss and a rough body, a blue sky, a sun of 5100 to 5500 K, and a camera of which another measurement is told; the angle is told within'
     echo '1.2°, the tilt not at all, the light as D50, D55 or D65, corners within half a pixel, the exposure of half of them within 5 %. Default options.'
     echo 'Far: estimates further off than 0.1. Within: per cent of true values within one and two standard deviations. Median: ms, one thread, the whole'

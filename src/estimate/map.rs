@@ -97,6 +97,7 @@ fn into_estimate(data: &FacetData, found: &Found, off: &Found, trace: Vec<Vec<It
         exposure,
         residual_rms: found.best.rms,
         unexplained: data.unexplained(&found.best.at.residuals),
+        day: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
         trace,

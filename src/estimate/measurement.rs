@@ -8,6 +8,7 @@ use std::slice;
 
 use super::data::FacetData;
 use super::measured::Measured;
+use super::photograph::day::Day;
 use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
 use super::prior::Prior;
 use super::shading::Shading;
@@ -172,7 +173,8 @@ impl<'a> Inference<'a> {
             };
             let ideal = self.model.with_found(found).facet_rgb(&estimate.reflectance);
             let shading = Shading::new(panel, rgb, sd, &ideal);
-            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts()));
+            let is_sunlit = estimate.day.is_none_or(|found| found.day == Day::Clear);
+            doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(is_sunlit)));
         }
         if !photograph.by_chart {
             doubts.extend(unusual_exposure(estimate, facets.exposure.known()));

@@ -96,6 +96,8 @@ pub struct Estimate {
     pub residual_rms: f64,
     /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
     pub unexplained: f64,
+    /// The kind of day on which the photograph was taken, where that is looked for.
+    pub day: Option<photograph::day::Found>,
     /// Probability that no light bounces between the panels, as far as that is weighed.
     pub without_bounces: f64,
     /// Iterations.

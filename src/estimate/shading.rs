@@ -59,10 +59,16 @@ impl<'a> Shading<'a> {
         (grid.rows >= ROWS_LEAST && rgb.len() == 2 * grid.len()).then_some(Self { grid, rgb, sd, ideal })
     }
 
-    /// What shows that these are no facets of a fold with this spectrum.
+    /// What shows that these are no facets of a fold with this spectrum: in the sun, or else in the light of a sky, which is darker where panels
+    /// meet.
     #[must_use]
-    pub fn doubts(&self) -> Vec<Doubt> {
-        let all = [self.darker_at_crease(), self.two_colours(), self.uneven_ends(), self.uneven_panels()];
+    pub fn doubts(&self, is_sunlit: bool) -> Vec<Doubt> {
+        let all = [
+            self.darker_at_crease().filter(|_| is_sunlit),
+            self.two_colours(),
+            self.uneven_ends(),
+            self.uneven_panels(),
+        ];
         all.into_iter().flatten().collect()
     }
 
@@ -257,7 +263,7 @@ mod tests {
             ideal(facet / GRID.len(), facet % GRID.len() / GRID.cols, channel)
         });
         let shading = Shading::new(GRID, &rgb, &sd, &ideal).unwrap();
-        shading.doubts().iter().map(|doubt| doubt.level).collect()
+        shading.doubts(true).iter().map(|doubt| doubt.level).collect()
     }
 
     fn levels(value: impl Fn(usize, usize, usize) -> f64) -> Vec<Level> {

@@ -52,6 +52,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         exposure: at.exposure,
         residual_rms: data.rms(&at.residuals),
         unexplained: data.unexplained(&at.residuals),
+        day: None,
         without_bounces: 0.0,
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
         termination: termination(state, run.solver()),

@@ -284,6 +284,7 @@ mod tests {
             skipped: Vec::new(),
             residual_rms,
             unexplained: 0.0,
+            day: None,
             without_bounces: 0.0,
             iterations: 1,
             trace: Vec::new(),

@@ -1,21 +1,22 @@
-//! Light of surroundings that are not alike in all directions on an ideal fold: sky, ground, and the glow about the sun.
+//! Light of surroundings that are not alike in all directions on a fold: sky, ground, and the glow about the sun.
 //!
 //! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced between them as in
 //! [`super::bent`].
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 use ndarray::Array2;
 
 use crate::error::Result;
 use crate::geometry::Fold;
-use crate::kernel::quadrature::Rule;
 
-use super::bent::{BentExchange, BentFold};
+use super::bent::{BentExchange, BentFold, Seen};
 
-/// Directions from the horizon to the pole, and around it.
-const DIRECTIONS: [usize; 2] = [12, 48];
+/// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many of them (R. Swinbank, R. J. Purser,
+/// *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p. 1769).
+const DIRECTIONS: usize = 800;
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// One part of the surroundings, which `up` parts into an upper and a lower half.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +30,9 @@ pub enum Surroundings {
         /// Unit vector to the sun, above the horizon.
         sun: Vector3<f64>,
     },
+    /// An overcast sky, irradiance 1 on a horizontal plane that faces up: three times as bright at the zenith as at the horizon (P. Moon, D. E.
+    /// Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard overcast sky).
+    OvercastSky,
     /// What a clear sky has more about the sun than far from it, irradiance 1 on a horizontal plane that faces up.
     Glow {
         /// Unit vector to the sun, above the horizon.
@@ -47,127 +51,210 @@ impl Surroundings {
         };
         match self {
             Self::Sky | Self::Ground => 1.0,
+            Self::OvercastSky => 1.0 + 2.0 * height,
             Self::ClearSky { sun } => gradation * (1.0 + glow(sun)),
             Self::Glow { sun } => gradation * glow(sun).max(0.0),
         }
     }
 }
 
-/// One part of the surroundings as directions that share its light.
-pub struct Environment {
-    /// Unit vectors towards the light, with irradiance on a plane that faces them.
-    rays: Vec<(Vector3<f64>, f64)>,
+/// Parts of the surroundings as directions that share their light.
+pub struct Environment<const PARTS: usize> {
+    /// Unit vectors towards the light, with irradiance by each part on a plane that faces them.
+    rays: Vec<(Vector3<f64>, [f64; PARTS])>,
 }
 
-impl Environment {
-    /// The light of `part`, where the unit vector `up` points to the zenith in the coordinates of [`Fold::panels`].
+impl<const PARTS: usize> Environment<PARTS> {
+    /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of [`Fold::panels`].
     #[must_use]
-    pub fn new(part: Surroundings, up: Vector3<f64>) -> Self {
-        let side = if part == Surroundings::Ground { -1.0 } else { 1.0 };
-        let pole = side * up;
-        let east = pole.cross(&if pole.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() }).normalize();
-        let north = pole.cross(&east);
-        let [heights, around] = DIRECTIONS;
-        // Even in the square of the sine, so that every ray has the same share of an even light's horizontal irradiance.
-        let heights = Rule::gauss_legendre(heights);
-        let mut rays = Vec::with_capacity(DIRECTIONS.iter().product());
-        for (square, weight) in heights.on(0.0, 1.0) {
-            let (height, spread) = ((1.0 - square).sqrt(), square.sqrt());
-            for n in 0..around {
-                let (sin, cos) = (TAU * (n as f64 + 0.5) / around as f64).sin_cos();
+    pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
+        let mut rays = Vec::with_capacity(2 * DIRECTIONS);
+        for pole in [up, -up] {
+            let is_of = |part: &Surroundings| (*part == Surroundings::Ground) == (pole != up);
+            let east = pole.cross(&if pole.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() }).normalize();
+            let north = pole.cross(&east);
+            for n in 0..DIRECTIONS {
+                let height = (n as f64 + 0.5) / DIRECTIONS as f64;
+                let (sin, cos) = (GOLDEN_ANGLE * n as f64).sin_cos();
+                let spread = (1.0 - height * height).sqrt();
                 let towards = height * pole + spread * (cos * east + sin * north);
-                rays.push((towards, part.radiance(&towards, height) * weight / height));
+                let of =
+                    |part: Surroundings| if is_of(&part) { part.radiance(&towards, height) } else { 0.0 };
+                rays.push((towards, parts.map(of)));
             }
         }
-        let horizontal: f64 = rays.iter().map(|(towards, irradiance)| irradiance * towards.dot(&pole)).sum();
-        rays.iter_mut().for_each(|(_, irradiance)| *irradiance /= horizontal);
+        let mut horizontal = [0.0; PARTS];
+        for (towards, irradiance) in &rays {
+            let height = towards.dot(&up).abs();
+            horizontal.iter_mut().zip(irradiance).for_each(|(sum, irradiance)| *sum += height * irradiance);
+        }
+        for (_, irradiance) in &mut rays {
+            irradiance.iter_mut().zip(&horizontal).for_each(|(irradiance, all)| *irradiance /= all);
+        }
+        rays.retain(|(_, irradiance)| irradiance.iter().any(|irradiance| *irradiance > 0.0));
         Self { rays }
     }
 
-    /// Irradiance of an open plane with this unit normal.
+    /// Irradiance of an open plane with this unit normal, by each part.
     ///
     /// # Example
     /// ```
     /// use nalgebra::Vector3;
     /// use vfold::kernel::environment::{Environment, Surroundings};
-    /// let sky = Environment::new(Surroundings::Sky, Vector3::z());
-    /// assert!((sky.on_plane(Vector3::x()) - 0.5).abs() < 0.05); // an upright plane sees about half of it
+    /// let [sky] = Environment::new([Surroundings::Sky], Vector3::z()).on_plane(Vector3::x());
+    /// assert!((sky - 0.5).abs() < 0.01); // an upright plane sees half of it
     /// ```
     #[must_use]
-    pub fn on_plane(&self, normal: Vector3<f64>) -> f64 {
-        self.rays.iter().map(|(towards, irradiance)| irradiance * towards.dot(&normal).max(0.0)).sum()
+    pub fn on_plane(&self, normal: Vector3<f64>) -> [f64; PARTS] {
+        self.sum(normal, |_| true)
     }
 
-    /// Radiance of the facets of an ideal fold in this light, all bounces included: in the unit in which a perfect diffuser with
-    /// irradiance 1 has 1.
-    ///
-    /// # Returns
-    /// Facet by albedo, as [`BentFold::facet_radiance`].
-    ///
-    /// # Errors
-    /// [`crate::Error::Numeric`] if light does not leave the fold.
-    pub fn facet_radiance(&self, fold: &Fold, albedos: &[f64]) -> Result<Array2<f64>> {
-        let (rows, cols) = (fold.facets().rows, fold.facets().cols);
-        let half = cols.div_ceil(2);
-        let facets = facet_places(fold);
-        let direct: Vec<f64> =
-            facets.iter().map(|[place, normal]| self.on_sheet(*place, *normal, fold)).collect();
-        let mut radiance = Array2::from_shape_fn((facets.len(), albedos.len()), |(facet, node)| {
-            albedos[node] * direct[facet]
-        });
-        for image in [1.0, -1.0] {
-            let exchange =
-                BentExchange::of_light(&BentFold::ideal(fold.angle_deg()), fold, Vector3::z(), image);
-            let on_patch = |[place, normal]: [Vector3<f64>; 2]| {
-                let mirrored = Vector3::new(place.x, -place.y, place.z);
-                0.5 * (self.on_sheet(place, normal, fold) + image * self.on_sheet(mirrored, normal, fold))
-            };
-            let patches: Vec<f64> = exchange.places(fold.width()).map(on_patch).collect();
-            for (node, albedo) in albedos.iter().enumerate() {
-                let bounced = exchange.bounced(&patches, *albedo)?;
+    fn sum(&self, normal: Vector3<f64>, seen: impl Fn(&Vector3<f64>) -> bool) -> [f64; PARTS] {
+        let mut sum = [0.0; PARTS];
+        for (towards, irradiance) in &self.rays {
+            let cos = towards.dot(&normal);
+            if cos > 0.0 && seen(towards) {
+                sum.iter_mut().zip(irradiance).for_each(|(sum, irradiance)| *sum += cos * irradiance);
+            }
+        }
+        sum
+    }
+
+    /// Irradiance of a place on the fold past its panels, which are flat but where they meet.
+    fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
+        let above = panels.each_ref().map(|panel| panel.facing.dot(&place));
+        let before = || panels.iter().zip(above).filter(|(_, height)| *height > ON_PANEL);
+        self.sum(normal, |towards| !before().any(|(panel, height)| panel.hides(towards, place, height)))
+    }
+}
+
+/// Radiance of the facets of a sheet bent like this in each of these lights, part by part, all bounces included: in the unit in which a perfect
+/// diffuser with irradiance 1 has 1. Facets are those of `fold`, seen from far away from the direction `eye`.
+///
+/// # Returns
+/// Light by light, part by part: facet by albedo, as [`BentFold::facet_radiance`].
+///
+/// # Errors
+/// [`crate::Error::Numeric`] if light does not leave the fold.
+pub fn facet_radiances<const PARTS: usize>(
+    lights: &[Environment<PARTS>],
+    (bent, fold, eye): (&BentFold, &Fold, Vector3<f64>),
+    albedos: &[f64],
+) -> Result<Vec<[Array2<f64>; PARTS]>> {
+    let (rows, cols) = (fold.facets().rows, fold.facets().cols);
+    let half = cols.div_ceil(2);
+    let panels = &[0, 1].map(|panel| Screen::of(bent, fold, panel));
+    let exchanges = [1.0, -1.0].map(|image| (image, BentExchange::of_light(bent, fold, eye, image)));
+    let direct = |light: &Environment<PARTS>| {
+        let mut radiances: [Array2<f64>; PARTS] =
+            std::array::from_fn(|_| Array2::zeros((2 * rows * cols, albedos.len())));
+        for (row, seen) in exchanges[0].1.rows().iter().enumerate() {
+            for col in 0..cols {
+                let y = ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width();
+                for Seen { share, place, normal } in seen {
+                    let (place, normal) =
+                        (Vector3::new(place.x, y, place.y), Vector3::new(normal.x, 0.0, normal.y));
+                    let direct = light.on_sheet(place, normal, panels);
+                    for (radiance, direct) in radiances.iter_mut().zip(direct) {
+                        for (node, albedo) in albedos.iter().enumerate() {
+                            radiance[(row * cols + col, node)] += share * albedo * direct;
+                        }
+                    }
+                }
+            }
+        }
+        radiances
+    };
+    let mut radiances: Vec<[Array2<f64>; PARTS]> = lights.iter().map(direct).collect();
+    // patches of both exchanges are the same
+    let on_patch = |[place, normal]: [Vector3<f64>; 2]| {
+        let mirrored = Vector3::new(place.x, -place.y, place.z);
+        lights.iter().flat_map(move |light| {
+            let [own, other] = [place, mirrored].map(|place| light.on_sheet(place, normal, panels));
+            (0..PARTS).map(move |part| [own[part], other[part]])
+        })
+    };
+    let on_patches: Vec<[f64; 2]> = exchanges[0].1.places(fold.width()).flat_map(on_patch).collect();
+    for (image, exchange) in &exchanges {
+        let halves = on_patches.iter().map(|[own, other]| 0.5 * (own + image * other));
+        let patches = DMatrix::from_row_iterator(exchange.patches(), lights.len() * PARTS, halves);
+        for (node, albedo) in albedos.iter().enumerate() {
+            let bounced = exchange.bounced(&patches, *albedo)?;
+            for (radiance, bounced) in radiances.iter_mut().flatten().zip(bounced.column_iter()) {
                 for (n, row) in (0..2 * rows).flat_map(|row| (0..cols).map(move |col| (col, row))) {
                     let mirror = cols - 1 - n;
-                    let sign = if n <= mirror { 1.0 } else { image };
+                    let sign = if n <= mirror { 1.0 } else { *image };
                     radiance[(row * cols + n, node)] += albedo * sign * bounced[row * half + n.min(mirror)];
                 }
             }
         }
-        Ok(radiance)
+    }
+    Ok(radiances)
+}
+
+/// A panel as it hides light from the rest of the sheet.
+struct Screen {
+    out: Vector3<f64>,
+    facing: Vector3<f64>,
+    depth: f64,
+    half_width: f64,
+}
+
+/// Height above a panel, in the fold's unit, up to which a place is on it.
+const ON_PANEL: f64 = 1e-9;
+
+impl Screen {
+    fn of(bent: &BentFold, fold: &Fold, panel: usize) -> Self {
+        let (sin, cos) = (0.5 * bent.angle_deg.to_radians()).sin_cos();
+        let side = if panel == 0 { -1.0 } else { 1.0 };
+        Self {
+            out: Vector3::new(side * sin, 0.0, cos),
+            facing: Vector3::new(-side * cos, 0.0, sin),
+            depth: fold.depths()[panel],
+            half_width: 0.5 * fold.width(),
+        }
     }
 
-    /// Irradiance of a place on the fold past the other panel.
-    fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, fold: &Fold) -> f64 {
-        let other = usize::from(normal.x > 0.0);
-        let (sin, cos) = (fold.angle_rad() / 2.0).sin_cos();
-        let side = if other == 0 { -1.0 } else { 1.0 };
-        let (out, facing) = (Vector3::new(side * sin, 0.0, cos), Vector3::new(-side * cos, 0.0, sin));
-        let height = facing.dot(&place);
-        let seen = |towards: &Vector3<f64>| {
-            let approach = -facing.dot(towards);
-            if approach <= 0.0 {
-                return true;
-            }
-            let met = place + towards * (height / approach);
-            !((0.0..=fold.depths()[other]).contains(&out.dot(&met)) && met.y.abs() <= 0.5 * fold.width())
-        };
-        let lit = self.rays.iter().map(|(towards, irradiance)| (towards, irradiance * towards.dot(&normal)));
-        lit.filter(|(towards, irradiance)| *irradiance > 0.0 && seen(towards))
-            .map(|(_, irradiance)| irradiance)
-            .sum()
+    /// Whether it hides that direction from a place so high above it.
+    fn hides(&self, towards: &Vector3<f64>, place: Vector3<f64>, height: f64) -> bool {
+        let approach = -self.facing.dot(towards);
+        if approach <= 0.0 {
+            return false;
+        }
+        let met = place + towards * (height / approach);
+        (0.0..=self.depth).contains(&self.out.dot(&met)) && met.y.abs() <= self.half_width
     }
 }
 
-/// Middles of the facets with their normals.
-fn facet_places(fold: &Fold) -> Vec<[Vector3<f64>; 2]> {
-    let (sin, cos) = (fold.angle_rad() / 2.0).sin_cos();
-    let cols = fold.facets().cols;
-    let mut places = Vec::with_capacity(2 * fold.facets().len());
-    for (side, edges) in [-1.0, 1.0].into_iter().zip(fold.row_edges()) {
-        for row in edges.windows(2) {
-            let out = 0.5 * (row[0] + row[1]) * Vector3::new(side * sin, 0.0, cos);
-            let along = |col: usize| ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width() * Vector3::y();
-            places.extend((0..cols).map(|col| [out + along(col), Vector3::new(-side * cos, 0.0, sin)]));
+#[cfg(test)]
+mod tests {
+    use std::slice;
+
+    use super::*;
+    use crate::geometry::FacetGrid;
+
+    /// A white sheet in light that is alike everywhere is as bright as that, however it is bent.
+    #[test]
+    fn a_white_sheet_vanishes_in_even_light() {
+        let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();
+        let ideal = BentFold::ideal(48.0);
+        let even = Environment::new([Surroundings::Sky, Surroundings::Ground], Vector3::z());
+        for bent in [
+            ideal,
+            BentFold { crease_radius: 0.012, ..ideal },
+            BentFold { crease_radius: 0.03, ..ideal },
+            BentFold { bow_deg: [3.0; 2], ..ideal },
+            BentFold { bow_deg: [-3.0; 2], ..ideal },
+        ] {
+            let seen = (&bent, &fold, Vector3::z());
+            let [[sky, ground]] = &facet_radiances(slice::from_ref(&even), seen, &[0.9999]).unwrap()[..]
+            else {
+                panic!("one light has one radiance of each part")
+            };
+            for ((facet, _), radiance) in (sky + ground).indexed_iter() {
+                let most = if facet / 10 % 10 < 2 { 0.06 } else { 0.025 };
+                assert!((radiance - 1.0).abs() < most, "{bent:?}, facet {facet}: {radiance}");
+            }
         }
     }
-    places
 }

@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
+use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::estimate::photograph::{Told, Unmodelled};
 use crate::forward::render::{FoldView, Frame, Viewpoint};
@@ -31,8 +32,6 @@ const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
 const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
-/// Sine of the height of a sun of which nothing is known: 42°.
-const SUN_HEIGHT: f64 = 0.67;
 
 /// Width and height of a photograph that nobody has taken yet, px.
 const SIZE: [usize; 2] = [640, 480];
@@ -131,7 +130,6 @@ impl<'a> PhotographedFold<'a> {
         let bins = Bins::new(fold, measured, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
-        let up = pose.up(sun, SUN_HEIGHT);
         let told = Told {
             beliefs: self.beliefs,
             exposure,
@@ -141,10 +139,13 @@ impl<'a> PhotographedFold<'a> {
             tilt_deg: light.tilt_deg(),
             daylight: eye::daylight(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
+            sky: Some(light.sky()).filter(|sky| *sky > 0.0),
             has_sky_illuminant: optics.sky.is_some(),
+            day: Day::Clear,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
-        let [sky, ground] = ambient::of(fold, up, sun, &self.nodes, &bins)?;
+        let even = self.exact(ModeLight::Sky(1.0));
+        let surroundings = ambient::of(fold, (&pose, sun), (&self.nodes, &even), &bins)?;
         let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {
             told,
@@ -157,9 +158,7 @@ impl<'a> PhotographedFold<'a> {
             } else {
                 None
             },
-            sky,
-            ground,
-            sun_height: up.dot(&sun),
+            surroundings,
             sheets,
             eye,
         }))

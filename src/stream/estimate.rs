@@ -59,6 +59,9 @@ pub struct EstimateRecord {
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
+    /// The kind of day on which a photograph in daylight was taken.
+    #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
+    day: Option<DayRecord>,
     /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this sample's among them; absent of
     /// a sample that was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -132,6 +135,16 @@ pub struct FittedRecord {
     pub sd: f64,
     /// Whether the facets say more of it than was known before.
     pub supported: bool,
+}
+
+/// The kind of day on which a photograph was taken.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct DayRecord {
+    /// Clear, hazy (or under thin cloud), overcast, or shade under a blue sky.
+    kind: String,
+    /// How probable that is.
+    #[schemars(range(min = 0, max = 1))]
+    probability: f64,
 }
 
 /// Something that is not ideal about a photograph.
@@ -309,6 +322,9 @@ impl Sample {
             total_reflectance: estimate.total.clone(),
             fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
             joined: joined.to_vec(),
+            day: estimate
+                .day
+                .map(|found| DayRecord { kind: found.day.name().to_owned(), probability: found.probability }),
             findings: estimate.findings.iter().map(FindingRecord::from).collect(),
             verdict: verdict.map(VerdictRecord::from),
             skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),

@@ -10,7 +10,7 @@ use serde_json::Value;
 use vfold::geometry::{FacetGrid, Fold};
 use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure};
 use vfold::kernel::bent::{BentExchange, BentFold};
-use vfold::kernel::environment::{Environment, Surroundings};
+use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
 use vfold::kernel::refinement::refine;
 use vfold::response::ModeLight;
 
@@ -181,7 +181,9 @@ fn sky_and_ground_are_as_photographed() {
         (0..ground.len()).map(|n| ground[n] * (up.z * sun_spectrum[n] + sky_spectrum[n])).collect();
     let fold = fold(48.0);
     let by = |part: Surroundings, spectrum: &[f64]| {
-        let radiance = Environment::new(part, up).facet_radiance(&fold, &reflectance).unwrap();
+        let light = Environment::new([part], up);
+        let seen = (&BentFold::ideal(48.0), &fold, Vector3::z());
+        let [radiance] = &facet_radiances(&[light], seen, &reflectance).unwrap()[0];
         radiance.dot(&weights(&sidecar, spectrum).t())
     };
     let by_ground = by(Surroundings::Ground, &lit_ground);

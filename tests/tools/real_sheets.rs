@@ -37,6 +37,9 @@ pub struct Outcome {
     pub bar: f64,
     /// What the tools say is not ideal about the photograph.
     findings: Vec<String>,
+    /// The kind of day on which they say that it was taken, and the verdict.
+    day: Option<String>,
+    level: String,
 }
 
 #[test]
@@ -75,6 +78,42 @@ fn more_sheets_give_their_spectra() {
     print_table(&all);
     let every: Vec<&Outcome> = all.iter().collect();
     assert!(mean(&every, |one| one.rmse) < 0.029, "more: {}", mean(&every, |one| one.rmse));
+    assert!(mean(&every, |one| one.within_two_sd) > 0.85);
+}
+
+/// Overcast, in haze, under thin cloud and in the shade; nothing is stated of the sky.
+#[test]
+fn sheets_under_other_skies_give_their_spectra() {
+    let Some(skies) = sidecars("sky") else { return };
+    let all: Vec<Outcome> = skies.iter().map(|path| of_real(path)).collect();
+    print_table(&all);
+    let every: Vec<&Outcome> = all.iter().collect();
+    assert!(mean(&every, |one| one.rmse) < 0.055, "other skies: {}", mean(&every, |one| one.rmse));
+    assert!(mean(&every, |one| one.within_two_sd) > 0.85);
+    for one in all.iter().filter(|one| one.level == "good") {
+        assert!(one.within_two_sd > 0.7, "{}: {}", one.name, one.within_two_sd);
+    }
+    let kind = |path: &PathBuf| {
+        let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        let sky = &sidecar["rendered"]["sky"];
+        match (sky["type"].as_str(), sky["share"].as_f64()) {
+            (Some("overcast"), _) => "overcast",
+            (_, Some(0.9..)) => "shade",
+            _ => "hazy",
+        }
+    };
+    let right = all.iter().zip(&skies).filter(|(one, path)| one.day.as_deref() == Some(kind(path))).count();
+    assert!(right + 1 >= all.len(), "{:?}", all.iter().map(|one| &one.day).collect::<Vec<_>>());
+}
+
+/// On a white table, on grass, on red and on blue cloth.
+#[test]
+fn sheets_on_other_grounds_give_their_spectra() {
+    let Some(grounds) = sidecars("ground") else { return };
+    let all: Vec<Outcome> = grounds.iter().map(|path| of_real(path)).collect();
+    print_table(&all);
+    let every: Vec<&Outcome> = all.iter().collect();
+    assert!(mean(&every, |one| one.rmse) < 0.05, "other grounds: {}", mean(&every, |one| one.rmse));
     assert!(mean(&every, |one| one.within_two_sd) > 0.85);
 }
 
@@ -446,6 +485,8 @@ pub fn outcome(path: &Path, sample: &Value, truth: &[f64], at: impl Fn(&[f64]) -
         within_two_sd: within as f64 / count,
         bar: 4.0 * sd.iter().sum::<f64>() / count,
         findings: findings.map(|one| one["what"].as_str().unwrap().to_owned()).collect(),
+        day: sample["estimate"]["day"]["kind"].as_str().map(ToOwned::to_owned),
+        level: sample["estimate"]["verdict"]["level"].as_str().unwrap_or_default().to_owned(),
     }
 }
 

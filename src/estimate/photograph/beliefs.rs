@@ -15,7 +15,7 @@ macro_rules! beliefs {
         /// use vfold::estimate::photograph::beliefs::Beliefs;
         /// let careful = Beliefs { angle_sd_deg: 0.3, ..Beliefs::USUAL };
         /// assert!(careful.angle_sd_deg < Beliefs::USUAL.angle_sd_deg);
-        /// assert!(Beliefs::NUMBERS.len() <= 60);
+        /// assert!(Beliefs::NUMBERS.len() <= 70);
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Beliefs {
@@ -72,6 +72,30 @@ beliefs! {
     sky_mired: 95.0,
     /// See `sky_mired`.
     sky_mired_sd: 15.0,
+    /// How many photographs are taken in haze or under thin cloud.
+    hazy_share: 0.1,
+    /// How many on an overcast day.
+    overcast_share: 0.1,
+    /// How many in the shade.
+    shade_share: 0.05,
+    /// As `sky_mean`, in haze or under thin cloud: a third to two thirds of the light is diffuse.
+    hazy_sky_mean: 0.6,
+    /// See `hazy_sky_mean`.
+    hazy_sky_sd: 0.3,
+    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: 7000 K.
+    hazy_mired: 143.0,
+    /// Reciprocal colour temperature of an overcast sky, 1e-6/K: 5800 K to 7000 K.
+    overcast_mired: 157.0,
+    /// See `overcast_mired`.
+    overcast_mired_sd: 9.0,
+    /// Reciprocal colour temperature of the sky that lights a shadow, 1e-6/K: 6500 K to 12000 K.
+    shade_mired: 118.0,
+    /// See `shade_mired`.
+    shade_mired_sd: 18.0,
+    /// How far above the horizon the fold opens, degrees: towards the sun, towards the photographer, or upwards on a table.
+    elevation_mean: 45.0,
+    /// See `elevation_mean`.
+    elevation_sd: 14.0,
     /// Reflectance of the ground, in units of 0.15: a table, grass, sand have 0.1 to 0.4.
     ground_mean: 0.8,
     /// See `ground_mean`.
@@ -124,13 +148,13 @@ beliefs! {
 
     /// What no unknown explains, relative to predicted values, in all channels alike. These eight are those of most evidence in the facets of
     /// rendered photographs, whatever the spectra behind them.
-    discrepancy_shared: 0.015,
+    discrepancy_shared: 0.012,
     /// In each channel by itself.
-    discrepancy_own: 0.01,
+    discrepancy_own: 0.006,
     /// In each facet by itself.
-    discrepancy_white: 0.004,
+    discrepancy_white: 0.005,
     /// In the facets at the crease, which is not as sharp, nor as round, as the model has it.
-    discrepancy_at_crease: 0.05,
+    discrepancy_at_crease: 0.06,
     /// In those at the outer sides: an edge is not straight, nor sharp, so that some of the background is taken for the sheet.
     discrepancy_at_outer_side: 0.03,
     /// How far a corner is from where it is marked, in depths of a panel.

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::beliefs::Beliefs;
+use super::day::Day;
 use crate::spectrum::daylight_weights;
 
 /// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
@@ -18,8 +19,16 @@ pub struct Conditions {
     pub tilt_deg: f64,
     /// Reciprocal colour temperature of the sun, 1e-6/K, if it is daylight.
     pub sun_mired: Option<f64>,
-    /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being 1.
+    /// The kind of day.
+    pub day: Day,
+    /// Irradiance of a plane that faces the sun by the sun; 1 where that is not hidden.
+    pub sun: f64,
+    /// Irradiance of an open horizontal plane by the sky; 1 where the sun is hidden.
     pub sky: f64,
+    /// Share of the sky's light that is an overcast one's.
+    pub cloud: f64,
+    /// How far above the horizon the fold opens, degrees.
+    pub elevation_deg: f64,
     /// Share of the sky that was told, which is alike in all directions.
     pub told_sky: f64,
     /// Reciprocal colour temperature of the sky, 1e-6/K; none if its colour is given.
@@ -67,8 +76,12 @@ pub struct Told {
     pub daylight: Option<Daylight>,
     /// Whether that was assumed, as nobody told it.
     pub is_daylight_assumed: bool,
+    /// Irradiance by the sky that somebody stated, that by the sun being 1.
+    pub sky: Option<f64>,
     /// Whether the sky's colour is given.
     pub has_sky_illuminant: bool,
+    /// The kind of day that it is taken to have been.
+    pub day: Day,
 }
 
 impl Told {

@@ -1,6 +1,7 @@
 //! What a photograph shows that sets its fold apart from an ideal one, in the words of who took it.
 
 use super::conditions::Told;
+use super::day::{Day, Found};
 use crate::estimate::Fitted;
 
 /// Something that is not ideal about a photograph. The estimate allows for it; a photograph without it tells more.
@@ -19,9 +20,25 @@ const SURE: f64 = 2.0;
 /// Numbers further than that from what was known before, in standard deviations, are unusual.
 const UNUSUAL: f64 = 3.0;
 
+/// Other light than that of a clear day.
+#[must_use]
+pub fn of_day(Found { day, .. }: Found) -> Option<Finding> {
+    let what = match day {
+        Day::Clear => return None,
+        Day::Hazy => "much of the light comes from the sky, as in haze or under thin cloud",
+        Day::Overcast => "the light is that of an overcast sky",
+        Day::Shade => "the light is that of a blue sky: the sheet is in the shade",
+    };
+    Some(Finding {
+        what: what.to_owned(),
+        remedy: "a photograph in direct sunlight tells more",
+        is_unusual: false,
+    })
+}
+
 /// What the facets tell of the unknowns, what they are surest of first.
 #[must_use]
-pub fn findings(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
+pub fn of_unknowns(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
     let found = |one: &Fitted| {
         let effect = one.unknown.photograph.as_ref()?;
         let (symptom, prior) = (effect.symptom.as_ref()?, (effect.prior)(told)?);

@@ -2,6 +2,7 @@
 
 use super::beliefs::Beliefs;
 use super::conditions::Told;
+use super::day::Day;
 use super::imperfection::Imperfection;
 use super::joint::Photograph;
 use super::kinds::Kind;
@@ -13,6 +14,8 @@ pub struct Hypothesis {
     pub kind: Kind,
     /// How far it is from an ideal one.
     pub imperfection: Imperfection,
+    /// The kind of day on which it was taken.
+    pub day: Day,
     /// What is not as it was stated, if anything is.
     pub mistake: Option<Mistake>,
 }
@@ -57,6 +60,12 @@ pub fn usual_hypotheses() -> Vec<Hypothesis> {
     Kind::ALL.map(Hypothesis::usual).to_vec()
 }
 
+/// Days other than clear ones on which photographs may have been taken.
+pub fn dull_days(photographs: &[Photograph]) -> Vec<Day> {
+    let are_in_daylight = photographs.iter().all(|photograph| photograph.parts.told.daylight.is_some());
+    Day::ALL.into_iter().filter(|day| are_in_daylight && *day != Day::Clear).collect()
+}
+
 /// Hypotheses on what is no fold.
 pub fn hypotheses_without_bounces() -> [Hypothesis; 2] {
     let mistake = Some(Mistake::NoFold);
@@ -67,21 +76,33 @@ impl Hypothesis {
     /// A photograph as people take them, of this kind of sheet.
     #[must_use]
     pub fn usual(kind: Kind) -> Self {
-        Self { kind, imperfection: Imperfection::USUAL, mistake: None }
+        Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None }
+    }
+
+    /// One as people take them under another sky than a clear day's.
+    #[must_use]
+    pub fn on_dull_day(day: Day, kind: Kind) -> Self {
+        Self { day, ..Self::usual(kind) }
     }
 
     /// One of an ideal fold, all as stated but for a mistake.
     #[must_use]
     pub fn ideal(mistake: Option<Mistake>) -> Self {
-        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, mistake }
+        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day: Day::Clear, mistake }
     }
 
     /// Logarithm of how often it is true.
     pub fn ln_share(&self, beliefs: &Beliefs) -> f64 {
         let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(beliefs).ln());
         let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(beliefs) };
-        let of_fold = self.imperfection.ln_share(beliefs) + of_kind;
+        let of_day = if self.imperfection.is_ideal() { 0.0 } else { self.day.share(beliefs).ln() };
+        let of_fold = self.imperfection.ln_share(beliefs) + of_kind + of_day;
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
+    }
+
+    /// Whether it is a fold on a clear day as people take them.
+    pub fn is_usual_fold(&self) -> bool {
+        *self == Self::usual(self.kind)
     }
 
     /// Whether light bounces between the panels, as it does in a fold.
@@ -91,9 +112,10 @@ impl Hypothesis {
 
     /// What of all that was stated is to be believed.
     pub fn told(&self, told: &Told) -> Told {
-        match self.mistake {
-            Some(Mistake::Exposure) if told.is_exposure_stated() => Told { exposure: None, ..*told },
-            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle) | None => *told,
-        }
+        let exposure = match self.mistake {
+            Some(Mistake::Exposure) if told.is_exposure_stated() => None,
+            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle) | None => told.exposure,
+        };
+        Told { exposure, day: self.day, ..*told }
     }
 }

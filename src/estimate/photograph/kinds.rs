@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beliefs::Beliefs;
 use super::conditions::Conditions;
-use super::parts::{Parts, Radiance};
+use super::parts::{Parts, Radiance, lagrange};
 use super::sheets::{Departure, FAMILY_NODES, FUZZ, FamilyNodes, Sheets};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
@@ -144,14 +144,6 @@ impl<'a> Kinds<'a> {
         sum.add(fuzz * (fuzz - a) / (b * (b - a)), &self.sheets.fuzz[1], [0.0, 0.0]);
         sum
     }
-}
-
-/// Shares of three nodes at `x`.
-fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
-    [0, 1, 2].map(|at| {
-        let [own, a, b] = [0, 1, 2].map(|n| nodes[(at + n) % 3]);
-        (x - a) * (x - b) / ((own - a) * (own - b))
-    })
 }
 
 /// The sum of departures, each times its share.

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::conditions::{Conditions, Daylight};
-use super::parts::Parts;
+use super::parts::{Parts, Surroundings, shares_at};
 
 /// Sun, sky and ground as the channels take them in.
 pub struct Lighting {
@@ -14,8 +14,8 @@ pub struct Lighting {
     pub ambient: [(f64, DVector<f64>); 2],
     /// Power of the sky that was told, which gives 1 in the reference channel.
     pub told_sky: DVector<f64>,
-    /// What a chart or a card that faces the sun receives, channel by channel, the light of the sun as it was said being 1; none if there is
-    /// neither.
+    /// What a white sheet that faces the sun receives, channel by channel, the light of the sun as it was said being 1; none if the exposure
+    /// is that of the sun alone, as it is where the sun shines and no chart shows it.
     white: Option<DVector<f64>>,
 }
 
@@ -25,12 +25,19 @@ impl Lighting {
     pub fn new(parts: &Parts, conditions: &Conditions) -> Self {
         let [sun, sky, ground, told_sky] = powers(parts, conditions);
         let sky_amount = conditions.sky.max(0.0);
-        let ground_amount = conditions.ground * (parts.sun_height + sky_amount);
-        let white = parts.told.by_chart.then(|| {
+        let Surroundings { clear, overcast, ground: below } = &parts.surroundings;
+        let shares = shares_at(conditions.elevation_deg);
+        let sun_height = conditions.elevation_deg.clamp(0.0, 90.0).to_radians().sin();
+        let ground_amount = conditions.ground * (sun_height * conditions.sun + sky_amount);
+        let is_sun_alone = conditions.day.has_sun() && !parts.told.by_chart;
+        let white = (!is_sun_alone).then(|| {
             let sensitivities = &parts.eye.sensitivities;
             let said = sensitivities.tr_mul(&parts.eye.sun);
-            let light =
-                &sun + sky_amount * parts.sky.open * &sky + ground_amount * parts.ground.open * &ground;
+            let of_sky = (1.0 - conditions.cloud) * clear.open_at(shares)
+                + conditions.cloud * overcast.open_at(shares);
+            let light = conditions.sun * &sun
+                + sky_amount * of_sky * &sky
+                + ground_amount * below.open_at(shares) * &ground;
             sensitivities.tr_mul(&light).component_div(&said) * said[parts.eye.reference]
         });
         Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], told_sky, white }
@@ -47,8 +54,8 @@ impl Lighting {
     pub fn gains(&self, parts: &Parts, conditions: &Conditions) -> DVector<f64> {
         let Parts { eye, .. } = parts;
         let mut gains = match &self.white {
-            Some(white) => white.map(|value| white[eye.reference] / value),
-            None => DVector::from_element(eye.sensitivities.ncols(), 1.0),
+            Some(white) if parts.told.by_chart => white.map(|value| white[eye.reference] / value),
+            _ => DVector::from_element(eye.sensitivities.ncols(), 1.0),
         };
         if let [first, _, last] = gains.as_mut_slice() {
             *first *= conditions.gains[0];

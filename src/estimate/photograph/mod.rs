@@ -10,6 +10,7 @@ pub mod beliefs;
 pub mod chebyshev;
 pub mod conditions;
 pub mod corners;
+pub mod day;
 pub mod error;
 mod family;
 pub mod findings;

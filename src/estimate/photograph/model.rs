@@ -100,7 +100,11 @@ impl<'a> PhotographModel<'a> {
             angle_deg: told.angle_deg,
             tilt_deg: told.tilt_deg,
             sun_mired: None,
-            sky: 0.0,
+            day: told.day,
+            sun: 1.0,
+            sky: if told.day.has_sun() { 0.0 } else { 1.0 },
+            cloud: 0.0,
+            elevation_deg: told.beliefs.elevation_mean,
             told_sky: 1.0 - self.hypothesis.imperfection.scale,
             sky_mired: None,
             ground: 0.0,
@@ -314,7 +318,8 @@ impl Model for PhotographModel<'_> {
         let beyond = self.beyond(w);
         let sensitivities = self.sensitivities(w);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
-        let here = predictor.facets(&self.conditions(w), &beyond);
+        let conditions = self.conditions(w);
+        let here = predictor.facets(&conditions, &beyond);
         let Predicted { values, lens, lights, .. } = &here;
         let [scene, sheet, camera, end] = self.layout();
         let mut jacobian = DMatrix::zeros(values.len(), end);
@@ -331,7 +336,7 @@ impl Model for PhotographModel<'_> {
         }
         // variations of the sheet and errors of the curves enter in proportion
         let sun = &lights[0];
-        let variations = self.kinds.by_variation(kind, imperfection.scale);
+        let variations = self.kinds.by_variation(kind, imperfection.scale * conditions.sun);
         for (n, change) in (sheet..).zip(variations.filter(|_| !imperfection.is_ideal())) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
             add_product(&mut radiances, &change, &sun.to_channels);

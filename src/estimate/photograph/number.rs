@@ -1,6 +1,7 @@
 //! An unknown of a photograph as a standard normal number.
 
 use super::conditions::Told;
+use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
 use crate::estimate::unknowns::{ANGLE, Effect, Known, Normal, TABLE, Unknown};
 
@@ -22,9 +23,13 @@ impl Number {
     pub fn all(told: &Told, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
         let number = |unknown: &&'static Unknown| {
             let effect = unknown.photograph.as_ref()?;
-            let (prior, known) = ((effect.prior)(told)?, (effect.known)(told));
+            let (own, known) = ((effect.prior)(told), (effect.known)(told));
+            // what does not occur on this day has a place, so that a search may go on from another day
+            let of_day = |day: &Day| (effect.prior)(&Told { day: *day, ..*told });
+            let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
             let is_turned = mistake == Some(Mistake::Angle) && **unknown == ANGLE;
-            let matters = known == Known::Usual || is_turned || !imperfection.is_ideal();
+            let is_usual = known == Known::Usual || is_turned || !imperfection.is_ideal();
+            let matters = own.is_some() && is_usual;
             let tail = match known {
                 Known::Stated => told.beliefs.stated_tail,
                 Known::Imperfection => told.beliefs.imperfection_tail,

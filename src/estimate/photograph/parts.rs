@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conditions::Told;
+use super::conditions::{Conditions, Told};
 use super::sheets::Sheets;
 use super::sums::add;
 
@@ -30,12 +30,13 @@ pub struct Change {
 }
 
 impl Change {
-    /// Adds what a change of this size does.
-    pub fn add_to(&self, sum: &mut Radiance, size: f64) {
+    /// Adds what a change of this size does to so much light.
+    pub fn add_to(&self, sum: &mut Radiance, amount: f64, size: f64) {
         for (n, (own, radiance)) in self.known.iter().enumerate() {
             let others =
                 self.known.iter().enumerate().filter(|(other, _)| *other != n).map(|(_, (other, _))| other);
-            let share = others.fold(size / own, |share, other| share * (size - other) / (own - other));
+            let share =
+                others.fold(amount * size / own, |share, other| share * (size - other) / (own - other));
             if share != 0.0 {
                 add(sum.as_mut_slice(), share, radiance.as_slice());
             }
@@ -60,13 +61,68 @@ pub struct Sunlit {
     pub bow_difference_deg: Change,
 }
 
-/// Light that is not the sun's.
+/// Elevations above the horizon of the direction to which the fold opens, degrees, at which light of the surroundings is known.
+pub const ELEVATIONS_DEG: [f64; 3] = [15.0, 45.0, 75.0];
+
+/// Light that is not the sun's, at each of [`ELEVATIONS_DEG`].
 #[derive(Clone, Debug)]
 pub struct Ambient {
     /// The facets, for an irradiance of 1 on an open plane that faces the source.
-    pub radiance: Radiance,
-    /// Irradiance of an open plane that faces the sun.
-    pub open: f64,
+    pub radiance: [Radiance; 3],
+    /// Irradiance of an open plane that faces the way the fold does.
+    pub open: [f64; 3],
+    /// What the facets have more for each degree between the panels.
+    pub by_angle: Radiance,
+    /// For the radius of the crease.
+    pub crease_radius: Change,
+    /// For each degree of bow of both panels.
+    pub by_bow: Radiance,
+}
+
+/// All of it.
+#[derive(Clone, Debug)]
+pub struct Surroundings {
+    /// Of a clear sky.
+    pub clear: Ambient,
+    /// Of an overcast one.
+    pub overcast: Ambient,
+    /// Of the ground.
+    pub ground: Ambient,
+}
+
+/// Shares of [`ELEVATIONS_DEG`] at an elevation.
+#[must_use]
+pub fn shares_at(elevation_deg: f64) -> [f64; 3] {
+    lagrange(ELEVATIONS_DEG, elevation_deg.clamp(0.0, 90.0))
+}
+
+/// Shares of three nodes at `x`.
+#[must_use]
+pub fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
+    [0, 1, 2].map(|at| {
+        let [own, a, b] = [0, 1, 2].map(|n| nodes[(at + n) % 3]);
+        (x - a) * (x - b) / ((own - a) * (own - b))
+    })
+}
+
+impl Ambient {
+    /// What it gives an open plane that faces the way the fold does.
+    #[must_use]
+    pub fn open_at(&self, shares: [f64; 3]) -> f64 {
+        self.open.iter().zip(shares).map(|(open, share)| open * share).sum()
+    }
+
+    /// Adds so much of it to the light on the facets of a fold that is open by `told_deg` if it is as it was said to be.
+    pub fn add_to(&self, sum: &mut Radiance, amount: f64, conditions: &Conditions, told_deg: f64) {
+        let shares = shares_at(conditions.elevation_deg);
+        let changes = [(&self.by_angle, conditions.angle_deg - told_deg), (&self.by_bow, conditions.bow_deg)];
+        for (radiance, share) in self.radiance.iter().zip(shares).chain(changes) {
+            if amount * share != 0.0 {
+                add(sum.as_mut_slice(), amount * share, radiance.as_slice());
+            }
+        }
+        self.crease_radius.add_to(sum, amount, conditions.crease_radius);
+    }
 }
 
 /// How the camera sees light of any spectrum.
@@ -114,12 +170,8 @@ pub struct Parts {
     pub sun: Sunlit,
     /// Light of the sky that was told, if any was.
     pub told_sky: Option<Radiance>,
-    /// Light of the sky.
-    pub sky: Ambient,
-    /// Light of the ground.
-    pub ground: Ambient,
-    /// Sine of the sun's height.
-    pub sun_height: f64,
+    /// Light of sky and ground.
+    pub surroundings: Surroundings,
     /// Kinds of sheets.
     pub sheets: Sheets,
     /// The camera.

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::conditions::Conditions;
 use super::lens::Lens;
 use super::lighting::Lighting;
-use super::parts::{Ambient, Parts, Radiance};
+use super::parts::{Ambient, Parts, Radiance, Surroundings};
 use super::sums::add_product;
 use crate::estimate::unknowns::Whose;
 
@@ -79,7 +79,9 @@ impl<'a> Predictor<'a, '_> {
                 add_product(&mut radiances, &more, &sun.to_channels);
                 here.lens.seen(radiances)
             }
+            // the sun's share is in the radiance
             Whose::Light => self.in_light(conditions, sun.radiance.clone().into_owned()).values,
+            Whose::Scene => self.facets(conditions, beyond).values,
             Whose::Lens => Lens::new(self.parts, conditions, &here.lighting).seen(here.radiances.clone()),
         }
     }
@@ -96,10 +98,18 @@ impl<'a> Predictor<'a, '_> {
         };
         let mut lights = vec![light(Cow::Owned(sunlit), lighting.sun.clone())];
         if parts.told.daylight.is_some() {
-            let ambient = [&parts.sky, &parts.ground].into_iter().zip(&lighting.ambient);
-            lights.extend(ambient.map(|(Ambient { radiance, .. }, (amount, power))| {
-                light(Cow::Borrowed(radiance), *amount * power)
-            }));
+            let [(sky, sky_power), (ground, ground_power)] = &lighting.ambient;
+            let Surroundings { clear, overcast, ground: below } = &parts.surroundings;
+            let of_sky = ambient(
+                conditions,
+                &[(clear, 1.0 - conditions.cloud), (overcast, conditions.cloud)],
+                parts.told.angle_deg,
+            );
+            lights.push(light(Cow::Owned(of_sky), *sky * sky_power));
+            lights.push(light(
+                Cow::Owned(ambient(conditions, &[(below, 1.0)], parts.told.angle_deg)),
+                *ground * ground_power,
+            ));
         }
         let told_sky = parts.told_sky.as_ref().filter(|_| conditions.told_sky > 0.0);
         lights.extend(
@@ -119,9 +129,18 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
     let (sun, told) = (&parts.sun, &parts.told);
     let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
     let mut radiance = cos * &sun.even + sin * &sun.odd;
-    sun.angle_deg.add_to(&mut radiance, conditions.angle_deg - told.angle_deg);
-    sun.crease_radius.add_to(&mut radiance, conditions.crease_radius);
-    sun.bow_deg.add_to(&mut radiance, conditions.bow_deg);
-    sun.bow_difference_deg.add_to(&mut radiance, conditions.bow_difference_deg);
-    radiance + beyond
+    sun.angle_deg.add_to(&mut radiance, 1.0, conditions.angle_deg - told.angle_deg);
+    sun.crease_radius.add_to(&mut radiance, 1.0, conditions.crease_radius);
+    sun.bow_deg.add_to(&mut radiance, 1.0, conditions.bow_deg);
+    sun.bow_difference_deg.add_to(&mut radiance, 1.0, conditions.bow_difference_deg);
+    conditions.sun * (radiance + beyond)
+}
+
+/// So much of each of these lights on the facets.
+fn ambient(conditions: &Conditions, all: &[(&Ambient, f64)], told_deg: f64) -> Radiance {
+    let mut sum = Radiance::zeros(all[0].0.by_angle.nrows(), all[0].0.by_angle.ncols());
+    for (light, amount) in all {
+        light.add_to(&mut sum, *amount, conditions, told_deg);
+    }
+    sum
 }

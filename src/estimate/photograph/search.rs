@@ -2,11 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beliefs::Beliefs;
 use super::corners;
+use super::day::{Day, Found};
 use super::family::{Photographs, Seen};
-use super::findings::findings;
-use super::hypotheses::{Hypothesis, hypotheses, hypotheses_without_bounces, usual_hypotheses};
+use super::findings::{of_day, of_unknowns};
+use super::hypotheses::{Hypothesis, dull_days, hypotheses, hypotheses_without_bounces, usual_hypotheses};
 use super::joint::Photograph;
+use super::kinds::Kind;
 use super::parts::Parts;
 use crate::error::{Error, Result};
 use crate::estimate::family::Family;
@@ -22,6 +25,8 @@ const LN_EVIDENCE_NEAR: f64 = -5.0;
 
 /// Hypotheses that are further behind the best, likewise, are out of the question, and not searched to their end.
 const LN_EVIDENCE_HOPELESS: f64 = -20.0;
+/// Behind the best by that on a dull day, the kind of sheet that has most evidence on a clear one leaves no hope for the others.
+const LN_EVIDENCE_FAR: f64 = -8.0;
 
 type Tried = Sorted<Hypothesis, ()>;
 
@@ -40,7 +45,7 @@ pub struct SheetEstimate {
 /// [`Error::Numeric`] if the facets are not finite.
 pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, hypotheses).ok_or_else(not_finite)
+    under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
 }
 
 /// The estimate from photographs that are as people take them, however ideal their facets are, as those of photographs that are only planned.
@@ -49,25 +54,28 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
 /// As [`estimate`].
 pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, |_| usual_hypotheses()).ok_or_else(not_finite)
+    under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)
 }
 
 fn under(
     parts: &[Parts],
     prior: &Prior,
-    hypotheses: impl Fn(&[Photograph]) -> Vec<Hypothesis>,
+    (hypotheses, dull_days): (impl Fn(&[Photograph]) -> Vec<Hypothesis>, impl Fn(&[Photograph]) -> Vec<Day>),
 ) -> Option<SheetEstimate> {
     let family = relative_to_predictions(Photographs(Photograph::all(parts)), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let sorted = sorted(&mut search, all.map(|one| (one, one.ln_share(family.beliefs()))));
-    let without_bounces = without_bounces(&sorted);
-    let found = search.mixture(&folds(sorted))?;
+    let sorted = sorted(&mut search, family.beliefs(), all, &dull_days(&family.0));
+    // no light bounces between panels that are no fold
+    let without_bounces = probability(&sorted, |one| !one.has_bounces());
+    let folds = folds(sorted);
+    let day = day(&folds, &family.0);
+    let found = search.mixture(&folds)?;
     let seen = family.seen(&found.best)?;
     let of = |(photograph, seen): (&Photograph, Seen)| {
         let (findings, skipped) =
-            (all_findings(photograph, &found, &seen), skipped(&seen.fitted, search.skipped));
-        Estimate { findings, without_bounces, skipped, ..of_photograph(&found, seen, &search.trace) }
+            (all_findings(photograph, &found, &seen, day), skipped(&seen.fitted, search.skipped));
+        Estimate { findings, day, without_bounces, skipped, ..of_photograph(&found, seen, &search.trace) }
     };
     Some(SheetEstimate {
         photographs: family.0.iter().zip(seen).map(of).collect(),
@@ -92,21 +100,54 @@ fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option
     Some(Photographs(family.0.into_iter().zip(predicted).map(relative).collect()))
 }
 
-/// Hypotheses with their evidence under all spectra, each from where the best before led, those of most evidence first.
+/// Hypotheses with their evidence under all spectra, each from where the best before led, those of most evidence first. On each dull day the kind
+/// of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
-    hypotheses: impl Iterator<Item = (Hypothesis, f64)>,
+    beliefs: &Beliefs,
+    hypotheses: impl Iterator<Item = Hypothesis>,
+    dull_days: &[Day],
 ) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
-    for one in hypotheses {
-        let best = all.iter().max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()));
-        let start = best.map(|best| best.solution.w.clone());
-        let ln_least = best.map_or(f64::NEG_INFINITY, |best| best.ln_weight() + LN_EVIDENCE_HOPELESS);
-        all.extend(search.sort(one, start, ln_least));
+    for hypothesis in hypotheses {
+        sort(search, beliefs, hypothesis, &mut all);
+    }
+    let mut kinds: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
+    kinds.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    let kinds: Vec<Kind> = kinds.into_iter().map(|one| one.hypothesis.kind).collect();
+    for day in dull_days {
+        for kind in &kinds {
+            let behind = sort(search, beliefs, Hypothesis::on_dull_day(*day, *kind), &mut all);
+            if behind < LN_EVIDENCE_FAR {
+                break;
+            }
+        }
     }
     weigh_against_ideal(search, &mut all);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     all
+}
+
+/// Adds a hypothesis to those that are sorted; by how much it is behind the best, as the logarithm of a share of its evidence.
+fn sort(
+    search: &mut Search<Photographs>,
+    beliefs: &Beliefs,
+    hypothesis: Hypothesis,
+    all: &mut Vec<Tried>,
+) -> f64 {
+    let best = |of: &dyn Fn(&&Tried) -> bool| {
+        all.iter().filter(of).max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
+    };
+    // a spectrum without bounces is none of a fold's
+    let start = best(&|one| one.hypothesis.has_bounces()).map(|one| one.solution.w.clone());
+    let ln_best = best(&|_| true).map_or(f64::NEG_INFINITY, Tried::ln_weight);
+    let ln_share = hypothesis.ln_share(beliefs);
+    let Some(found) = search.sort((hypothesis, ln_share), start, ln_best + LN_EVIDENCE_HOPELESS) else {
+        return f64::NEG_INFINITY;
+    };
+    let behind = found.ln_weight() - ln_best;
+    all.push(found);
+    behind
 }
 
 /// Weighs real sheets against ideal ones of some evidence with as much left unexplained as has more evidence: of a picture taken with care the
@@ -135,12 +176,19 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Probability that no light bounces between the panels, which then are no fold.
-fn without_bounces(all: &[Tried]) -> f64 {
+/// Probability of hypotheses, of which those of most evidence come first.
+fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     let ln_most = all.first().map_or(0.0, Tried::ln_weight);
     let weight = |one: &Tried| (one.ln_weight() - ln_most).exp();
-    let without = all.iter().filter(|one| !one.hypothesis.has_bounces());
-    without.map(weight).sum::<f64>() / all.iter().map(weight).sum::<f64>().max(f64::MIN_POSITIVE)
+    let those = all.iter().filter(|one| of(&one.hypothesis));
+    those.map(weight).sum::<f64>() / all.iter().map(weight).sum::<f64>().max(f64::MIN_POSITIVE)
+}
+
+/// The most probable kind of day, folds being those of which most evidence comes first; none if the light is no daylight.
+fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<Found> {
+    photographs.iter().all(|one| one.parts.told.daylight.is_some()).then_some(())?;
+    let found = Day::ALL.map(|day| Found { day, probability: probability(folds, |one| one.day == day) });
+    found.into_iter().max_by(|a, b| a.probability.total_cmp(&b.probability))
 }
 
 /// Folds, all but those that the evidence is against.
@@ -156,9 +204,12 @@ fn all_findings(
     Photograph { parts, .. }: &Photograph,
     found: &Mixture<Hypothesis, ()>,
     seen: &Seen,
+    day: Option<Found>,
 ) -> Vec<super::Finding> {
-    let imperfection = found.best.start.hypothesis.imperfection;
-    let mut findings = findings(&seen.fitted, &parts.told);
+    let hypothesis = found.best.start.hypothesis;
+    let imperfection = hypothesis.imperfection;
+    let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
+    findings.extend(of_unknowns(&seen.fitted, &hypothesis.told(&parts.told)));
     if !imperfection.is_ideal() {
         findings.extend(corners::findings(
             &seen.shifts,
@@ -197,6 +248,7 @@ fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Itera
         skipped: Vec::new(),
         residual_rms: rms(&seen.residuals),
         unexplained: seen.unexplained,
+        day: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
         trace: trace.to_vec(),

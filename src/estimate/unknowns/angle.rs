@@ -18,7 +18,7 @@ pub static ANGLE: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Sources { prior, enter },
     photograph: Some(Effect {
-        whose: Whose::Fold,
+        whose: Whose::Scene,
         known: |_| Known::Stated,
         prior: of_photograph,
         set: |conditions, value| conditions.angle_deg = value,

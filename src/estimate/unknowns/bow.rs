@@ -12,7 +12,7 @@ pub static BOW: Unknown = Unknown {
     scale: Scale::Linear,
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Fold,
+        whose: Whose::Scene,
         known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.bow_deg = value,

@@ -12,7 +12,7 @@ pub static CREASE: Unknown = Unknown {
     scale: Scale::Positive { unit: 0.01 },
     role: Role::Photograph,
     photograph: Some(Effect {
-        whose: Whose::Fold,
+        whose: Whose::Scene,
         known: |_| Known::Imperfection,
         prior,
         set: |conditions, value| conditions.crease_radius = value,

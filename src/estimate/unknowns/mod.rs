@@ -12,7 +12,9 @@ mod angle;
 mod body_roughness;
 mod bow;
 mod bow_difference;
+mod cloud;
 mod crease;
+mod elevation;
 mod exposure;
 mod factor;
 mod first_gain;
@@ -27,6 +29,7 @@ mod scene_model;
 mod sky;
 mod sky_colour;
 mod sources;
+mod sun;
 mod sun_colour;
 mod tilt;
 mod vignetting;
@@ -38,7 +41,9 @@ pub use angle::ANGLE;
 use body_roughness::BODY_ROUGHNESS;
 use bow::BOW;
 use bow_difference::BOW_DIFFERENCE;
+use cloud::CLOUD;
 use crease::CREASE;
+use elevation::ELEVATION;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
 use first_gain::FIRST_GAIN;
@@ -53,6 +58,7 @@ pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
 use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
+use sun::SUN;
 pub use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
 use vignetting::VIGNETTING;
@@ -71,6 +77,9 @@ pub static TABLE: &[&Unknown] = &[
     &SUN_COLOUR,
     &GROUND,
     &GROUND_REDNESS,
+    &SUN,
+    &CLOUD,
+    &ELEVATION,
     &GLOSS,
     &GLOSS_ROUGHNESS,
     &BODY_ROUGHNESS,
@@ -132,6 +141,8 @@ pub enum Whose {
     Sheet,
     /// The fold, as one photograph shows it: its shape, and where the sun stands before it.
     Fold,
+    /// What sun and sky both shine on, or how much the sun does.
+    Scene,
     /// The light: colour of the sun, sky and ground.
     Light,
     /// The lens, and what becomes of light behind it.

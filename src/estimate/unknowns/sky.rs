@@ -47,5 +47,5 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
 }
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| Normal { mean: told.beliefs.sky_mean, sd: told.beliefs.sky_sd })
+    told.daylight.and_then(|_| told.day.sky(told.beliefs, told.sky))
 }

@@ -58,6 +58,5 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
 }
 
 fn of_photograph(told: &Told) -> Option<Normal> {
-    let prior = Normal { mean: told.beliefs.sky_mired, sd: told.beliefs.sky_mired_sd };
-    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| prior)
+    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| told.day.sky_mired(told.beliefs))
 }

@@ -20,6 +20,17 @@ const HALF: usize = COLUMNS.div_ceil(2);
 /// Gauss points across a strip and along a column.
 const POINTS: [usize; 2] = [3, 2];
 
+/// A place of the sheet across the crease that stands for part of a row of facets.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// Share of the row.
+    pub share: f64,
+    /// Across the crease and out of the opening.
+    pub place: Vector2<f64>,
+    /// Unit normal there.
+    pub normal: Vector2<f64>,
+}
+
 /// What the parts of a bent sheet and its facets see of each other, whatever the light and the albedo.
 pub struct BentExchange {
     strips: Vec<Strip>,
@@ -29,8 +40,8 @@ pub struct BentExchange {
     exchange: DMatrix<f64>,
     /// Share of its view that each facet of one half (panel, row, column) has filled with each patch.
     gather: DMatrix<f64>,
-    /// For each row of facets of both panels: the sheet's normals in it, with their shares.
-    normals: Vec<Vec<(f64, Vector2<f64>)>>,
+    /// What each row of facets of both panels shows of the sheet.
+    rows: Vec<Vec<Seen>>,
     /// Columns of facets.
     cols: usize,
 }
@@ -51,7 +62,7 @@ impl BentExchange {
         let view = Vector2::new(eye.x, eye.z);
         let edges = fold.spacing().edges(fold.facets().rows);
         let samples = panels.each_ref().map(|strips| seen::samples(strips, &edges, view));
-        let normals = normals(&panels, &samples, fold.facets().rows);
+        let rows = rows(&panels, &samples, fold.facets().rows);
         let strips = panels.concat();
         let offsets = [0, panels[0].len()];
         let numbered: Vec<(usize, Sample)> = (0..2)
@@ -68,7 +79,7 @@ impl BentExchange {
                 .collect(),
             exchange: exchange(&strips, fold, image),
             gather: gather(&strips, &numbered, fold, image),
-            normals,
+            rows,
             cols: fold.facets().cols,
             strips,
         }
@@ -84,13 +95,10 @@ impl BentExchange {
         let patches = self.strips.iter().flat_map(|strip| [lit(&strip.normal); HALF]);
         let power =
             DMatrix::from_iterator(self.areas.len(), 1, patches.zip(&self.areas).map(|(e, area)| e * area));
-        let direct: Vec<f64> = self
-            .normals
-            .iter()
-            .map(|row| row.iter().map(|(share, normal)| share * lit(normal)).sum())
-            .collect();
+        let direct: Vec<f64> =
+            self.rows.iter().map(|row| row.iter().map(|seen| seen.share * lit(&seen.normal)).sum()).collect();
         let half = self.cols.div_ceil(2);
-        let mut radiance = Array2::zeros((self.normals.len() * self.cols, albedos.len()));
+        let mut radiance = Array2::zeros((self.rows.len() * self.cols, albedos.len()));
         for (node, albedo) in albedos.iter().enumerate() {
             let gathered = &self.gather * self.radiosity(&power, *albedo)?;
             for (row, direct) in direct.iter().enumerate() {
@@ -114,11 +122,23 @@ impl BentExchange {
         })
     }
 
-    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches get from outside.
-    pub(crate) fn bounced(&self, irradiance: &[f64], albedo: f64) -> Result<Vec<f64>> {
-        let power = irradiance.iter().zip(&self.areas).map(|(e, area)| e * area);
-        let power = DMatrix::from_iterator(self.areas.len(), 1, power);
-        Ok((&self.gather * self.radiosity(&power, albedo)?).as_slice().to_vec())
+    /// What each row of facets of both panels shows of the sheet.
+    pub(crate) fn rows(&self) -> &[Vec<Seen>] {
+        &self.rows
+    }
+
+    /// Patches of one half.
+    pub(crate) fn patches(&self) -> usize {
+        self.areas.len()
+    }
+
+    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches get from outside: a column for
+    /// each light.
+    pub(crate) fn bounced(&self, irradiances: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
+        let power = DMatrix::from_fn(irradiances.nrows(), irradiances.ncols(), |patch, light| {
+            irradiances[(patch, light)] * self.areas[patch]
+        });
+        Ok(&self.gather * self.radiosity(&power, albedo)?)
     }
 
     /// Light leaving every patch, from what light it receives from outside times its area.
@@ -194,18 +214,15 @@ fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64
     gather
 }
 
-/// Normals that the rows of both panels show, with their shares.
-fn normals(
-    panels: &[Vec<Strip>; 2],
-    samples: &[Vec<Sample>; 2],
-    rows: usize,
-) -> Vec<Vec<(f64, Vector2<f64>)>> {
-    let mut normals = vec![Vec::new(); 2 * rows];
+/// What the rows of both panels show.
+fn rows(panels: &[Vec<Strip>; 2], samples: &[Vec<Sample>; 2], rows: usize) -> Vec<Vec<Seen>> {
+    let mut shown = vec![Vec::new(); 2 * rows];
     for (p, samples) in samples.iter().enumerate() {
-        for sample in samples {
-            normals[p * rows + sample.row]
-                .push((sample.weight, panels[p][sample.strip].bent_at(sample.share)));
+        for Sample { row, weight, strip, share } in samples {
+            let strip = &panels[p][*strip];
+            let seen = Seen { share: *weight, place: strip.at(*share), normal: strip.bent_at(*share) };
+            shown[p * rows + row].push(seen);
         }
     }
-    normals
+    shown
 }

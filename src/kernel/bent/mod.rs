@@ -11,6 +11,7 @@ mod seen;
 mod view;
 
 pub use exchange::BentExchange;
+pub(crate) use exchange::Seen;
 
 use nalgebra::Vector3;
 use ndarray::Array2;

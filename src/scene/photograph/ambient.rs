@@ -1,25 +1,62 @@
 //! Light of sky and ground on the fold of a photograph.
 
 use nalgebra::Vector3;
+use ndarray::Array2;
 
+use super::CREASE_RADII;
 use super::bins::Bins;
+use super::framing::Pose;
 use crate::error::Result;
-use crate::estimate::photograph::parts::Ambient;
+use crate::estimate::photograph::parts::{Ambient, Change, ELEVATIONS_DEG, Surroundings};
 use crate::geometry::Fold;
-use crate::kernel::environment::{Environment, Surroundings};
+use crate::kernel::bent::BentFold;
+use crate::kernel::environment::{Environment, Surroundings as Part, facet_radiances};
 
-/// A clear sky and the ground on a fold.
+/// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle at most, and bow.
+const ANGLE_DEG: f64 = 3.0;
+const ANGLE_MOST: f64 = 0.15;
+const BOW_DEG: f64 = 3.0;
+
+/// Skies and the ground on a fold that is turned to `sun`.
+///
+/// `even` is what facets have in light that is alike in all directions and gives an open plane 1, facet by node: what they have in other light is
+/// coarse, and off in proportion.
 pub fn of(
     fold: &Fold,
-    up: Vector3<f64>,
-    sun: Vector3<f64>,
-    nodes: &[f64],
+    (pose, sun): (&Pose, Vector3<f64>),
+    (nodes, even): (&[f64], &Array2<f64>),
     bins: &Bins,
-) -> Result<[Ambient; 2]> {
-    let of = |part| {
-        let environment = Environment::new(part, up);
-        let radiance = bins.pool(&environment.facet_radiance(fold, nodes)?);
-        Ok(Ambient { radiance, open: environment.on_plane(sun) })
+) -> Result<Surroundings> {
+    let lights = ELEVATIONS_DEG.map(|elevation_deg| {
+        let up = pose.up(sun, elevation_deg.to_radians().sin());
+        Environment::new([Part::ClearSky { sun }, Part::OvercastSky, Part::Ground, Part::Sky], up)
+    });
+    let view = pose.eye.normalize();
+    let flat = BentFold::ideal(fold.angle_deg());
+    let known = facet_radiances(&lights, (&flat, fold, view), nodes)?;
+    let middle = ELEVATIONS_DEG.len() / 2;
+    let [_, _, ground, sky] = &known[middle];
+    let true_of = even / &(ground + sky);
+    let step = ANGLE_DEG.min(ANGLE_MOST * fold.angle_deg());
+    let changes = [
+        (step, BentFold::ideal(fold.angle_deg() + step)),
+        (BOW_DEG, BentFold { bow_deg: [BOW_DEG; 2], ..flat }),
+    ];
+    let rounded = CREASE_RADII.map(|crease_radius| (crease_radius, BentFold { crease_radius, ..flat }));
+    let changed = |(_, bent): &(f64, BentFold)| {
+        let mut radiances = facet_radiances(&lights[middle..=middle], (bent, fold, view), nodes)?;
+        Ok(radiances.remove(0))
     };
-    Ok([of(Surroundings::ClearSky { sun })?, of(Surroundings::Ground)?])
+    let changed: Vec<_> = changes.iter().chain(&rounded).map(changed).collect::<Result<_>>()?;
+    let ambient = |part: usize| {
+        let more = |n: usize| bins.pool(&((&changed[n][part] - &known[middle][part]) * &true_of));
+        Ambient {
+            radiance: [0, 1, 2].map(|n| bins.pool(&(&known[n][part] * &true_of))),
+            open: lights.each_ref().map(|light| light.on_plane(sun)[part]),
+            by_angle: more(0) / changes[0].0,
+            by_bow: more(1) / changes[1].0,
+            crease_radius: Change { known: [0, 1].map(|n| (rounded[n].0, more(2 + n))).to_vec() },
+        }
+    };
+    Ok(Surroundings { clear: ambient(0), overcast: ambient(1), ground: ambient(2) })
 }

@@ -1,0 +1,25 @@
+//! How much of the sun comes through clouds, or past what throws a shadow.
+
+use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+
+/// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane is 1.
+pub static SUN: Unknown = Unknown {
+    name: "sun",
+    about: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's of an open horizontal plane",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive { unit: 0.05 },
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Scene,
+        known: |_| Known::Imperfection,
+        prior,
+        set: |conditions, value| conditions.sun = value,
+        symptom: None,
+    }),
+};
+
+fn prior(told: &Told) -> Option<Normal> {
+    told.daylight.and_then(|_| told.day.hidden_sun())
+}
