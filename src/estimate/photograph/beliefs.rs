@@ -82,8 +82,10 @@ beliefs! {
     hazy_sky_mean: 0.6,
     /// See `hazy_sky_mean`.
     hazy_sky_sd: 0.3,
-    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: 7000 K.
-    hazy_mired: 143.0,
+    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K.
+    hazy_mired: 155.0,
+    /// See `hazy_mired`.
+    hazy_mired_sd: 25.0,
     /// Reciprocal colour temperature of an overcast sky, 1e-6/K: 5800 K to 7000 K.
     overcast_mired: 157.0,
     /// See `overcast_mired`.

@@ -79,7 +79,7 @@ impl Day {
     pub fn sky_mired(self, beliefs: &Beliefs) -> Normal {
         match self {
             Self::Clear => Normal { mean: beliefs.sky_mired, sd: beliefs.sky_mired_sd },
-            Self::Hazy => Normal { mean: beliefs.hazy_mired, sd: beliefs.sky_mired_sd },
+            Self::Hazy => Normal { mean: beliefs.hazy_mired, sd: beliefs.hazy_mired_sd },
             Self::Overcast => Normal { mean: beliefs.overcast_mired, sd: beliefs.overcast_mired_sd },
             Self::Shade => Normal { mean: beliefs.shade_mired, sd: beliefs.shade_mired_sd },
         }
