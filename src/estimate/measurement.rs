@@ -25,9 +25,9 @@ use crate::image::Making;
 /// Least change of facets that counts, in standard deviations.
 pub const CUTOFF: f64 = 1e-2;
 
-/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused: a thousand times, since
-/// who joins photographs seldom errs.
-const LN_SEVERAL: f64 = 6.9;
+/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused: ten thousand times. Who
+/// joins photographs seldom errs, and lights that are off from what was stated make one sheet look like two.
+const LN_SEVERAL: f64 = 9.2;
 
 /// A scene, and what is known of the sheets in it.
 #[derive(Clone, Copy)]
