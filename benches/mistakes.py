@@ -255,7 +255,9 @@ class Shot:
             return {"answer": "refused", "because": told.get("error", "")}
         estimate, truth = told["estimate"], self.tools.truth(self.sheet)
         off = np.array(estimate["reflectance"]) - truth
-        rmse, share = float(np.sqrt(np.mean(off**2))), float(np.mean(np.abs(off) < 2 * np.array(estimate["reflectance_sd"])))
+        # an estimate that means nothing may have no error bars
+        sd = np.array(estimate.get("reflectance_sd", np.zeros_like(off)))
+        rmse, share = float(np.sqrt(np.mean(off**2))), float(np.mean(np.abs(off) < 2 * sd))
         verdict = estimate["verdict"]
         found = {"rmse": rmse, "share": share, "because": verdict["because"], "exposure": estimate["exposure"], "misfit": estimate["residual_rms"], "record": told}
         if verdict["level"] != "good":
