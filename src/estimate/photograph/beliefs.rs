@@ -5,7 +5,8 @@ use crate::estimate::unknowns::Normal;
 /// Declares the numbers, each once: a field, its usual value, and a row of the table of all.
 macro_rules! beliefs {
     ($($(#[$about:meta])* $name:ident: $usual:expr,)*) => {
-        /// Every number that the model of a photograph is made of and that is neither physics nor geometry nor numerics.
+        /// Every number that the model of a photograph is made of and that is neither physics nor geometry nor numerics, but for how cloudy a
+        /// sky is and how much of a hidden sun comes through ([`Day`](super::day::Day)).
         ///
         /// Means and standard deviations of unknowns are on the [scale](crate::estimate::unknowns::Scale) of each: of quantities that are
         /// never negative about 0 is half the unit, 2 two of them.
@@ -82,7 +83,8 @@ beliefs! {
     hazy_sky_mean: 0.6,
     /// See `hazy_sky_mean`.
     hazy_sky_sd: 0.3,
-    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K.
+    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: thin cloud has the sun's colour, haze is bluer, 5600 K to
+    /// 7700 K. Widened with a picture of `../shared/faults` in view.
     hazy_mired: 155.0,
     /// See `hazy_mired`.
     hazy_mired_sd: 25.0,
@@ -148,8 +150,9 @@ beliefs! {
     /// How far matt ones are from being that, in the same unit.
     matt_variation: 0.2,
 
-    /// What no unknown explains, relative to predicted values, in all channels alike. The first four of these eight are a third of the way to where
-    /// photographs of `train` and measured materials put them, the others those of most evidence in the facets of rendered photographs.
+    /// What no unknown explains, relative to predicted values, in all channels alike. The first four of these eight went a third of the way to where
+    /// photographs of `train` put them while light of the sky did not follow the fold (docs/model.md), the others are those of most evidence in the
+    /// facets of rendered photographs.
     discrepancy_shared: 0.012,
     /// In each channel by itself.
     discrepancy_own: 0.006,
