@@ -3,8 +3,6 @@
 //! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced between them as in
 //! [`super::bent`].
 
-use std::f64::consts::FRAC_PI_2;
-
 use nalgebra::{DMatrix, Vector3};
 use ndarray::Array2;
 
@@ -12,6 +10,7 @@ use crate::error::Result;
 use crate::geometry::Fold;
 
 use super::bent::{BentExchange, BentFold, Seen};
+use super::standard_sky::StandardSky;
 
 /// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many of them (R. Swinbank, R. J. Purser,
 /// *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p. 1769).
@@ -25,35 +24,20 @@ pub enum Surroundings {
     Sky,
     /// Alike from everywhere below the horizon: irradiance 1 on a horizontal plane that faces down.
     Ground,
-    /// A clear sky, irradiance 1 on a horizontal plane that faces up: the CIE standard general sky of type 12 (CIE S 011/E:2003).
-    ClearSky {
-        /// Unit vector to the sun, above the horizon.
-        sun: Vector3<f64>,
-    },
+    /// A standard sky with the sun where this unit vector points, above the horizon: irradiance 1 on a horizontal plane that faces up.
+    Standard(StandardSky, Vector3<f64>),
     /// An overcast sky, irradiance 1 on a horizontal plane that faces up: three times as bright at the zenith as at the horizon (P. Moon, D. E.
     /// Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard overcast sky).
     OvercastSky,
-    /// What a clear sky has more about the sun than far from it, irradiance 1 on a horizontal plane that faces up.
-    Glow {
-        /// Unit vector to the sun, above the horizon.
-        sun: Vector3<f64>,
-    },
 }
 
 impl Surroundings {
     /// Relative radiance from a direction whose cosine with the zenith (the nadir for the ground) is `height`.
     fn radiance(self, towards: &Vector3<f64>, height: f64) -> f64 {
-        // CIE S 011/E:2003, type 12: a -1, b -0.32, c 10, d -3, e 0.45
-        let gradation = 1.0 - (-0.32 / height).exp();
-        let glow = |sun: Vector3<f64>| {
-            let cos = towards.dot(&sun).clamp(-1.0, 1.0);
-            10.0 * ((-3.0 * cos.acos()).exp() - (-3.0 * FRAC_PI_2).exp()) + 0.45 * cos * cos
-        };
         match self {
             Self::Sky | Self::Ground => 1.0,
             Self::OvercastSky => 1.0 + 2.0 * height,
-            Self::ClearSky { sun } => gradation * (1.0 + glow(sun)),
-            Self::Glow { sun } => gradation * glow(sun).max(0.0),
+            Self::Standard(sky, sun) => sky.radiance(height, towards.dot(&sun)),
         }
     }
 }

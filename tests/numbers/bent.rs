@@ -12,6 +12,7 @@ use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure};
 use vfold::kernel::bent::{BentExchange, BentFold};
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
 use vfold::kernel::refinement::refine;
+use vfold::kernel::standard_sky::StandardSky;
 use vfold::response::ModeLight;
 
 const GRID: FacetGrid = FacetGrid { rows: 10, cols: 10 };
@@ -191,7 +192,7 @@ fn sky_and_ground_are_as_photographed() {
     for (label, model) in [
         ("sun alone", by_sun.clone()),
         ("even sky", sky(Surroundings::Sky)),
-        ("clear sky", sky(Surroundings::ClearSky { sun: Vector3::z() })),
+        ("clear sky", sky(Surroundings::Standard(StandardSky::CLEAR, Vector3::z()))),
     ] {
         let error = model / &rgb - 1.0;
         let rms = |from: usize| {

@@ -11,6 +11,7 @@ use crate::estimate::photograph::parts::{Ambient, Change, ELEVATIONS_DEG, Surrou
 use crate::geometry::Fold;
 use crate::kernel::bent::BentFold;
 use crate::kernel::environment::{Environment, Surroundings as Part, facet_radiances};
+use crate::kernel::standard_sky::StandardSky;
 
 /// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle at most, and bow.
 const ANGLE_DEG: f64 = 3.0;
@@ -29,7 +30,10 @@ pub fn of(
 ) -> Result<Surroundings> {
     let lights = ELEVATIONS_DEG.map(|elevation_deg| {
         let up = pose.up(sun, elevation_deg.to_radians().sin());
-        Environment::new([Part::ClearSky { sun }, Part::OvercastSky, Part::Ground, Part::Sky], up)
+        Environment::new(
+            [Part::Standard(StandardSky::CLEAR, sun), Part::OvercastSky, Part::Ground, Part::Sky],
+            up,
+        )
     });
     let view = pose.eye.normalize();
     let flat = BentFold::ideal(fold.angle_deg());
