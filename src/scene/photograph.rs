@@ -153,11 +153,7 @@ impl<'a> PhotographedFold<'a> {
             sd: bins.sd().clone(),
             values: values.clone(),
             sun: lit,
-            told_sky: if light.sky() > 0.0 {
-                Some(bins.pool(&self.exact(ModeLight::Sky(light.sky()))))
-            } else {
-                None
-            },
+            even_sky: bins.pool(&even),
             surroundings,
             sheets,
             eye,

@@ -29,8 +29,8 @@ pub struct Conditions {
     pub cloud: f64,
     /// How far above the horizon the fold opens, degrees.
     pub elevation_deg: f64,
-    /// Share of the sky that was told, which is alike in all directions.
-    pub told_sky: f64,
+    /// Irradiance of an open plane by light that is alike in all directions.
+    pub even_sky: f64,
     /// Reciprocal colour temperature of the sky, 1e-6/K; none if its colour is given.
     pub sky_mired: Option<f64>,
     /// Reflectance of the ground at 550 nm.
@@ -85,6 +85,12 @@ pub struct Told {
 }
 
 impl Told {
+    /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun being 1.
+    #[must_use]
+    pub fn even_sky(&self) -> f64 {
+        self.sky.unwrap_or(0.0)
+    }
+
     /// Whether somebody stated the exposure, rather than that a chart or a card shows it.
     #[must_use]
     pub fn is_exposure_stated(&self) -> bool {

@@ -3,9 +3,6 @@
 use super::beliefs::Beliefs;
 use crate::estimate::unknowns::Normal;
 
-/// Standard deviation of a sky that somebody stated, as a part of it.
-const STATED: f64 = 0.25;
-
 /// Where daylight comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Day {
@@ -66,10 +63,12 @@ impl Day {
     pub fn sky(self, beliefs: &Beliefs, stated: Option<f64>) -> Option<Normal> {
         match self {
             Self::Clear | Self::Hazy if stated.is_some() => {
-                stated.map(|mean| Normal { mean, sd: STATED * mean })
+                stated.map(|mean| Normal { mean, sd: beliefs.sky_stated_sd * mean })
             }
-            Self::Clear => Some(Normal { mean: beliefs.sky_mean, sd: beliefs.sky_sd }),
-            Self::Hazy => Some(Normal { mean: beliefs.hazy_sky_mean, sd: beliefs.hazy_sky_sd }),
+            Self::Clear | Self::Hazy => {
+                let mean = self.usual_sky(beliefs);
+                Some(Normal { mean, sd: beliefs.sky_sd * mean })
+            }
             Self::Overcast | Self::Shade => None,
         }
     }
@@ -78,27 +77,27 @@ impl Day {
     #[must_use]
     pub fn sky_mired(self, beliefs: &Beliefs) -> Normal {
         match self {
-            Self::Clear => Normal { mean: beliefs.sky_mired, sd: beliefs.sky_mired_sd },
+            Self::Clear | Self::Shade => Normal { mean: beliefs.sky_mired, sd: beliefs.sky_mired_sd },
             Self::Hazy => Normal { mean: beliefs.hazy_mired, sd: beliefs.hazy_mired_sd },
             Self::Overcast => Normal { mean: beliefs.overcast_mired, sd: beliefs.overcast_mired_sd },
-            Self::Shade => Normal { mean: beliefs.shade_mired, sd: beliefs.shade_mired_sd },
         }
     }
 
-    /// Irradiance by a sun that is hidden of a plane that faces it, that of an open horizontal plane by the sky being 1, on the scale of its unknown.
+    /// Share of the sky's light that is an overcast one's, the rest being a clear one's; none where it is all of it or nothing.
     #[must_use]
-    pub fn hidden_sun(self) -> Option<Normal> {
-        (!self.has_sun()).then_some(Normal { mean: -0.5, sd: 1.0 })
+    pub fn cloud(self, beliefs: &Beliefs) -> Option<Normal> {
+        let hazy = Normal { mean: beliefs.hazy_cloud, sd: beliefs.hazy_cloud };
+        (self == Self::Hazy).then_some(hazy)
     }
 
-    /// Share of the sky's light that is an overcast one's; none of a clear day.
+    /// Share of the light on an open horizontal plane that is the sky's, as a rule.
     #[must_use]
-    pub fn cloud(self) -> Option<Normal> {
-        match self {
-            Self::Clear => None,
-            Self::Hazy => Some(Normal { mean: 0.3, sd: 0.3 }),
-            Self::Overcast => Some(Normal { mean: 0.9, sd: 0.2 }),
-            Self::Shade => Some(Normal { mean: 0.0, sd: 0.2 }),
-        }
+    pub fn diffuse_share(self, beliefs: &Beliefs) -> f64 {
+        if self.has_sun() { (1.0 + self.usual_sky(beliefs).recip()).recip() } else { 1.0 }
+    }
+
+    /// Irradiance by the sky where the sun shines, that by the sun being 1.
+    fn usual_sky(self, beliefs: &Beliefs) -> f64 {
+        if self == Self::Hazy { beliefs.hazy_sky } else { beliefs.sky }
     }
 }

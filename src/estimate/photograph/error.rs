@@ -4,6 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
 use super::beliefs::Beliefs;
 use super::corners::shifts;
+use super::day::Day;
 use super::parts::Place;
 use super::sums::add;
 
@@ -26,6 +27,8 @@ pub struct ModelError {
     pub corner: f64,
     /// Length over which it is correlated, in depths of a panel.
     pub length: f64,
+    /// Of one panel beside the other, in all channels alike: light that comes from aside.
+    pub aside: f64,
     /// Correlation between places that mirror each other on the two panels.
     pub between_panels: f64,
 }
@@ -36,11 +39,13 @@ const SIDE_DEPTH: f64 = 0.06;
 const SIDE_SHARED: f64 = 0.8;
 
 impl ModelError {
-    /// That of photographs of sheets that the kinds describe.
+    /// That of photographs of sheets that the kinds describe, on such a day.
     #[must_use]
-    pub fn of(beliefs: &Beliefs) -> Self {
+    pub fn of(beliefs: &Beliefs, day: Day) -> Self {
+        let diffuse = day.diffuse_share(beliefs);
         Self {
-            shared: beliefs.discrepancy_shared,
+            shared: beliefs.discrepancy_shared.hypot(diffuse * beliefs.discrepancy_sky),
+            aside: diffuse * beliefs.discrepancy_sky_aside,
             own: beliefs.discrepancy_own,
             white: beliefs.discrepancy_white,
             at_crease: beliefs.discrepancy_at_crease,
@@ -54,7 +59,8 @@ impl ModelError {
     /// The same in a photograph that is so many times as far from an ideal one.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
-        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, between_panels } = self;
+        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, aside, between_panels } =
+            self;
         Self {
             shared: by * shared,
             own: by * own,
@@ -63,6 +69,7 @@ impl ModelError {
             at_outer_side: by * at_outer_side,
             corner: by * corner,
             length,
+            aside: by * aside,
             between_panels,
         }
     }
@@ -96,6 +103,12 @@ impl ModelError {
         for shift in shifts(places, values) {
             covariance.ger(self.corner.powi(2), &shift, &shift, 1.0);
         }
+        let aside =
+            DVector::from_fn(
+                count,
+                |i, _| if places[i % facets].panel == 0 { values[i] } else { -values[i] },
+            );
+        covariance.ger(self.aside.powi(2), &aside, &aside, 1.0);
         let factor = Cholesky::new(covariance)?.unpack();
         let mut inverse = DMatrix::zeros(count, count);
         for n in 0..count {

@@ -3,6 +3,7 @@
 use super::conditions::Told;
 use super::day::{Day, Found};
 use crate::estimate::Fitted;
+use crate::estimate::unknowns::Expectation;
 
 /// Something that is not ideal about a photograph. The estimate allows for it; a photograph without it tells more.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,8 +42,8 @@ pub fn of_day(Found { day, .. }: Found) -> Option<Finding> {
 pub fn of_unknowns(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
     let found = |one: &Fitted| {
         let effect = one.unknown.photograph.as_ref()?;
-        let (symptom, prior) = (effect.symptom.as_ref()?, (effect.prior)(told)?);
-        let from_usual = (one.unknown.scale.normal(one.value) - prior.mean).abs() / prior.sd;
+        let (symptom, Expectation { unit, normal }) = (effect.symptom.as_ref()?, (effect.prior)(told)?);
+        let from_usual = (one.unknown.scale.normal(one.value / unit) - normal.mean).abs() / normal.sd;
         let off = (one.value - (symptom.ideal)(told)).abs();
         let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
         is_found.then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, told), symptom.remedy))

@@ -30,6 +30,8 @@ pub enum Mistake {
     Exposure,
     /// The angle that somebody stated is not that of the fold.
     Angle,
+    /// Another sky than was stated lights it, alike in all directions.
+    Sky,
 }
 
 impl Mistake {
@@ -37,7 +39,7 @@ impl Mistake {
     fn share(self, beliefs: &Beliefs) -> f64 {
         match self {
             Self::NoFold => beliefs.no_fold_share,
-            Self::Exposure | Self::Angle => beliefs.mistake_share,
+            Self::Exposure | Self::Angle | Self::Sky => beliefs.mistake_share,
         }
     }
 }
@@ -47,7 +49,8 @@ pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
     let mut all = usual_hypotheses();
     // the curves of another camera are never those of this one; an ideal fold is the same whatever its sheet's kind
     if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
-        all.extend([Hypothesis::ideal(None), Hypothesis::ideal(Some(Mistake::Angle))]);
+        let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)];
+        all.extend(mistakes.map(Hypothesis::ideal));
         if photographs.iter().any(|photograph| photograph.parts.told.is_exposure_stated()) {
             all.push(Hypothesis::ideal(Some(Mistake::Exposure)));
         }
@@ -88,7 +91,9 @@ impl Hypothesis {
     /// One of an ideal fold, all as stated but for a mistake.
     #[must_use]
     pub fn ideal(mistake: Option<Mistake>) -> Self {
-        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day: Day::Clear, mistake }
+        // the sky of a computed scene is white rather than blue
+        let day = if mistake == Some(Mistake::Sky) { Day::Hazy } else { Day::Clear };
+        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day, mistake }
     }
 
     /// Logarithm of how often it is true.
@@ -114,7 +119,7 @@ impl Hypothesis {
     pub fn told(&self, told: &Told) -> Told {
         let exposure = match self.mistake {
             Some(Mistake::Exposure) if told.is_exposure_stated() => None,
-            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle) | None => told.exposure,
+            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle | Mistake::Sky) | None => told.exposure,
         };
         Told { exposure, day: self.day, ..*told }
     }

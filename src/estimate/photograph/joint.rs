@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::day::Day;
 use super::error::{ModelError, Whitening};
 use super::hypotheses::Hypothesis;
 use super::imperfection::Discrepancy;
@@ -20,11 +21,10 @@ pub struct Photograph<'a> {
     pub parts: &'a Parts,
     /// The kinds of sheets as it shows them.
     pub kinds: Kinds<'a>,
-    error: ModelError,
     /// The values that errors are relative to.
     values: DMatrix<f64>,
-    /// What makes residuals standard normal with each discrepancy, made when it is first asked for.
-    whitenings: [OnceCell<Option<Whitening>>; 4],
+    /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first asked for.
+    whitenings: [[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4],
 }
 
 /// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part of a fold in the sun.
@@ -35,9 +35,8 @@ impl<'a> Photograph<'a> {
     #[must_use]
     pub fn all(of: &'a [Parts]) -> Vec<Self> {
         let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
-            let (values, error) = (parts.values.clone(), ModelError::of(parts.told.beliefs));
-            Self { parts, kinds, error, values, whitenings: Default::default() }
-                .relative_to(parts.values.clone())
+            let values = parts.values.clone();
+            Self { parts, kinds, values, whitenings: Default::default() }.relative_to(parts.values.clone())
         };
         of.iter().zip(Kinds::of(of)).map(photograph).collect()
     }
@@ -53,12 +52,12 @@ impl<'a> Photograph<'a> {
     }
 
     /// What makes residuals standard normal; none if facets are not finite.
-    pub fn whitening(&self, discrepancy: Discrepancy) -> Option<&Whitening> {
+    pub fn whitening(&self, discrepancy: Discrepancy, day: Day) -> Option<&Whitening> {
         let whitening = || {
-            let error = self.error.scaled(discrepancy.size());
+            let error = ModelError::of(self.parts.told.beliefs, day).scaled(discrepancy.size());
             error.whitening(&self.parts.places, &self.values, &self.parts.sd)
         };
-        self.whitenings[discrepancy as usize].get_or_init(whitening).as_ref()
+        self.whitenings[discrepancy as usize][day as usize].get_or_init(whitening).as_ref()
     }
 }
 
@@ -102,7 +101,8 @@ impl<'a> JointModel<'a> {
         let mut members: Vec<Member<'a>> = Vec::with_capacity(photographs.len());
         let mut count = gaussian.basis().ncols();
         for (photograph, one) in photographs.iter().enumerate() {
-            let (parts, whitening) = (one.parts, one.whitening(hypothesis.imperfection.discrepancy)?);
+            let (parts, whitening) =
+                (one.parts, one.whitening(hypothesis.imperfection.discrepancy, hypothesis.day)?);
             let model = PhotographModel::new(parts, &one.kinds, hypothesis, gaussian, whitening);
             let same_camera =
                 photographs[..photograph].iter().position(|other| other.parts.eye.is(&parts.eye));

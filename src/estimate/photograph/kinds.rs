@@ -56,8 +56,7 @@ impl Kind {
     fn variation(self, beliefs: &Beliefs) -> f64 {
         match self {
             Self::Measured => beliefs.measured_variation,
-            Self::Matt => beliefs.matt_variation,
-            Self::Family => beliefs.family_variation,
+            Self::Matt | Self::Family => beliefs.formula_variation,
         }
     }
 

@@ -12,8 +12,6 @@ pub struct Lighting {
     /// Power of the sky and of the ground, each with the irradiance of an open plane that faces it: the first for an irradiance of 1 by the sky
     /// in the reference channel, the second for a reflectance of the ground of 1.
     pub ambient: [(f64, DVector<f64>); 2],
-    /// Power of the sky that was told, which gives 1 in the reference channel.
-    pub told_sky: DVector<f64>,
     /// What a white sheet that faces the sun receives, channel by channel, the light of the sun as it was said being 1; none if the exposure
     /// is that of the sun alone, as it is where the sun shines and no chart shows it.
     white: Option<DVector<f64>>,
@@ -23,7 +21,7 @@ impl Lighting {
     /// That of a photograph taken under these conditions.
     #[must_use]
     pub fn new(parts: &Parts, conditions: &Conditions) -> Self {
-        let [sun, sky, ground, told_sky] = powers(parts, conditions);
+        let [sun, sky, ground] = powers(parts, conditions);
         let sky_amount = conditions.sky.max(0.0);
         let Surroundings { clear, overcast, ground: below } = &parts.surroundings;
         let shares = shares_at(conditions.elevation_deg);
@@ -36,11 +34,11 @@ impl Lighting {
             let of_sky = (1.0 - conditions.cloud) * clear.open_at(shares)
                 + conditions.cloud * overcast.open_at(shares);
             let light = conditions.sun * &sun
-                + sky_amount * of_sky * &sky
+                + (sky_amount * of_sky + conditions.even_sky) * &sky
                 + ground_amount * below.open_at(shares) * &ground;
             sensitivities.tr_mul(&light).component_div(&said) * said[parts.eye.reference]
         });
-        Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], told_sky, white }
+        Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], white }
     }
 
     /// The exposure: value of a perfect white diffuser that faces the sun, in the sun alone.
@@ -65,7 +63,7 @@ impl Lighting {
     }
 }
 
-fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 4] {
+fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 3] {
     let eye = &parts.eye;
     let daylight = |mired: f64| Daylight::power(&eye.daylight, mired);
     let sun = match conditions.sun_mired.zip(parts.told.daylight) {
@@ -74,9 +72,9 @@ fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 4] {
     };
     let sky = conditions.sky_mired.map_or_else(|| eye.sky.clone(), daylight);
     let reference = eye.sensitivities.column(eye.reference);
-    let [sun, sky, told_sky] = [sun, sky, eye.sky.clone()].map(|power| &power / reference.dot(&power));
+    let [sun, sky] = [sun, sky].map(|power| &power / reference.dot(&power));
     let redness = |nm: &f64| (1.0 + conditions.ground_redness * (nm - 550.0) / 150.0).max(0.0);
     let ground = sun.as_slice().iter().zip(&eye.wavelengths_nm).map(|(power, nm)| power * redness(nm));
     let ground = DVector::from_iterator(sun.len(), ground);
-    [sun, sky, ground, told_sky]
+    [sun, sky, ground]
 }

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 use super::chebyshev::{chebyshev, nodes};
 use super::conditions::{Conditions, Told};
 use super::corners;
+use super::day::Day;
 use super::error::Whitening;
 use super::hypotheses::Hypothesis;
 use super::kinds::{Kind, Kinds};
@@ -103,9 +104,9 @@ impl<'a> PhotographModel<'a> {
             day: told.day,
             sun: 1.0,
             sky: if told.day.has_sun() { 0.0 } else { 1.0 },
-            cloud: 0.0,
-            elevation_deg: told.beliefs.elevation_mean,
-            told_sky: 1.0 - self.hypothesis.imperfection.scale,
+            cloud: if told.day == Day::Overcast { 1.0 } else { 0.0 },
+            elevation_deg: told.beliefs.elevation_deg,
+            even_sky: if self.hypothesis.imperfection.is_ideal() { told.even_sky() } else { 0.0 },
             sky_mired: None,
             ground: 0.0,
             ground_redness: 0.0,

@@ -3,7 +3,9 @@
 use super::conditions::Told;
 use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
-use crate::estimate::unknowns::{ANGLE, Effect, Known, Normal, TABLE, Unknown};
+use crate::estimate::unknowns::{
+    ANGLE, EVEN_SKY, Effect, Expectation, Known, Normal, SKY_COLOUR, TABLE, Unknown,
+};
 
 /// An unknown, and what is known of it in a photograph of some imperfection.
 #[derive(Clone, Copy)]
@@ -12,7 +14,7 @@ pub struct Number {
     pub unknown: &'static Unknown,
     /// What it does.
     pub effect: &'static Effect,
-    prior: Normal,
+    prior: Expectation,
     tail: f64,
     matters: bool,
 }
@@ -27,12 +29,18 @@ impl Number {
             // what does not occur on this day has a place, so that a search may go on from another day
             let of_day = |day: &Day| (effect.prior)(&Told { day: *day, ..*told });
             let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
-            let is_turned = mistake == Some(Mistake::Angle) && **unknown == ANGLE;
-            let is_usual = known == Known::Usual || is_turned || !imperfection.is_ideal();
-            let matters = own.is_some() && is_usual;
+            // of an ideal fold nothing is open but what is mistaken
+            let matters = own.is_some()
+                && match mistake {
+                    _ if known == Known::Usual => true,
+                    _ if !imperfection.is_ideal() => **unknown != EVEN_SKY,
+                    Some(Mistake::Angle) => **unknown == ANGLE,
+                    Some(Mistake::Sky) => **unknown == EVEN_SKY || **unknown == SKY_COLOUR,
+                    Some(Mistake::Exposure | Mistake::NoFold) | None => false,
+                };
             let tail = match known {
                 Known::Stated => told.beliefs.stated_tail,
-                Known::Imperfection => told.beliefs.imperfection_tail,
+                Known::Imperfection => told.beliefs.amount_tail,
                 Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
             };
             Some(Self { unknown, effect, prior, tail, matters })
@@ -53,10 +61,10 @@ impl Number {
     /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.
     #[must_use]
     pub fn at(&self, w: f64) -> (f64, f64) {
-        let Normal { mean, sd } = self.prior;
+        let Expectation { unit, normal: Normal { mean, sd } } = self.prior;
         let t = self.tail;
         let (x, by_w) = if t > 0.0 { ((t * w).sinh() / t, (t * w).cosh()) } else { (w, 1.0) };
         let (value, by_x) = self.unknown.scale.value(mean + sd * x);
-        (value, by_x * sd * by_w)
+        (unit * value, unit * by_x * sd * by_w)
     }
 }

@@ -168,8 +168,8 @@ pub struct Parts {
     pub sd: DMatrix<f64>,
     /// Light of the sun.
     pub sun: Sunlit,
-    /// Light of the sky that was told, if any was.
-    pub told_sky: Option<Radiance>,
+    /// Light that is alike in all directions, for an irradiance of 1 on an open plane.
+    pub even_sky: Radiance,
     /// Light of sky and ground.
     pub surroundings: Surroundings,
     /// Kinds of sheets.

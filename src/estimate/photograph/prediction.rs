@@ -111,10 +111,10 @@ impl<'a> Predictor<'a, '_> {
                 *ground * ground_power,
             ));
         }
-        let told_sky = parts.told_sky.as_ref().filter(|_| conditions.told_sky > 0.0);
-        lights.extend(
-            told_sky.map(|radiance| light(Cow::Borrowed(radiance), conditions.told_sky * &lighting.told_sky)),
-        );
+        if conditions.even_sky > 0.0 {
+            let power = conditions.even_sky * &lighting.ambient[0].1;
+            lights.push(light(Cow::Borrowed(&parts.even_sky), power));
+        }
         let lens = Lens::new(parts, conditions, &lighting);
         let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
         for light in &lights {

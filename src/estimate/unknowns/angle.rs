@@ -1,8 +1,8 @@
 //! How far the fold is open.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom, Told, Unknown,
-    Whose,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom,
+    Told, Unknown, Whose,
 };
 use crate::error::{Error, Result};
 use crate::estimate::Fitted;
@@ -64,6 +64,6 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.angle_deg, sd: told.beliefs.angle_sd_deg })
+fn of_photograph(told: &Told) -> Option<Expectation> {
+    Some(Normal { mean: told.angle_deg, sd: told.beliefs.angle_sd_deg }.into())
 }

@@ -1,6 +1,6 @@
 //! How rough the sheet is under its surface.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     unit: Some("degrees"),
     flag: &AUTO,
     range: 0.0..=90.0,
-    scale: Scale::Positive { unit: 8.0 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
@@ -25,6 +25,6 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.body_roughness_mean, sd: told.beliefs.body_roughness_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.body_roughness_deg))
 }

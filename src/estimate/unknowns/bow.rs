@@ -1,6 +1,6 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {
@@ -28,6 +28,6 @@ pub(super) const BOWED: Symptom = Symptom {
     remedy: "hold them flat, by stiff card behind them",
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: 0.0, sd: told.beliefs.bow_sd_deg })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(Normal { mean: 0.0, sd: told.beliefs.bow_sd_deg }.into())
 }

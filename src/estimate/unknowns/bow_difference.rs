@@ -1,7 +1,7 @@
 //! Panels that do not bow alike.
 
 use super::bow::BOWED;
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
@@ -21,6 +21,6 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: 0.0, sd: told.beliefs.bow_difference_sd_deg })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(Normal { mean: 0.0, sd: told.beliefs.bow_difference_sd_deg }.into())
 }

@@ -1,6 +1,6 @@
 //! How cloudy the sky is.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Share of the sky's light that is an overcast one's; the rest is a clear one's.
 pub static CLOUD: Unknown = Unknown {
@@ -20,6 +20,6 @@ pub static CLOUD: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.and_then(|_| told.day.cloud())
+fn prior(told: &Told) -> Option<Expectation> {
+    told.daylight.and_then(|_| told.day.cloud(told.beliefs)).map(Normal::into)
 }

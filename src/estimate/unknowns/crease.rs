@@ -1,6 +1,6 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static CREASE: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
-    scale: Scale::Positive { unit: 0.01 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Scene,
@@ -25,6 +25,6 @@ pub static CREASE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.crease_mean, sd: told.beliefs.crease_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.crease_radius))
 }

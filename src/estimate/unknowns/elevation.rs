@@ -1,6 +1,6 @@
 //! How far above the horizon the fold opens.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Angle between the horizon and the direction to which the fold opens, degrees.
 pub static ELEVATION: Unknown = Unknown {
@@ -20,6 +20,7 @@ pub static ELEVATION: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| Normal { mean: told.beliefs.elevation_mean, sd: told.beliefs.elevation_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    told.daylight
+        .map(|_| Normal { mean: told.beliefs.elevation_deg, sd: told.beliefs.elevation_sd_deg }.into())
 }

@@ -1,6 +1,6 @@
 //! How bright the picture is.
 
-use super::{Effect, Flag, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{Effect, Expectation, Flag, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
 pub static EXPOSURE: Unknown = Unknown {
@@ -24,9 +24,9 @@ pub static EXPOSURE: Unknown = Unknown {
     }),
 };
 
-fn of_photograph(told: &Told) -> Option<Normal> {
+fn of_photograph(told: &Told) -> Option<Expectation> {
     let beliefs = told.beliefs;
     let sd = if told.by_chart { beliefs.exposure_shown_sd } else { beliefs.exposure_stated_sd };
     let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd });
-    Some(known.unwrap_or(beliefs.exposure()))
+    Some(known.unwrap_or(beliefs.exposure()).into())
 }

@@ -1,6 +1,6 @@
 //! How much more the first channel amplifies than it should.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {
@@ -28,6 +28,6 @@ pub(super) const UNBALANCED: Symptom = Symptom {
     remedy: "photograph a grey card with the sheet",
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd }.into())
 }

@@ -1,6 +1,6 @@
 //! Fibres that stand up from the sheet.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
 pub static FUZZ: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static FUZZ: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
-    scale: Scale::Positive { unit: 0.15 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
@@ -25,6 +25,6 @@ pub static FUZZ: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.fuzz_mean, sd: told.beliefs.fuzz_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.fuzz))
 }

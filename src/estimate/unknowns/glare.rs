@@ -1,6 +1,6 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the picture's light that the lens spreads over all of it.
 pub static GLARE: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static GLARE: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
-    scale: Scale::Positive { unit: 0.006 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
@@ -25,6 +25,6 @@ pub static GLARE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.glare_mean, sd: told.beliefs.glare_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.glare))
 }

@@ -1,6 +1,6 @@
 //! What the surface of the sheet reflects before light enters it.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
 pub static GLOSS: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static GLOSS: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
-    scale: Scale::Positive { unit: 0.3 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Sheet,
@@ -25,6 +25,6 @@ pub static GLOSS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.gloss_mean, sd: told.beliefs.gloss_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.gloss))
 }

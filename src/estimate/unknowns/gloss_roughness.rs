@@ -1,6 +1,6 @@
 //! How sharply the surface of the sheet reflects.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Roughness of the surface: the width of the slopes of its microfacets (GGX's alpha).
 pub static GLOSS_ROUGHNESS: Unknown = Unknown {
@@ -20,6 +20,6 @@ pub static GLOSS_ROUGHNESS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.gloss_roughness_mean, sd: told.beliefs.gloss_roughness_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(Normal { mean: told.beliefs.ln_gloss_roughness, sd: told.beliefs.ln_gloss_roughness_sd }.into())
 }

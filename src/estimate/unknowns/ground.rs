@@ -1,6 +1,6 @@
 //! Light from what lies below the sheet.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static GROUND: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
-    scale: Scale::Positive { unit: 0.15 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Light,
@@ -25,6 +25,6 @@ pub static GROUND: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.map(|_| Normal { mean: told.beliefs.ground_mean, sd: told.beliefs.ground_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    told.daylight.map(|_| told.beliefs.amount(told.beliefs.ground))
 }

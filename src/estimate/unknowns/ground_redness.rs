@@ -1,6 +1,6 @@
 //! The colour of what lies below the sheet.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
 pub static GROUND_REDNESS: Unknown = Unknown {
@@ -20,7 +20,7 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
+fn prior(told: &Told) -> Option<Expectation> {
     told.daylight
-        .map(|_| Normal { mean: told.beliefs.ground_redness_mean, sd: told.beliefs.ground_redness_sd })
+        .map(|_| Normal { mean: told.beliefs.ground_redness, sd: told.beliefs.ground_redness_sd }.into())
 }

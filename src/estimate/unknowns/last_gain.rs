@@ -1,7 +1,7 @@
 //! How much more the last channel amplifies than it should.
 
 use super::first_gain::UNBALANCED;
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {
@@ -21,6 +21,6 @@ pub static LAST_GAIN: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd }.into())
 }

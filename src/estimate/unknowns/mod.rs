@@ -15,6 +15,7 @@ mod bow_difference;
 mod cloud;
 mod crease;
 mod elevation;
+mod even_sky;
 mod exposure;
 mod factor;
 mod first_gain;
@@ -44,6 +45,7 @@ use bow_difference::BOW_DIFFERENCE;
 use cloud::CLOUD;
 use crease::CREASE;
 use elevation::ELEVATION;
+pub use even_sky::EVEN_SKY;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
 use first_gain::FIRST_GAIN;
@@ -56,7 +58,7 @@ use ground_redness::GROUND_REDNESS;
 use last_gain::LAST_GAIN;
 pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
-use sky_colour::SKY_COLOUR;
+pub use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
 use sun::SUN;
 pub use sun_colour::SUN_COLOUR;
@@ -77,6 +79,7 @@ pub static TABLE: &[&Unknown] = &[
     &SUN_COLOUR,
     &GROUND,
     &GROUND_REDNESS,
+    &EVEN_SKY,
     &SUN,
     &CLOUD,
     &ELEVATION,
@@ -126,8 +129,8 @@ pub struct Effect {
     pub whose: Whose,
     /// How it is known.
     pub known: fn(&Told) -> Known,
-    /// What is known of it before the picture is looked at, on its scale; none where it does not occur.
-    pub prior: fn(&Told) -> Option<Normal>,
+    /// What is known of it before the picture is looked at; none where it does not occur.
+    pub prior: fn(&Told) -> Option<Expectation>,
     /// Makes it one of the conditions.
     pub set: fn(&mut Conditions, f64),
     /// What the user is told of it; none of what every photograph has.
@@ -212,6 +215,22 @@ pub struct Normal {
     pub sd: f64,
 }
 
+/// What is known of an unknown of a photograph before that is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// The unit in which the value is on its [`Scale`].
+    pub unit: f64,
+    /// What is known of it there.
+    pub normal: Normal,
+}
+
+impl From<Normal> for Expectation {
+    /// In the unit of the unknown itself.
+    fn from(normal: Normal) -> Self {
+        Self { unit: 1.0, normal }
+    }
+}
+
 /// A monotone map between the value of an unknown and the number that is normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
@@ -221,11 +240,8 @@ pub enum Scale {
     Reciprocal,
     /// The logarithm: what is known of the value is a factor.
     Logarithm,
-    /// `unit·ln(1 + eˣ)` is the value: it is never negative, near to nothing below and proportional to x above.
-    Positive {
-        /// Value where x is 0.54, about its slope far above.
-        unit: f64,
-    },
+    /// `ln(1 + eˣ)` is the value: it is never negative, near to nothing below and proportional to x above.
+    Positive,
 }
 
 impl Scale {
@@ -236,9 +252,9 @@ impl Scale {
             Self::Linear => (x, 1.0),
             Self::Reciprocal => (1e6 / x, -1e6 / (x * x)),
             Self::Logarithm => (x.exp(), x.exp()),
-            Self::Positive { unit } => {
+            Self::Positive => {
                 let value = if x > 30.0 { x } else { x.exp().ln_1p() };
-                (unit * value, unit / (1.0 + (-x).exp()))
+                (value, (1.0 + (-x).exp()).recip())
             }
         }
     }
@@ -250,7 +266,7 @@ impl Scale {
             Self::Linear => value,
             Self::Reciprocal => 1e6 / value,
             Self::Logarithm => value.ln(),
-            Self::Positive { unit } => (value / unit).exp_m1().ln(),
+            Self::Positive => value.exp_m1().ln(),
         }
     }
 }
@@ -326,7 +342,7 @@ mod tests {
 
     #[test]
     fn scales_and_their_inverses_agree() {
-        for scale in [Scale::Linear, Scale::Reciprocal, Scale::Logarithm, Scale::Positive { unit: 0.1 }] {
+        for scale in [Scale::Linear, Scale::Reciprocal, Scale::Logarithm, Scale::Positive] {
             for x in [3.0, 5.0, 7.0] {
                 let (value, slope) = scale.value(x);
                 assert!((scale.normal(value) - x).abs() < 1e-12 * x);

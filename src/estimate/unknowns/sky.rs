@@ -2,7 +2,8 @@
 
 use super::sources::Source;
 use super::{
-    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Told, Unknown, Whose,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Told, Unknown,
+    Whose,
 };
 use crate::error::Result;
 
@@ -46,6 +47,6 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.and_then(|_| told.day.sky(told.beliefs, told.sky))
+fn of_photograph(told: &Told) -> Option<Expectation> {
+    told.daylight.and_then(|_| told.day.sky(told.beliefs, told.sky)).map(Normal::into)
 }

@@ -1,7 +1,8 @@
 //! The colour of the sky: daylight of unknown temperature.
 
 use super::{
-    Effect, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown, Whose,
+    Effect, Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown,
+    Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -57,6 +58,6 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
 }
 
-fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| told.day.sky_mired(told.beliefs))
+fn of_photograph(told: &Told) -> Option<Expectation> {
+    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| told.day.sky_mired(told.beliefs).into())
 }

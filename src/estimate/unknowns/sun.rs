@@ -1,6 +1,6 @@
 //! How much of the sun comes through clouds, or past what throws a shadow.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Told, Unknown, Whose};
 
 /// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane is 1.
 pub static SUN: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static SUN: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
-    scale: Scale::Positive { unit: 0.05 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Scene,
@@ -20,6 +20,6 @@ pub static SUN: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    told.daylight.and_then(|_| told.day.hidden_sun())
+fn prior(told: &Told) -> Option<Expectation> {
+    told.daylight.filter(|_| !told.day.has_sun()).map(|_| told.beliefs.amount(told.beliefs.hidden_sun))
 }

@@ -1,8 +1,8 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown,
-    Whose,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told,
+    Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -36,8 +36,8 @@ fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
     Ok(scene.daylight.map(|said| of_daylight(said, &Beliefs::USUAL)))
 }
 
-fn of_photograph(told: &Told) -> Option<Normal> {
-    told.daylight.map(|said| of_daylight(said, told.beliefs))
+fn of_photograph(told: &Told) -> Option<Expectation> {
+    told.daylight.map(|said| of_daylight(said, told.beliefs).into())
 }
 
 fn of_daylight(said: Daylight, beliefs: &Beliefs) -> Normal {

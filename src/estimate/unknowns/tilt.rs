@@ -1,8 +1,8 @@
 //! Where the sun stands across the crease.
 
 use super::{
-    Effect, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told, Unknown,
-    Whose,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told,
+    Unknown, Whose,
 };
 use crate::error::Result;
 
@@ -52,6 +52,6 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.tilt_deg, sd: told.beliefs.tilt_sd_deg })
+fn of_photograph(told: &Told) -> Option<Expectation> {
+    Some(Normal { mean: told.tilt_deg, sd: told.beliefs.tilt_sd_deg }.into())
 }

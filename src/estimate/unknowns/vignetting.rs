@@ -1,6 +1,6 @@
 //! A lens that darkens the corners of the picture.
 
-use super::{AUTO, Effect, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
@@ -9,7 +9,7 @@ pub static VIGNETTING: Unknown = Unknown {
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
-    scale: Scale::Positive { unit: 0.1 },
+    scale: Scale::Positive,
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
@@ -25,6 +25,6 @@ pub static VIGNETTING: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Normal> {
-    Some(Normal { mean: told.beliefs.vignetting_mean, sd: told.beliefs.vignetting_sd })
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.amount(told.beliefs.vignetting))
 }

@@ -58,7 +58,7 @@ fn errors(
     widths: &[f64],
     beliefs: &Beliefs,
 ) -> Vec<(usize, DVector<f64>)> {
-    let Beliefs { curve_sd, curve_step_nm, curve_floor, .. } = *beliefs;
+    let Beliefs { curve_sd, curve_step_nm, .. } = *beliefs;
     let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
     let count = ((last - first) / curve_step_nm).round().max(1.0) as usize;
     let mut all = Vec::new();
@@ -71,7 +71,7 @@ fn errors(
             let middle = first + (last - first) * bump as f64 / count as f64;
             let of = |band: usize| {
                 let off = (wavelengths_nm[band] - middle) / curve_step_nm;
-                let envelope = (curve[band] / most + curve_floor).sqrt().min(1.0);
+                let envelope = (curve[band] / most).max(0.0).sqrt();
                 curve_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
             };
             all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));

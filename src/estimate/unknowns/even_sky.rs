@@ -1,0 +1,32 @@
+//! A sky that is alike in all directions, as computed scenes have it.
+
+use super::{AUTO, Effect, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use crate::estimate::Fitted;
+
+/// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being 1.
+pub static EVEN_SKY: Unknown = Unknown {
+    name: "even_sky",
+    about: "Irradiance of an open plane by light that is alike in all directions, relative to the sun's",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive,
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Light,
+        known: |_| Known::Imperfection,
+        prior: |told| Some(told.beliefs.amount(told.beliefs.even_sky)),
+        set: |conditions, value| conditions.even_sky = value,
+        symptom: Some(Symptom {
+            ideal: Told::even_sky,
+            least: 0.02,
+            words: |Fitted { value, .. }, told| {
+                format!(
+                    "light from all directions is {value:.2} of the sun's, not {} as told",
+                    told.even_sky()
+                )
+            },
+            remedy: "give vkernel --sky, or photograph the sheet where little but the sun lights it",
+        }),
+    }),
+};
