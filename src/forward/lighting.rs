@@ -16,11 +16,12 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// The lights of the scene: the sun, and the sky if there is one, each with the camera's response to it.
+    /// The lights of the scene: the sun and the sky, as far as there are any, each with the camera's response to it.
     pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> + Clone {
         let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
         let sky = (ModeLight::Sky(self.light.sky()), &self.sky);
-        std::iter::once(sun).chain((self.light.sky() > 0.0).then_some(sky))
+        let sun = (self.light.sun() > 0.0).then_some(sun);
+        sun.into_iter().chain((self.light.sky() > 0.0).then_some(sky))
     }
 
     /// The wavebands in which at least one channel sees one of the lights.

@@ -76,7 +76,8 @@ impl OpenLight {
 
 impl From<&Lighting> for OpenLight {
     fn from(lighting: &Lighting) -> Self {
-        let sun = OpenSource { irradiance: 1.0, is_sky: false, camera: lighting.sun.clone() };
+        let sun =
+            OpenSource { irradiance: lighting.light.sun(), is_sky: false, camera: lighting.sun.clone() };
         let sky = lighting.light.sky();
         let sky =
             (sky > 0.0).then(|| OpenSource { irradiance: sky, is_sky: true, camera: lighting.sky.clone() });

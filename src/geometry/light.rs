@@ -7,18 +7,21 @@ use crate::geometry::Fold;
 
 /// The sun, square to the crease, and a uniform sky.
 ///
-/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky` from the sky.
+/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky` from the sky. Where there is no sun,
+/// it is 1 that the sky gives an open plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     tilt_deg: f64,
     slant_deg: f64,
+    sun: f64,
     sky: f64,
     panel_irradiance: [f64; 2],
 }
 
 impl Light {
     /// Light on `fold` from `tilt_deg` off its bisecting plane (positive: the sun leans over panel 1 and lights panel 0
-    /// more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the sun's irradiance.
+    /// more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the sun's irradiance; the sky
+    /// alone if that is infinite.
     ///
     /// # Errors
     /// A tilt that leaves a panel unlit, a slant of 90° or more, or a negative sky.
@@ -48,16 +51,18 @@ impl Light {
                 "give degrees between -90 and 90",
             ));
         }
-        if !(0.0..=1e6).contains(&sky) {
+        let is_sky_alone = sky == f64::INFINITY;
+        if !(0.0..=1e6).contains(&sky) && !is_sky_alone {
             return Err(Error::usage(
                 "--sky",
                 format!("{sky} is not a share of the sun's irradiance"),
-                "give a number from 0 (no sky)",
+                "give a number from 0 (no sky), or only",
             ));
         }
-        let slant = slant_deg.to_radians().cos();
+        let (sun, sky) = if is_sky_alone { (0.0, 1.0) } else { (1.0, sky) };
+        let slant = sun * slant_deg.to_radians().cos();
         let panel_irradiance = [tilt_deg, -tilt_deg].map(|tilt| slant * (half + tilt).to_radians().sin());
-        Ok(Self { tilt_deg, slant_deg, sky, panel_irradiance })
+        Ok(Self { tilt_deg, slant_deg, sun, sky, panel_irradiance })
     }
 
     /// Angle of the sun off the bisecting plane, degrees.
@@ -90,7 +95,13 @@ impl Light {
         [sin, cos].map(|share| self.slant_deg.to_radians().cos() * share)
     }
 
-    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's.
+    /// Irradiance of a plane that faces the sun by it: 1, or 0 where there is none.
+    #[must_use]
+    pub fn sun(&self) -> f64 {
+        self.sun
+    }
+
+    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's if there is one.
     #[must_use]
     pub fn sky(&self) -> f64 {
         self.sky
@@ -123,5 +134,12 @@ mod tests {
         assert!(Light::new(&fold, 20.0, 0.0, 0.0).is_err());
         assert!(Light::new(&fold, f64::NAN, 0.0, 0.0).is_err());
         assert!(Light::new(&fold, 0.0, 0.0, -0.1).is_err());
+    }
+
+    #[test]
+    fn an_infinite_sky_is_alone() {
+        let fold = Fold::new(40.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap();
+        let light = Light::new(&fold, 0.0, 0.0, f64::INFINITY).unwrap();
+        assert_eq!((light.sun(), light.sky(), light.panel_irradiance()), (0.0, 1.0, [0.0; 2]));
     }
 }

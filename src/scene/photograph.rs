@@ -140,6 +140,7 @@ impl<'a> PhotographedFold<'a> {
             daylight: eye::daylight(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
             sky: Some(light.sky()).filter(|sky| *sky > 0.0),
+            sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
             day: Day::Clear,
         };

@@ -25,13 +25,21 @@ pub(super) struct SunRecord {
     tilt_deg: f64,
     /// Angle of the sun along the crease, degrees.
     slant_deg: f64,
-    /// Irradiance by the sky of an open plane that faces the sun, relative to the sun's.
+    /// Irradiance by the sun of a plane that faces it: 1, or 0 if the sky is alone.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0, max = 1))]
+    sun: f64,
+    /// Irradiance by the sky of an open plane that faces the sun, relative to the sun's if there is one.
     #[schemars(range(min = 0))]
     sky: f64,
     /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is not read.
     #[serde(skip_deserializing)]
     #[schemars(inner(range(min = 0, max = 1)))]
     panel_irradiance: [f64; 2],
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// Sources around a surface.
@@ -118,6 +126,7 @@ impl From<&Light> for SunRecord {
         Self {
             tilt_deg: light.tilt_deg(),
             slant_deg: light.slant_deg(),
+            sun: light.sun(),
             sky: light.sky(),
             panel_irradiance: light.panel_irradiance(),
         }
@@ -144,7 +153,15 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if sun or sky are missing or leave a panel unlit.
     pub fn light_on(&self, fold: &Fold) -> Result<Light> {
-        let SunRecord { tilt_deg, slant_deg, sky, .. } = self.fields.require("light", BY_VKERNEL)?;
+        let SunRecord { tilt_deg, slant_deg, sun, sky, .. } = self.fields.require("light", BY_VKERNEL)?;
+        let sky = match (sun, sky) {
+            (1.0, sky) => sky,
+            (0.0, 1.0) => f64::INFINITY,
+            _ => {
+                let problem = format!("sun {sun} with sky {sky}: neither a sun of 1 nor a sky of 1 alone");
+                return Err(Error::field("light", format!("{problem}; {BY_VKERNEL}")));
+            }
+        };
         Light::new(fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use vfold::cli;
+use vfold::cli::{self, refuse};
 use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
 use vfold::kernel::check::check;
 use vfold::kernel::mesh::{Accuracy, Mesh, TOLERANCE, respond_by};
@@ -33,6 +33,10 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
 
 /// Solves the bounces and writes the scene.
 fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<()> {
+    if args.sky.is_infinite() {
+        let given = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
+        refuse(given, "there is no sun", "leave it out, or give --sky a number")?;
+    }
     let light = Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)?;
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let default = if method == Method::Exact { Mesh::Auto } else { Mesh::Facets };
@@ -136,7 +140,7 @@ fn method(args: &Args) -> Result<Method> {
         ("--samples", args.samples.is_some()),
         ("--seed", args.seed.is_some()),
     ];
-    let refuse_samples = || cli::refuse(given, "there is nothing to sample", "add --method monte-carlo");
+    let refuse_samples = || refuse(given, "there is nothing to sample", "add --method monte-carlo");
     match args.method {
         MethodName::MonteCarlo => {
             let sampling = match args.sampling {

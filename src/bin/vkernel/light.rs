@@ -59,12 +59,16 @@ impl LightArgs {
         refuse(given, "a fold has its light by --tilt-deg, --slant-deg and --sky", "leave it out")
     }
 
-    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0.
+    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if it is infinite.
     pub fn sources(&self, shape: &Shape, sky: f64) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
             return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));
         }
+        if sky.is_infinite() && !matches!(self.light.as_slice(), [] | [LightArg::None]) {
+            return Err(Error::usage("--sky", "only, beside a --light", "leave one of them out"));
+        }
         let lights = match self.light.as_slice() {
+            [] if sky.is_infinite() => Vec::new(),
             [] => vec![LightArg::Directional(UP, 1.0)],
             given => given.to_vec(),
         };
@@ -72,6 +76,7 @@ impl LightArgs {
         for light in lights {
             sources.extend(light.source(shape).map_err(|e| usage("--light", &e))?);
         }
+        let sky = if sky.is_infinite() { 1.0 } else { sky };
         if sky != 0.0 {
             let sky = match self.sky_type {
                 SkyType::Uniform => LightSource::uniform_sky(sky),

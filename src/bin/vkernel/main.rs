@@ -79,8 +79,8 @@ struct Args {
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     slant_deg: f64,
     /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's; sun:40deg or sun:LAT,LON,TIME: as much as a
-    /// cloudless sky gives with the sun there
-    #[arg(long, value_name = "F|sun:WHERE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
+    /// cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1
+    #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
     #[arg(long, default_value = "fold")]

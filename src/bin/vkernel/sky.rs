@@ -1,17 +1,24 @@
-//! `--sky`: a number, or the sky of a cloudless day.
+//! `--sky`: a number, the sky of a cloudless day, or the sky alone.
 
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::spectrum::{ClearSky, Outside, Sun, WavelengthGrid};
 use vfold::{Error, Result};
 
-/// Parses how much light the sky gives beside the sun: a number, or `sun:WHERE`, where the sun stands.
+/// Parses how much light the sky gives beside the sun: a number, `sun:WHERE`, where the sun stands, or `only`, which is infinite.
 ///
 /// # Errors
 /// A message for the command line.
 pub fn share(text: &str) -> std::result::Result<f64, String> {
+    if text == "only" {
+        return Ok(f64::INFINITY);
+    }
     match text.strip_prefix("sun:") {
         Some(place) => of_clear_sky(place).map_err(|e| e.to_string()),
-        None => text.parse().map_err(|_| "write a number, or sun:40deg or sun:LAT,LON,TIME".to_owned()),
+        None => text
+            .parse()
+            .ok()
+            .filter(|share: &f64| share.is_finite())
+            .ok_or_else(|| "write a number, sun:40deg, sun:LAT,LON,TIME, or only".to_owned()),
     }
 }
 

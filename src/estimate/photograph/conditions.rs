@@ -78,6 +78,8 @@ pub struct Told {
     pub is_daylight_assumed: bool,
     /// Irradiance by the sky that somebody stated, that by the sun being 1.
     pub sky: Option<f64>,
+    /// Irradiance by the sun of a plane that faces it, as it was stated: 1, or 0 if the sky is alone.
+    pub sun: f64,
     /// Whether the sky's colour is given.
     pub has_sky_illuminant: bool,
     /// The kind of day that it is taken to have been.

@@ -40,9 +40,14 @@ impl Day {
         }
     }
 
-    /// How many photographs are taken on such a day.
+    /// How many photographs are taken on such a day, of those for which this much sun was stated: if none, those in the sun are mistakes.
     #[must_use]
-    pub fn share(self, beliefs: &Beliefs) -> f64 {
+    pub fn share(self, beliefs: &Beliefs, sun: f64) -> f64 {
+        let stated = if self.has_sun() && sun <= 0.0 { beliefs.mistake_share } else { 1.0 };
+        stated * self.usual_share(beliefs)
+    }
+
+    fn usual_share(self, beliefs: &Beliefs) -> f64 {
         match self {
             Self::Clear => 1.0 - beliefs.hazy_share - beliefs.overcast_share - beliefs.shade_share,
             Self::Hazy => beliefs.hazy_share,

@@ -29,8 +29,6 @@ pub struct ModelError {
     pub length: f64,
     /// Of one panel beside the other, in all channels alike: light that comes from aside.
     pub aside: f64,
-    /// Correlation between places that mirror each other on the two panels.
-    pub between_panels: f64,
 }
 
 /// Depth over which the crease or an outer side matters, in depths of a panel.
@@ -52,15 +50,13 @@ impl ModelError {
             at_outer_side: beliefs.discrepancy_at_outer_side,
             corner: beliefs.corner,
             length: beliefs.discrepancy_length,
-            between_panels: beliefs.discrepancy_between_panels,
         }
     }
 
     /// The same in a photograph that is so many times as far from an ideal one.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
-        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, aside, between_panels } =
-            self;
+        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, aside } = self;
         Self {
             shared: by * shared,
             own: by * own,
@@ -70,7 +66,6 @@ impl ModelError {
             corner: by * corner,
             length,
             aside: by * aside,
-            between_panels,
         }
     }
 
@@ -123,8 +118,7 @@ impl ModelError {
 
     fn correlation(&self, a: &Place, b: &Place) -> f64 {
         let square = ((a.depth - b.depth).powi(2) + (a.along - b.along).powi(2)) / self.length.powi(2);
-        let panels = if a.panel == b.panel { 1.0 } else { self.between_panels };
-        panels * (-0.5 * square).exp()
+        if a.panel == b.panel { (-0.5 * square).exp() } else { 0.0 }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::conditions::Told;
 use super::day::{Day, Found};
+use super::hypotheses::Hypothesis;
+use super::number::Number;
 use crate::estimate::Fitted;
-use crate::estimate::unknowns::Expectation;
 
 /// Something that is not ideal about a photograph. The estimate allows for it; a photograph without it tells more.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +19,7 @@ pub struct Finding {
 
 /// Differences from what is ideal, in standard deviations, of which a word is said.
 const SURE: f64 = 2.0;
-/// Numbers further than that from what was known before, in standard deviations, are unusual.
+/// Numbers are unusual that far from what was known before, as standard normal ones: three in a thousand are.
 const UNUSUAL: f64 = 3.0;
 
 /// Other light than that of a clear day.
@@ -37,13 +38,13 @@ pub fn of_day(Found { day, .. }: Found) -> Option<Finding> {
     })
 }
 
-/// What the facets tell of the unknowns, what they are surest of first.
+/// What the facets tell of the unknowns under a hypothesis, what they are surest of first.
 #[must_use]
-pub fn of_unknowns(fitted: &[Fitted], told: &Told) -> Vec<Finding> {
+pub fn of_unknowns(fitted: &[Fitted], told: &Told, hypothesis: Hypothesis) -> Vec<Finding> {
+    let numbers = Number::all(told, hypothesis);
     let found = |one: &Fitted| {
-        let effect = one.unknown.photograph.as_ref()?;
-        let (symptom, Expectation { unit, normal }) = (effect.symptom.as_ref()?, (effect.prior)(told)?);
-        let from_usual = (one.unknown.scale.normal(one.value / unit) - normal.mean).abs() / normal.sd;
+        let number = numbers.iter().find(|number| number.unknown == one.unknown)?;
+        let (symptom, from_usual) = (number.effect.symptom.as_ref()?, number.normal(one.value).abs());
         let off = (one.value - (symptom.ideal)(told)).abs();
         let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
         is_found.then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, told), symptom.remedy))

@@ -102,7 +102,7 @@ impl<'a> PhotographModel<'a> {
             tilt_deg: told.tilt_deg,
             sun_mired: None,
             day: told.day,
-            sun: 1.0,
+            sun: if self.hypothesis.imperfection.is_ideal() { told.sun } else { 1.0 },
             sky: if told.day.has_sun() { 0.0 } else { 1.0 },
             cloud: if told.day == Day::Overcast { 1.0 } else { 0.0 },
             elevation_deg: told.beliefs.elevation_deg,

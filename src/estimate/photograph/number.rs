@@ -67,4 +67,12 @@ impl Number {
         let (value, by_x) = self.unknown.scale.value(mean + sd * x);
         (unit * value, unit * by_x * sd * by_w)
     }
+
+    /// The standard normal number at which it has this value.
+    #[must_use]
+    pub fn normal(&self, value: f64) -> f64 {
+        let Expectation { unit, normal: Normal { mean, sd } } = self.prior;
+        let x = (self.unknown.scale.normal(value / unit) - mean) / sd;
+        if self.tail > 0.0 { (self.tail * x).asinh() / self.tail } else { x }
+    }
 }

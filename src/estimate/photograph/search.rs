@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beliefs::Beliefs;
+use super::conditions::Told;
 use super::corners;
 use super::day::{Day, Found};
 use super::family::{Photographs, Seen};
@@ -65,7 +65,7 @@ fn under(
     let family = relative_to_predictions(Photographs(Photograph::all(parts)), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let sorted = sorted(&mut search, family.beliefs(), all, &dull_days(&family.0));
+    let sorted = sorted(&mut search, &family.0.first()?.parts.told, all, &dull_days(&family.0));
     // no light bounces between panels that are no fold
     let without_bounces = probability(&sorted, |one| !one.has_bounces());
     let folds = folds(sorted);
@@ -104,20 +104,20 @@ fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option
 /// of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
-    beliefs: &Beliefs,
+    told: &Told,
     hypotheses: impl Iterator<Item = Hypothesis>,
     dull_days: &[Day],
 ) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
     for hypothesis in hypotheses {
-        sort(search, beliefs, hypothesis, &mut all);
+        sort(search, told, hypothesis, &mut all);
     }
     let mut kinds: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
     kinds.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     let kinds: Vec<Kind> = kinds.into_iter().map(|one| one.hypothesis.kind).collect();
     for day in dull_days {
         for kind in &kinds {
-            let behind = sort(search, beliefs, Hypothesis::on_dull_day(*day, *kind), &mut all);
+            let behind = sort(search, told, Hypothesis::on_dull_day(*day, *kind), &mut all);
             if behind < LN_EVIDENCE_FAR {
                 break;
             }
@@ -129,19 +129,14 @@ fn sorted(
 }
 
 /// Adds a hypothesis to those that are sorted; by how much it is behind the best, as the logarithm of a share of its evidence.
-fn sort(
-    search: &mut Search<Photographs>,
-    beliefs: &Beliefs,
-    hypothesis: Hypothesis,
-    all: &mut Vec<Tried>,
-) -> f64 {
+fn sort(search: &mut Search<Photographs>, told: &Told, hypothesis: Hypothesis, all: &mut Vec<Tried>) -> f64 {
     let best = |of: &dyn Fn(&&Tried) -> bool| {
         all.iter().filter(of).max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
     };
     // a spectrum without bounces is none of a fold's
     let start = best(&|one| one.hypothesis.has_bounces()).map(|one| one.solution.w.clone());
     let ln_best = best(&|_| true).map_or(f64::NEG_INFINITY, Tried::ln_weight);
-    let ln_share = hypothesis.ln_share(beliefs);
+    let ln_share = hypothesis.ln_share(told);
     let Some(found) = search.sort((hypothesis, ln_share), start, ln_best + LN_EVIDENCE_HOPELESS) else {
         return f64::NEG_INFINITY;
     };
@@ -209,7 +204,7 @@ fn all_findings(
     let hypothesis = found.best.start.hypothesis;
     let imperfection = hypothesis.imperfection;
     let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
-    findings.extend(of_unknowns(&seen.fitted, &hypothesis.told(&parts.told)));
+    findings.extend(of_unknowns(&seen.fitted, &hypothesis.told(&parts.told), hypothesis));
     if !imperfection.is_ideal() {
         findings.extend(corners::findings(
             &seen.shifts,

@@ -48,5 +48,6 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
 }
 
 fn of_photograph(told: &Told) -> Option<Expectation> {
-    told.daylight.and_then(|_| told.day.sky(told.beliefs, told.sky)).map(Normal::into)
+    let beside_sun = told.sky.filter(|_| told.sun > 0.0);
+    told.daylight.and_then(|_| told.day.sky(told.beliefs, beside_sun)).map(Normal::into)
 }

@@ -62,7 +62,8 @@ impl Lamp {
         let [even, odd] = light.even_and_odd(fold);
         Ok(match self {
             Self::Sun => {
-                let light = Light::new(fold, light.tilt_deg(), light.slant_deg(), light.sky())?;
+                let sky = if light.sun() > 0.0 { light.sky() } else { f64::INFINITY };
+                let light = Light::new(fold, light.tilt_deg(), light.slant_deg(), sky)?;
                 ModeLight::Sun(light.panel_irradiance())
             }
             Self::EvenSun => ModeLight::Sun([even, even]),
@@ -140,8 +141,8 @@ impl Sources {
         let sun = Source::new(Lamp::Sun, lighting.sun.clone());
         let irradiance = lighting.light.sky();
         let sky = Source::new(Lamp::Sky { irradiance }, lighting.sky.clone());
-        let sky = (irradiance > 0.0).then_some(sky);
-        Self { states: vec![state], lamps: std::iter::once(sun).chain(sky).collect() }
+        let (sun, sky) = ((lighting.light.sun() > 0.0).then_some(sun), (irradiance > 0.0).then_some(sky));
+        Self { states: vec![state], lamps: sun.into_iter().chain(sky).collect() }
     }
 
     /// Puts others in the place of each lamp.
