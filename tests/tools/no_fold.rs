@@ -51,7 +51,7 @@ fn without_bounces_there_is_no_fold() {
     }
 }
 
-/// A sky that is alike all round, the ground as bright as it, is none that there is.
+/// A sky that is alike all round and so bright is found, and doubted: it is none that there is.
 #[test]
 fn a_sky_all_round_is_not_good() {
     for sheet in ["magenta", "foliage"] {
