@@ -330,6 +330,11 @@ impl<H: Copy> Candidate<H> {
         self.linear.hypothesis
     }
 
+    /// Logarithm of how often that is so.
+    pub fn ln_share_of_hypothesis(&self) -> f64 {
+        self.linear.ln_share
+    }
+
     /// The Gaussian of the class, as wide as it is likely to be.
     pub fn gaussian(&self, prior: &Prior) -> Gaussian {
         prior.classes()[self.class].rough(self.roughness).scaled(self.scale)

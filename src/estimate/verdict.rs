@@ -285,6 +285,7 @@ mod tests {
             residual_rms,
             unexplained: 0.0,
             day: None,
+            light: None,
             without_bounces: 0.0,
             iterations: 1,
             trace: Vec::new(),
