@@ -47,9 +47,9 @@ pub trait Family {
     /// A maximum counts as found within this many standard deviations of it.
     fn tolerance(&self) -> f64;
 
-    /// How many pairs of hypothesis and class of spectra count at most without a search of their own.
-    fn beside(&self) -> usize {
-        15
+    /// Whether there are dozens of hypotheses, many of which may be as likely as the first.
+    fn has_many_hypotheses(&self) -> bool {
+        false
     }
 }
 

@@ -32,8 +32,10 @@ const TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -3.0;
 const UNTOLD_TRIED: usize = 24;
 const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
-/// The least evidence, likewise, for one that counts without a search.
+/// The least evidence, likewise, for one that counts without a search, how many do, and how many of many hypotheses.
 const BESIDE_LN_EVIDENCE_LEAST: f64 = -4.0;
+const BESIDE: usize = 15;
+const BESIDE_OF_MANY: usize = 100;
 /// Hypotheses whose likeliest class comes so near to that of the best, likewise, are followed to the fine noise, and so many of them at most.
 const FOLLOWED_LN_EVIDENCE_LEAST: f64 = -8.0;
 const FOLLOWED: usize = 8;
@@ -132,7 +134,10 @@ impl<'a, F: Family> Search<'a, F> {
                     maximise(&model, one.solution.w.clone(), (coarse, coarse), tolerance, SORTING_LIMIT);
                 Linear::about(&model, (&w, &at), coarse, of)
             };
-            let linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            let mut linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            if family.has_many_hypotheses() {
+                linears.iter_mut().for_each(Linear::condense);
+            }
             is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
             likely = candidates(family, linears, prior);
         }
@@ -188,7 +193,11 @@ impl<'a, F: Family> Search<'a, F> {
         }
         self.trace.extend(found.iter().map(|one| one.trace.clone()));
         // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which does not explain them
-        let count = if are_precise { 0 } else { family.beside() };
+        let count = match family.has_many_hypotheses() {
+            _ if are_precise => 0,
+            true => BESIDE_OF_MANY,
+            false => BESIDE,
+        };
         let least = likely.first().map_or(0.0, |first| first.ln_evidence + BESIDE_LN_EVIDENCE_LEAST);
         let beside = likely[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
         let beside: Vec<_> = beside.filter_map(|one| Beside::of(family, one, prior)).collect();

@@ -7,7 +7,7 @@ use crate::image::{Making, Processing};
 use crate::spectrum::is_other_camera;
 use crate::spectrum::library::{What, is_built_in};
 
-/// Light and camera as they were stated: no facet shows that they are others.
+/// Light and camera as they were stated, and as they are believed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stated {
     /// Names of the lights; none if nobody stated any.

@@ -186,7 +186,7 @@ impl<'a> Estimator<'a> {
             args,
             method: method(args)?,
             fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
-            forgets_light: args.planning.forgets_light(args.kernel.given()?.is_some())?,
+            forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             last_prior: Mutex::default(),
         })
     }

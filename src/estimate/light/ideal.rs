@@ -17,9 +17,9 @@ use crate::estimate::search::{Search, Sorted};
 
 /// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question; that is more than what
 /// knowing the class of spectra changes.
-const LN_EVIDENCE_HOPELESS: f64 = -12.0;
-/// So many pairs of light and class count without a search of their own: where facets say little, many lights are as likely as one.
-const BESIDE: usize = 100;
+const LN_EVIDENCE_HOPELESS: f64 = -8.0;
+/// Under so many lights classes of spectra are told apart at most.
+const TOLD_APART: usize = 24;
 
 /// The same facets in each light.
 struct InLights<'a>(Vec<FacetData<'a>>);
@@ -52,8 +52,9 @@ impl Family for InLights<'_> {
         self.0[0].tolerance()
     }
 
-    fn beside(&self) -> usize {
-        BESIDE
+    /// One alone is a light that is known.
+    fn has_many_hypotheses(&self) -> bool {
+        self.0.len() > 1
     }
 }
 
@@ -100,5 +101,6 @@ fn sorted(
     }
     all.retain(|one| one.ln_weight() >= best + LN_EVIDENCE_HOPELESS);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    all.truncate(TOLD_APART);
     all
 }

@@ -113,3 +113,41 @@ impl FoundLight {
         all.iter().find(|light| light.name == first.name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The mean lies between the lights, and is off from them by no more than they differ.
+        #[test]
+        fn the_expected_light_lies_between_the_candidates(
+            shares in prop::collection::vec(0.0_f64..1.0, 3),
+            powers in prop::collection::vec(prop::collection::vec(0.1_f64..10.0, 5), 3),
+        ) {
+            let sum: f64 = shares.iter().sum();
+            prop_assume!(sum > 0.01);
+            let light = |share: &f64| Weighed { name: String::new(), cct_k: None, probability: share / sum };
+            let found = FoundLight::of(iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice)));
+            let total: f64 = found.candidates.iter().map(|light| light.probability).sum();
+            prop_assert!((total - 1.0).abs() < 1e-12);
+            prop_assert!(found.candidates.is_sorted_by(|a, b| a.probability >= b.probability));
+            prop_assert!((found.power.iter().sum::<f64>() / 5.0 - 1.0).abs() < 1e-12);
+            for band in 0..5 {
+                let own = powers.iter().map(|power| 5.0 * power[band] / power.iter().sum::<f64>());
+                let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), own| (a.min(own), b.max(own)));
+                prop_assert!((least - 1e-12..=most + 1e-12).contains(&found.power[band]));
+                prop_assert!(found.power_sd[band] <= most - least + 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn one_candidate_is_the_light() {
+        let one = Weighed { name: "A".to_owned(), cct_k: Some(2856.0), probability: 1.0 };
+        let found = FoundLight::of([(one.clone(), [2.0, 4.0].as_slice())]);
+        assert_eq!((found.candidates, found.power_sd), (vec![one], vec![0.0; 2]));
+    }
+}

@@ -18,10 +18,10 @@ use crate::estimate::photograph::{self, Parts, Photographs, SheetEstimate};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 
-/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and at most so many are estimated: with
-/// looking through all of them that is less than four estimates.
+/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and at most so many are estimated beside
+/// daylight, in which photographs usually are: with looking through all of them that is less than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
-const TRIED: usize = 3;
+const TRIED: usize = 2;
 
 /// A light, and the photograph in it.
 struct Way<'a> {
@@ -38,7 +38,8 @@ struct Way<'a> {
 pub fn estimate_photograph(parts: &Parts, lights: &[Candidate], prior: &Prior) -> Result<Estimate> {
     let ways = ways(parts, lights);
     let mut tried = Vec::new();
-    for (way, _) in likely(&ways, prior).into_iter().take(TRIED) {
+    let daylight = ways.iter().filter(|way| way.light.is_none());
+    for way in daylight.chain(likely(&ways, prior).into_iter().take(TRIED)) {
         let SheetEstimate { photographs, ln_evidence } =
             photograph::estimate(slice::from_ref(&way.parts), prior)?;
         tried.extend(photographs.into_iter().map(|estimate| (way, way.ln_share + ln_evidence, estimate)));
@@ -62,16 +63,18 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
     let daylight =
         (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_daylight.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
-    let of = |light: &'a Candidate| Way {
-        light: Some(light),
-        ln_share: light.ln_share,
-        parts: parts.in_light(&light.power),
+    // of lamps one hypothesis stands for all days, with the share of a clear one
+    let ln_clear = Day::Clear.share(parts.told.beliefs).ln();
+    let of = |light: &'a Candidate| {
+        let parts = parts.in_light(&light.power);
+        let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
+        Way { light: Some(light), ln_share: light.ln_share - ln_days, parts }
     };
     daylight.into_iter().chain(others.map(of)).collect()
 }
 
-/// Those that are not out of the question, the likeliest first; all are, if none can be weighed.
-fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<(&'w Way<'a>, f64)> {
+/// Those beside any daylight that are not out of the question, the likeliest first.
+fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
     let Some(first) = ways.first() else { return Vec::new() };
     let photographs = Photographs::of(slice::from_ref(&first.parts));
     let mut all: Vec<(&Way, f64)> = Vec::new();
@@ -84,7 +87,7 @@ fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<(&'w Way<'a>, f64)>
             let hypothesis = Hypothesis::on_dull_day(*day, Kind::Family);
             let ln_share = way.ln_share + day.share(family.beliefs()).ln();
             // lights of another kind have other unknowns
-            let from = start.take().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
+            let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
             let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {
                 continue;
             };
@@ -94,10 +97,12 @@ fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<(&'w Way<'a>, f64)>
         }
     }
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut kept: Vec<(&Way, f64)> = Vec::new();
-    for (way, ln_weight) in all.into_iter().filter(|(_, ln_weight)| *ln_weight >= best + LN_EVIDENCE_LEAST) {
-        if !kept.iter().any(|(other, _)| std::ptr::eq(*other, way)) {
-            kept.push((way, ln_weight));
+    let mut kept: Vec<&Way> = Vec::new();
+    let near = all.into_iter().filter(|(way, ln)| way.light.is_some() && *ln >= best + LN_EVIDENCE_LEAST);
+    for (way, _) in near {
+        // one that is a daylight stands there once for each kind of day
+        if !kept.iter().any(|other| std::ptr::eq(*other, way)) {
+            kept.push(way);
         }
     }
     kept
