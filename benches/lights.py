@@ -42,6 +42,12 @@ def on_grid(nm, values):
     return [at(x) for x in GRID_NM]
 
 
+def table_of(columns):
+    lines = [",".join(["nm", *columns])]
+    lines += [",".join(map(repr, [nm, *values])) for nm, values in zip(GRID_NM, zip(*columns.values(), strict=True), strict=True)]
+    return "\n".join(lines) + "\n"
+
+
 def sheets(shared, pick, work):
     """A table of spectra that are nowhere above 1."""
     columns = {}
@@ -56,10 +62,8 @@ def sheets(shared, pick, work):
             picked = good[pick % step :: step][:OF_EACH_SET]
         for n in picked:
             columns[f"{path.stem}-{n}"] = on_grid(nm, [float(row[n]) for row in body])
-    lines = [",".join(["nm", *columns])]
-    lines += [",".join(map(repr, [nm, *values])) for nm, values in zip(GRID_NM, zip(*columns.values(), strict=True), strict=True)]
     path = work / "sheets.csv"
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path.write_text(table_of(columns), encoding="utf-8")
     return path
 
 
@@ -128,7 +132,6 @@ def row_of(bench, light, noise, powers, flags):
     untold, _ = bench.estimates(records, "--illuminant", "unknown", *flags)
     wrong = [one for other in LISTED if other != light for one in bench.told(records, other)]
     flat, _ = bench.estimates(bench.taken(light, noise, bench.flat), "--illuminant", "unknown", *flags)
-    doubts = lambda all: 100 * statistics.fmean("times as probable" in one["estimate"]["verdict"]["because"] for one in all)
     return {
         "light": Path(light).stem,
         "noise": noise,
@@ -141,14 +144,11 @@ def row_of(bench, light, noise, powers, flags):
         "wrong": mean_rmse(wrong),
         "wrong within": within(wrong),
         "flat": mean_rmse(flat),
-        "right doubted": doubts(right),
-        "wrong doubted": doubts(wrong),
     }
 
 
 COLUMNS = [
     "light", "noise", "found", "flat found", "right", "right within", "untold", "untold within", "wrong", "wrong within", "flat",
-    "right doubted", "wrong doubted",
 ]
 
 
@@ -162,15 +162,22 @@ def mean(name, noise, all):
 
 
 def without(bench, light):
-    """The lights that vestimate looks for, all but one."""
-    said = bench.estimates(bench.taken("D65", "0.3", bench.flat), "--illuminant", "unknown")[0]
-    names = sorted({one["name"] for sample in said for one in sample["estimate"]["light"]["candidates"]} - {light})
-    columns = {name: bench.power(name) for name in names}
-    lines = [",".join(["nm", *columns])]
-    lines += [",".join(map(repr, [nm, *values])) for nm, values in zip(GRID_NM, zip(*columns.values(), strict=True), strict=True)]
+    """Lights as vestimate looks for them (`src/spectrum/likely_lights.rs`), all but one, each as likely as any other."""
+    names = [f"daylight:{1e6 / mired:.0f}" for mired in range(80, 251, 10)] + [f"sun:{deg}deg" for deg in (30, 55, 70, 80)]
+    names += [f"{1e6 / mired:.0f}K" for mired in range(250, 401, 10)] + [f"FL{n}" for n in range(1, 13)]
+    names += [f"LED-{bulb}" for bulb in ("B1", "B2", "B3", "B4", "B5", "BH1", "RGB1", "V1", "V2")]
+    columns = {name: bench.power(name) for name in names if name != light}
     path = bench.work / f"without-{light}.csv"
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path.write_text(table_of(columns), encoding="utf-8")
     return ["--illuminants", path]
+
+
+def time_of(bench, noise, *flags):
+    """Processor time of an estimate, ms: that of all sheets over that of one, in a stream."""
+    lines = bench.taken("A", noise, bench.fold).splitlines(keepends=True)
+    of = lambda count: bench.estimates("".join(lines[: 1 + count]), *flags)[1]
+    few, many = of(1), of(len(lines) - 1)
+    return (many - few) / (len(lines) - 2)
 
 
 def main():
@@ -188,6 +195,10 @@ def main():
         of = lambda job: row_of(bench, *job, powers | {job[0]: bench.power(job[0])}, flags.get(job[0], []))
         with ThreadPoolExecutor(2) as pool:
             all = list(pool.map(of, jobs))
+        for noise in NOISES:
+            told, untold = time_of(bench, noise), time_of(bench, noise, "--illuminant", "unknown")
+            print(f"At noise {noise}, in light A, an estimate takes {told:.1f} ms with the light told, {untold:.0f} ms with it untold.")
+        print()
         print("| " + " | ".join(COLUMNS) + " |")
         print("|" + "---|" * len(COLUMNS))
         for noise in NOISES:

@@ -32,7 +32,7 @@ pub struct Curve {
 /// A light that was found.
 #[derive(Clone, Debug)]
 pub struct LightCurve {
-    /// What it is called.
+    /// What it is called, and how probable that is.
     pub name: String,
     /// Relative power, one number per wavelength of the spectrum.
     pub power: Vec<f64>,
@@ -112,7 +112,7 @@ fn draw_light<B: DrawingBackend>(
     let line = points(wavelengths_nm, power.iter().map(|power| scale * power));
     chart.draw_series(LineSeries::new(line, LIGHT.stroke_width(1)))?;
     if let Some(first_nm) = wavelengths_nm.first() {
-        let words = format!("  grey: the light as found, {name}, in no unit");
+        let words = format!("  grey: the expected light, most probably {name}, in no unit");
         let style = (FONT, 13).into_font().color(&LIGHT);
         chart.draw_series(std::iter::once(Text::new(words, (*first_nm, top), style)))?;
     }

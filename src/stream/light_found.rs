@@ -63,7 +63,10 @@ impl FoundLightRecord {
     /// The expected light as a curve to draw.
     #[must_use]
     pub fn curve(&self) -> LightCurve {
-        LightCurve { name: self.spectrum().name, power: self.power.clone() }
+        let most = self.candidates.first();
+        let name = most
+            .map_or_else(|| UNKNOWN_LIGHT.to_owned(), |one| format!("{} ({:.2})", one.name, one.probability));
+        LightCurve { name, power: self.power.clone() }
     }
 
     /// The expected light as that of a scene.

@@ -41,7 +41,10 @@ fn one_candidate_is_a_light_that_is_stated() {
         for name in ["reflectance", "reflectance_sd"] {
             assert!(rms(&numbers(&stated[name]), &numbers(&found[name])) < 1e-9, "{name}");
         }
-        assert!(stated["light"].is_null() && found["light"]["candidates"][0]["probability"] == 1.0, "{found}");
+        assert!(
+            stated["light"].is_null() && found["light"]["candidates"][0]["probability"] == 1.0,
+            "{found}"
+        );
     }
 }
 
@@ -103,7 +106,10 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
     ));
     assert_eq!(made.status, 0, "{made:?}");
     for (line, said) in [
-        ("vforward --reflectance 0.5 --illuminant unknown scene.json", "vforward computes what a camera sees"),
+        (
+            "vforward --reflectance 0.5 --illuminant unknown scene.json",
+            "vforward computes what a camera sees",
+        ),
         ("vestimate photo.ndjson --prior smooth", "the light is unknown"),
         ("vestimate photo.ndjson --join", "the light is unknown"),
         ("vestimate photo.ndjson --illuminant D65", "scenes have a light"),

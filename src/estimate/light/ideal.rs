@@ -17,9 +17,9 @@ use crate::estimate::search::{Search, Sorted};
 
 /// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question; that is more than what
 /// knowing the class of spectra changes.
-const LN_EVIDENCE_HOPELESS: f64 = -8.0;
+const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Under so many lights classes of spectra are told apart at most.
-const TOLD_APART: usize = 24;
+const TOLD_APART: usize = 48;
 
 /// The same facets in each light.
 struct InLights<'a>(Vec<FacetData<'a>>);

@@ -23,6 +23,11 @@ use crate::estimate::search::Search;
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
 
+/// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
+/// window.
+const WITHOUT_SKY: f64 = 0.1;
+const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
+
 /// A light, and the photograph in it.
 struct Way<'a> {
     /// The candidate; none for any daylight.
@@ -56,12 +61,13 @@ pub fn estimate_photograph(parts: &Parts, lights: &[Candidate], prior: &Prior) -
         .ok_or_else(|| Error::Numeric("the facets of the photograph are not finite".to_owned()))
 }
 
-/// All daylight as one way, each other light as one.
+/// All daylight under a sky as one way, each daylight without one and each other light as one.
 fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
     let of_daylight: f64 =
         lights.iter().filter(|light| light.is_any_daylight).map(|light| light.ln_share.exp()).sum();
+    let of_sky = (1.0 - WITHOUT_SKY) * of_daylight;
     let daylight =
-        (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_daylight.ln(), parts: parts.clone() });
+        (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
     // of lamps one hypothesis stands for all days, with the share of a clear one
     let ln_clear = Day::Clear.share(parts.told.beliefs).ln();
@@ -70,7 +76,17 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
         let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
         Way { light: Some(light), ln_share: light.ln_share - ln_days, parts }
     };
-    daylight.into_iter().chain(others.map(of)).collect()
+    let is_of_flash = |light: &&Candidate| {
+        light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
+    };
+    let flashes: Vec<&Candidate> = lights.iter().filter(is_of_flash).collect();
+    let ln_flash = (WITHOUT_SKY * of_daylight / flashes.len() as f64).ln() - ln_clear;
+    let of_flash = |light: &'a Candidate| Way {
+        light: Some(light),
+        ln_share: ln_flash,
+        parts: parts.in_light(&light.power).without_sky(),
+    };
+    daylight.into_iter().chain(flashes.into_iter().map(of_flash)).chain(others.map(of)).collect()
 }
 
 /// Those beside any daylight that are not out of the question, the likeliest first.

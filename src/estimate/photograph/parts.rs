@@ -190,4 +190,11 @@ impl Parts {
         (lit.eye.sun, lit.eye.sky) = (sun.clone(), sun);
         lit
     }
+
+    /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the ground.
+    #[must_use]
+    pub fn without_sky(mut self) -> Self {
+        self.told.daylight = None;
+        self
+    }
 }
