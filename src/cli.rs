@@ -25,7 +25,7 @@ pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid};
+use crate::spectrum::{ASSUMED_LIGHT, UNKNOWN_LIGHT, WavelengthGrid};
 use crate::stream::{Failures, Optics, Output};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
@@ -254,7 +254,7 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
     /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or
-    /// a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
+    /// a file; of a photograph also unknown: vestimate finds it; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
     /// [default: D65; of a photograph that says where and when it was taken, the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
@@ -315,6 +315,17 @@ impl OpticsArgs {
         }
     }
 
+    /// Refuses a light that is unknown, where a tool computes with it.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if one of the illuminants is.
+    pub fn known_illuminants(&self, why: &str) -> Result<()> {
+        match self.illuminant.iter().chain(&self.sky_illuminant).any(|spec| spec == UNKNOWN_LIGHT) {
+            true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' is no light"), why)),
+            false => Ok(()),
+        }
+    }
+
     /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera sees nothing where it
     /// was not measured. What was converted is said as `common` asks.
     ///
@@ -324,6 +335,7 @@ impl OpticsArgs {
         let camera = common.camera(camera)?;
         let light = |spec: &String| common.illuminant(spec);
         let illuminants: Vec<_> = match self.illuminant.as_slice() {
+            [unknown] if unknown == UNKNOWN_LIGHT => Vec::new(),
             [] => vec![common.illuminant(ASSUMED_LIGHT)?],
             given => given.iter().map(light).collect::<Result<_>>()?,
         };

@@ -45,6 +45,16 @@ impl Common {
         Ok(spectrum)
     }
 
+    /// All illuminants that `spec` names.
+    ///
+    /// # Errors
+    /// As [`Specs::illuminants`](crate::spectrum::spec::Specs::illuminants).
+    pub fn illuminants(&self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = stream::specs().illuminants(spec)?;
+        self.say_notes(&spectra);
+        Ok(spectra)
+    }
+
     /// The camera that `spec` names.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 use super::channels::{ChannelModel, Channels};
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
 use super::measured::{Measured, usable_facets};
+use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::Exposure;
 use crate::estimate::unknowns::{Amounts, Normal, SceneModel};
@@ -185,6 +186,17 @@ impl<'a> FacetData<'a> {
     pub fn with_known(&self, unknown: usize, value: f64) -> Self {
         let scene = self.scene.clone().into_owned().with_known(unknown, value);
         Self { scene: Cow::Owned(scene), ..self.clone() }
+    }
+
+    /// The same data in another light, as the camera responds to it. What the facets take of the bounces, and so the compression, is the same.
+    #[must_use]
+    pub fn in_light(&self, camera: &CameraResponse) -> Self {
+        let seen = |(n, channel): (usize, &ChannelModel)| {
+            let weights = DVector::from_column_slice(camera.channel(n));
+            ChannelModel { sources: channel.sources.clone(), weights: vec![weights; channel.sources.len()] }
+        };
+        let channels = Channels(self.channels.0.iter().enumerate().map(seen).collect());
+        Self { scene: Cow::Owned(self.scene.in_light(camera)), channels, ..self.clone() }
     }
 
     /// Whether the exposure is found from the facets.

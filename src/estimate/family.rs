@@ -24,7 +24,7 @@ pub trait SpectrumModel: Model {
 /// The models of some data.
 pub trait Family {
     /// What is taken to be so.
-    type Hypothesis: Copy;
+    type Hypothesis: Copy + PartialEq;
     /// As that of its models.
     type Second;
     /// The model under a hypothesis.
@@ -46,6 +46,11 @@ pub trait Family {
 
     /// A maximum counts as found within this many standard deviations of it.
     fn tolerance(&self) -> f64;
+
+    /// Whether there are dozens of hypotheses, many of which may be as likely as the first.
+    fn has_many_hypotheses(&self) -> bool {
+        false
+    }
 }
 
 /// By how much error bars are wider than the noise makes them. Data further from the model than their noise: the noise, or the scene, is

@@ -147,6 +147,22 @@ impl<H: Copy> Linear<H> {
         .filter(|linear| (linear.ln_determinant + linear.left).is_finite())
     }
 
+    /// Leaves out of what the data tell of logits what tells no classes apart. To weigh these takes most of the time of a hypothesis, and a third of
+    /// it then; of one alone that is little, and its digits stay as they are.
+    ///
+    /// # Source
+    /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an orthogonal transformation.
+    pub fn condense(&mut self) {
+        let qr = self.told.clone().col_piv_qr();
+        let mut told = qr.r();
+        let count = (0..told.nrows()).take_while(|n| told[(*n, *n)].powi(2) > NEGLIGIBLE).count();
+        qr.p().inv_permute_columns(&mut told);
+        let mut off = self.off.clone();
+        qr.q_tr_mul(&mut off);
+        self.left += off.rows(count, off.len() - count).norm_squared();
+        (self.told, self.off) = (told.rows(0, count).into_owned(), off.rows(0, count).into_owned());
+    }
+
     /// Whether the data tell so much of a spectrum that classes of less evidence may be left out.
     pub fn is_telling(&self, gaussian: &Gaussian) -> bool {
         let spread = &self.told * gaussian.basis();
@@ -328,6 +344,11 @@ impl<H: Copy> Candidate<H> {
     /// What is taken to be so.
     pub fn hypothesis(&self) -> H {
         self.linear.hypothesis
+    }
+
+    /// Logarithm of how often that is so.
+    pub fn ln_share_of_hypothesis(&self) -> f64 {
+        self.linear.ln_share
     }
 
     /// The Gaussian of the class, as wide as it is likely to be.

@@ -64,7 +64,12 @@ fn impossible(data: &FacetData, found: &Found) -> Option<(usize, f64)> {
 }
 
 /// What was `found`, as far off as another mixture says.
-fn into_estimate(data: &FacetData, found: &Found, off: &Found, trace: Vec<Vec<Iteration>>) -> Estimate {
+pub(super) fn into_estimate<H>(
+    data: &FacetData,
+    found: &Mixture<H, Second>,
+    off: &Mixture<H, Second>,
+    trace: Vec<Vec<Iteration>>,
+) -> Estimate {
     let (bands, unknowns) = (data.scene().facets().bands(), data.scene().unknowns());
     let sd = |column: usize| off.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
     let w = &off.best.start.w;
@@ -98,6 +103,7 @@ fn into_estimate(data: &FacetData, found: &Found, off: &Found, trace: Vec<Vec<It
         residual_rms: found.best.rms,
         unexplained: data.unexplained(&found.best.at.residuals),
         day: None,
+        light: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
         trace,

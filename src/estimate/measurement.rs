@@ -7,6 +7,7 @@
 use std::slice;
 
 use super::data::FacetData;
+use super::light::{self, Candidate};
 use super::measured::Measured;
 use super::photograph::day::Day;
 use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
@@ -44,6 +45,8 @@ pub struct Inference<'a> {
     pub is_auto: bool,
     /// Light and camera as they were stated.
     pub stated: &'a Stated,
+    /// What the light may be; none if it is known.
+    pub lights: &'a [Candidate],
     /// The facets of a panel, if the surface is a fold.
     pub panel: Option<FacetGrid>,
 }
@@ -106,7 +109,10 @@ impl<'a> Inference<'a> {
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
     pub fn measure(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
-        let ideal = || map::estimate(data, self.prior, self.start);
+        let ideal = || match self.lights {
+            [] => map::estimate(data, self.prior, self.start),
+            lights => light::estimate(data, lights, self.prior, self.start),
+        };
         let Some(photograph) = facets.photograph else {
             let estimate = ideal()?;
             let doubts = beyond_chance(&estimate, data.size().1).into_iter().collect();
@@ -114,6 +120,10 @@ impl<'a> Inference<'a> {
         };
         let mut doubts = self.doubts_of_taking(photograph);
         let parts = match &photograph.parts {
+            Some(Ok(parts)) if !self.lights.is_empty() => {
+                let estimate = light::estimate_photograph(parts, self.lights, self.prior)?;
+                return Ok(self.judged(facets, estimate, doubts));
+            }
             Some(Ok(parts)) => parts,
             Some(Err(why)) if self.is_auto => {
                 let estimate = ideal()?;
@@ -172,7 +182,12 @@ impl<'a> Inference<'a> {
                 let one = estimate.fitted.iter().find(|one| one.unknown == unknown);
                 one.map(|one| one.value)
             };
-            let ideal = self.model.with_found(found).facet_rgb(&estimate.reflectance);
+            let model = self.model.with_found(found);
+            let light = estimate.light.as_ref().and_then(|light| light.most_probable(self.lights));
+            let ideal = match light {
+                Some(light) => model.in_light(&light.camera).facet_rgb(&estimate.reflectance),
+                None => model.facet_rgb(&estimate.reflectance),
+            };
             let shading = Shading::new(panel, rgb, sd, &ideal);
             let is_sunlit = estimate.day.is_none_or(|found| found.day == Day::Clear);
             doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(is_sunlit)));

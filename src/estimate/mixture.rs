@@ -25,7 +25,8 @@ pub struct Maximum<H, S> {
 }
 
 /// A class that was not searched, where the linear model has its maximum.
-pub struct Beside {
+pub struct Beside<H> {
+    hypothesis: H,
     pub ln_evidence: f64,
     values: Vec<f64>,
 }
@@ -37,6 +38,8 @@ pub struct Mixture<H, S> {
     pub spread: Option<DMatrix<f64>>,
     /// The maximum of most evidence.
     pub best: Maximum<H, S>,
+    /// Hypotheses by how probable they are, which adds up to 1; one stands there as often as classes of spectra count under it.
+    pub shares: Vec<(H, f64)>,
     /// Logarithm of the evidence for all.
     pub ln_evidence: f64,
 }
@@ -67,21 +70,26 @@ impl<H: Copy, S> Maximum<H, S> {
     }
 }
 
-impl Beside {
+impl<H: Copy> Beside<H> {
     /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is not finite.
-    pub fn of<F: Family>(family: &F, candidate: &Candidate<F::Hypothesis>, prior: &Prior) -> Option<Self> {
+    pub fn of<F: Family<Hypothesis = H>>(
+        family: &F,
+        candidate: &Candidate<H>,
+        prior: &Prior,
+    ) -> Option<Self> {
+        let hypothesis = candidate.hypothesis();
         let gaussian = candidate.gaussian(prior);
         let LinearMaximum { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
-        let model = family.model(candidate.hypothesis(), &gaussian)?;
+        let model = family.model(hypothesis, &gaussian)?;
         let ln_evidence = ln_evidence_of_fit - 0.5 * model.residuals(&w).norm_squared();
-        ln_evidence.is_finite().then(|| Self { ln_evidence, values: model.values(&w) })
+        ln_evidence.is_finite().then(|| Self { hypothesis, ln_evidence, values: model.values(&w) })
     }
 }
 
-impl<H, S> Mixture<H, S> {
+impl<H: Copy, S> Mixture<H, S> {
     /// The mean of the maxima and of what is `beside` them by evidence, its errors widened by how far they are from it. What was not searched
     /// counts for no more than the best that was, and is taken to be known as the maxima are in the mean. None if there is no maximum.
-    pub fn of(mut maxima: Vec<Maximum<H, S>>, beside: &[Beside]) -> Option<Self> {
+    pub fn of(mut maxima: Vec<Maximum<H, S>>, beside: &[Beside<H>]) -> Option<Self> {
         maxima.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
         let most = maxima.first()?;
         let all = maxima.iter().map(|one| (one.ln_evidence, &one.values));
@@ -105,6 +113,9 @@ impl<H, S> Mixture<H, S> {
             DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
         });
         let ln_evidence = most.ln_evidence + sum.ln();
-        Some(Self { values: values.data.into(), spread, best: maxima.swap_remove(0), ln_evidence })
+        let hypotheses = maxima.iter().map(|one| one.start.hypothesis);
+        let hypotheses = hypotheses.chain(beside.iter().map(|one| one.hypothesis));
+        let shares = hypotheses.zip(odds.iter().map(|odds| odds / sum)).collect();
+        Some(Self { values: values.data.into(), spread, shares, best: maxima.swap_remove(0), ln_evidence })
     }
 }

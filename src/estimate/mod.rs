@@ -11,6 +11,7 @@ mod facets;
 mod family;
 pub mod gaussian;
 pub mod khan;
+pub mod light;
 mod linear;
 pub mod map;
 pub mod measured;
@@ -98,6 +99,8 @@ pub struct Estimate {
     pub unexplained: f64,
     /// The kind of day on which the photograph was taken, where that is looked for.
     pub day: Option<photograph::day::Found>,
+    /// The light, where nobody stated it.
+    pub light: Option<light::FoundLight>,
     /// Probability that no light bounces between the panels, as far as that is weighed.
     pub without_bounces: f64,
     /// Iterations.

@@ -32,9 +32,13 @@ const TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -3.0;
 const UNTOLD_TRIED: usize = 24;
 const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
-/// The least evidence, likewise, for one that counts without a search, and how many do.
+/// The least evidence, likewise, for one that counts without a search, how many do, and how many of many hypotheses.
 const BESIDE_LN_EVIDENCE_LEAST: f64 = -4.0;
 const BESIDE: usize = 15;
+const BESIDE_OF_MANY: usize = 100;
+/// Hypotheses whose likeliest class comes so near to that of the best, likewise, are followed to the fine noise, and so many of them at most.
+const FOLLOWED_LN_EVIDENCE_LEAST: f64 = -8.0;
+const FOLLOWED: usize = 8;
 /// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which may be of another scene than was
 /// told, so many that no search that explains them comes near to that.
 const LIMIT: usize = 90;
@@ -130,15 +134,15 @@ impl<'a, F: Family> Search<'a, F> {
                     maximise(&model, one.solution.w.clone(), (coarse, coarse), tolerance, SORTING_LIMIT);
                 Linear::about(&model, (&w, &at), coarse, of)
             };
-            let linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            let mut linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            if family.has_many_hypotheses() {
+                linears.iter_mut().for_each(Linear::condense);
+            }
             is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
             likely = candidates(family, linears, prior);
         }
-        if fine < coarse
-            && let Some(first) = likely.first()
-            && let Some(start) = first.start(family, prior)
-        {
-            likely = self.nearer(start).unwrap_or(likely);
+        if fine < coarse {
+            likely = self.nearer(&likely).unwrap_or(likely);
         }
         let tried = of_most_evidence(&likely, |one| one.ln_evidence, is_telling).len();
         self.skipped = likely.len() - tried;
@@ -189,7 +193,11 @@ impl<'a, F: Family> Search<'a, F> {
         }
         self.trace.extend(found.iter().map(|one| one.trace.clone()));
         // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which does not explain them
-        let count = if are_precise { 0 } else { BESIDE };
+        let count = match family.has_many_hypotheses() {
+            _ if are_precise => 0,
+            true => BESIDE_OF_MANY,
+            false => BESIDE,
+        };
         let least = likely.first().map_or(0.0, |first| first.ln_evidence + BESIDE_LN_EVIDENCE_LEAST);
         let beside = likely[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
         let beside: Vec<_> = beside.filter_map(|one| Beside::of(family, one, prior)).collect();
@@ -207,16 +215,30 @@ impl<'a, F: Family> Search<'a, F> {
         Some(Maximum::of(&model, found, start))
     }
 
-    /// Candidates about the maximum under one of them at the fine noise; none if the search does not come to its end.
-    fn nearer(&mut self, start: Start<F::Hypothesis>) -> Option<Vec<Candidate<F::Hypothesis>>> {
+    /// Candidates about the maxima that the likeliest class leads to at the fine noise, under each hypothesis that comes near to the best; none
+    /// if no search comes to its end.
+    fn nearer(&mut self, likely: &[Candidate<F::Hypothesis>]) -> Option<Vec<Candidate<F::Hypothesis>>> {
+        let least = likely.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
+        let mut firsts: Vec<&Candidate<F::Hypothesis>> = Vec::new();
+        for one in likely.iter().take_while(|one| one.ln_evidence >= least) {
+            if firsts.len() < FOLLOWED && firsts.iter().all(|first| first.hypothesis() != one.hypothesis()) {
+                firsts.push(one);
+            }
+        }
+        let linears = firsts.into_iter().filter_map(|first| self.about_fine(first)).collect();
+        Some(candidates(self.family, linears, self.prior)).filter(|found| !found.is_empty())
+    }
+
+    /// The model linear about the maximum under a candidate at the fine noise; none if the search does not come to its end.
+    fn about_fine(&mut self, candidate: &Candidate<F::Hypothesis>) -> Option<Linear<F::Hypothesis>> {
+        let start = candidate.start(self.family, self.prior)?;
         let model = self.family.model(start.hypothesis, &start.gaussian)?;
         let found = maximise(&model, start.w, (start.inflation, self.fine), FINE_TOLERANCE, FINE_LIMIT);
         self.trace.push(found.trace);
         match found.termination {
             Termination::Converged { .. } => {
-                let linear =
-                    Linear::about(&model, (&found.w, &found.at), self.fine, (start.hypothesis, 0.0))?;
-                Some(candidates(self.family, vec![linear], self.prior))
+                let of = (start.hypothesis, candidate.ln_share_of_hypothesis());
+                Linear::about(&model, (&found.w, &found.at), self.fine, of)
             }
             Termination::NoProgress { .. } | Termination::IterationLimit => None,
         }

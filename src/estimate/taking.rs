@@ -7,10 +7,10 @@ use crate::image::{Making, Processing};
 use crate::spectrum::is_other_camera;
 use crate::spectrum::library::{What, is_built_in};
 
-/// Light and camera as they were stated: no facet shows that they are others.
+/// Light and camera as they were stated, and as they are believed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stated {
-    /// Names of the lights.
+    /// Names of the lights; none if nobody stated any.
     pub lights: Vec<String>,
     /// Whether daylight was assumed, as nobody stated a light.
     pub is_daylight_assumed: bool,
@@ -22,12 +22,23 @@ pub struct Stated {
     pub has_one_peak: bool,
 }
 
+impl Stated {
+    /// The same where the light was found.
+    #[must_use]
+    pub fn but_light(self) -> Self {
+        Self { lights: Vec::new(), is_daylight_assumed: false, ..self }
+    }
+}
+
 impl fmt::Display for Stated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let whose = if self.is_daylight_assumed { ", which nobody told," } else { "" };
         let scaled =
             if self.has_one_peak { ", whose channels are each scaled to the same peak," } else { "" };
-        write!(f, "the light {}{whose} and the camera {}{scaled}", self.lights.join(", "), self.camera)
+        if !self.lights.is_empty() {
+            write!(f, "the light {}{whose} and ", self.lights.join(", "))?;
+        }
+        write!(f, "the camera {}{scaled}", self.camera)
     }
 }
 

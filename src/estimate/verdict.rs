@@ -1,8 +1,7 @@
 //! Whether an estimate can be believed: good, doubtful or wrong, because of what, and what to do.
 //!
 //! It rests on evidence: how far the facets are from the model, whether another scene than the one that was told explains them better, and
-//! how much of the spectrum they leave open. What facets cannot show, the colour of the light and the camera's curves, is said to be as it
-//! was told.
+//! how much of the spectrum they leave open. What is believed as it was told, the colour of the light and the camera's curves, is named.
 
 use std::{fmt, iter};
 
@@ -102,7 +101,7 @@ impl Verdict {
     /// # Arguments
     /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the gravest is the verdict's reason, and
     ///   what stands first of all is said too, as it may be the cause.
-    /// - `untold`: what the facets cannot show, in words: light and camera as they were told.
+    /// - `untold`: what is believed as it was told, in words: light and camera.
     #[must_use]
     pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, untold: &str) -> Self {
         let own = [without_bounces(estimate), misfit(estimate), open(estimate)];
@@ -124,7 +123,7 @@ impl Verdict {
             None => Self {
                 level: Level::Good,
                 because: format!(
-                    "facets within {:.1} times their expected error; it rests on {untold}, which facets do not show",
+                    "facets within {:.1} times their expected error; it rests on {untold}, taken to be right",
                     estimate.residual_rms
                 ),
                 remedy: None,
@@ -285,6 +284,7 @@ mod tests {
             residual_rms,
             unexplained: 0.0,
             day: None,
+            light: None,
             without_bounces: 0.0,
             iterations: 1,
             trace: Vec::new(),

@@ -65,6 +65,13 @@ impl FacetModel {
         scaled
     }
 
+    /// The same with the camera's response to another light in the place of that to each of the sources.
+    #[must_use]
+    pub fn in_light(&self, camera: &CameraResponse) -> Self {
+        let source = |source: &Source| Source { facets: source.facets.clone(), camera: camera.clone() };
+        Self::of(self.terms.clone(), self.sources.iter().map(source).collect())
+    }
+
     /// The terms for a spectrum: waveband by term. Never `1/r`: black is a legal reflectance.
     #[must_use]
     pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {

@@ -159,6 +159,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         start: None,
         is_auto: true,
         stated: &stated(fold.optics()?, fold.is_daylight_assumed),
+        lights: &[],
         panel: Some(fold.fold.facets()),
     };
     let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);

@@ -25,7 +25,22 @@ pub struct Curve {
     pub reflectance_sd: Option<Vec<f64>>,
     /// True wavelengths and reflectances, drawn dashed.
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
+    /// The light, where it was found along with the spectrum.
+    pub light: Option<LightCurve>,
 }
+
+/// A light that was found.
+#[derive(Clone, Debug)]
+pub struct LightCurve {
+    /// What it is called, and how probable that is.
+    pub name: String,
+    /// Relative power, one number per wavelength of the spectrum.
+    pub power: Vec<f64>,
+}
+
+/// The light is drawn as high as that share of the chart, and called by its name there.
+const LIGHT_HEIGHT: f64 = 0.9;
+const LIGHT: RGBColor = RGBColor(150, 150, 150);
 
 /// Curves over wavelength, at least one, in the order of [`COLOURS`]; swatches beneath name them.
 pub(super) struct Spectra<'a>(pub Vec<&'a Curve>);
@@ -57,6 +72,9 @@ impl Figure for Spectra<'_> {
             let truth = if self.0.len() == 1 { BLACK.stroke_width(2) } else { colour.stroke_width(1) };
             draw_curve(&mut chart, curve, colour, truth)?;
         }
+        if let [Curve { wavelengths_nm, light: Some(light), .. }] = self.0.as_slice() {
+            draw_light(&mut chart, wavelengths_nm, light, top(curves()))?;
+        }
         Ok(())
     }
 }
@@ -80,6 +98,24 @@ pub(super) fn draw_curve<B: DrawingBackend>(
     }
     let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
     chart.draw_series(LineSeries::new(line, colour.stroke_width(2)))?;
+    Ok(())
+}
+
+/// The light beneath a single spectrum, in no unit.
+fn draw_light<B: DrawingBackend>(
+    chart: &mut Chart<B>,
+    wavelengths_nm: &[f64],
+    LightCurve { name, power }: &LightCurve,
+    top: f64,
+) -> Drawn<B> {
+    let scale = LIGHT_HEIGHT * top / power.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let line = points(wavelengths_nm, power.iter().map(|power| scale * power));
+    chart.draw_series(LineSeries::new(line, LIGHT.stroke_width(1)))?;
+    if let Some(first_nm) = wavelengths_nm.first() {
+        let words = format!("  grey: the expected light, most probably {name}, in no unit");
+        let style = (FONT, 13).into_font().color(&LIGHT);
+        chart.draw_series(std::iter::once(Text::new(words, (*first_nm, top), style)))?;
+    }
     Ok(())
 }
 

@@ -178,6 +178,7 @@ mod tests {
             reflectance: vec![0.0, 1.0],
             reflectance_sd: None,
             truth: None,
+            light: None,
         }
     }
 

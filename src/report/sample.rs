@@ -8,11 +8,11 @@ use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
 use crate::estimate::verdict::Level;
 use crate::plot::sheet::Sheet;
-use crate::stream::{EstimateRecord, FittedRecord, Sample};
+use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 
 /// Fields that have a table or a drawing of their own, or are what all records have.
 const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
-const TOLD_OF_ESTIMATE: [&str; 5] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd"];
+const TOLD_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
@@ -25,6 +25,7 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     parts.extend(overlay::figure(&sample.id(), gallery, view)?);
     parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(findings));
+    parts.extend(estimate.as_ref().and_then(light));
     parts.extend(estimate.as_ref().and_then(fitted));
     parts.extend(estimate.as_ref().map(|estimate| numbers(estimate, sample)).transpose()?);
     if let Some(residuals) = sheet.as_ref().map(residuals).transpose()?.flatten() {
@@ -80,6 +81,14 @@ fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
     let Some(svg) = sheet.residuals_svg()? else { return Ok(None) };
     let words = format!("residuals of the facets of {}", sheet.curve.name);
     Ok(Some(Html::figure(Html::drawing(&svg, &words), "Patternless where the model is right.")))
+}
+
+/// What the light may have been, where nobody stated it.
+fn light(estimate: &EstimateRecord) -> Option<Html> {
+    let light = estimate.light.as_ref()?;
+    let row = |one: &CandidateRecord| vec![one.name.as_str().into(), digits(one.probability, 0.0).into()];
+    let rows = light.candidates.iter().map(row);
+    Some(Html::table("The light, as the facets have it", &["light", "probability"], rows))
 }
 
 /// What was fitted, each number with its standard deviation, in its unit.

@@ -22,6 +22,8 @@ pub fn sheet(
     illuminant: &Spectrum,
     observer: Observer,
 ) -> Result<Sheet> {
+    let lit = estimate.lit(scene)?;
+    let scene = lit.as_ref().unwrap_or(scene);
     let curve = sample.curve(estimate);
     let setting = Setting::of(scene)?;
     let panels: Vec<_> = setting.panels().into_iter().flatten().collect();

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::photograph::eye;
 use super::{FoldSetting, Setting};
 use crate::error::Result;
+use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
 use crate::stream::{Optics, needs_fold};
 
@@ -41,7 +42,7 @@ impl FoldSetting {
         let sun = DVector::from_column_slice(&illuminants[0].power);
         // pictures in other lights have a sun each
         let daylight_vectors = eye::vectors(grid)?;
-        let daylight = if illuminants.len() == 1 { eye::daylight(&daylight_vectors, &sun) } else { None };
+        let daylight = if illuminants.len() == 1 { Daylight::of(&daylight_vectors, &sun) } else { None };
         Ok(FoldInLight {
             sun_power: sun,
             daylight_vectors,

@@ -21,7 +21,7 @@ pub struct FoldSetting {
     pub light: Light,
     /// What all bounces make of light.
     pub response: Response,
-    /// Camera and illuminants, if there is one.
+    /// Camera and illuminants, if there is one and these are known.
     pub optics: Option<Optics>,
     /// Whether the illuminant is daylight that was assumed, as nobody stated it.
     pub is_daylight_assumed: bool,
@@ -41,13 +41,15 @@ impl FoldSetting {
     }
 
     pub(super) fn with_fold(scene: &Scene, fold: Fold) -> Result<Self> {
+        // where panels are seen, no light is asked for
+        let is_lit = scene.has_camera() && !scene.is_light_unknown()?;
         let is_fine = scene.has_accuracy() && scene.mesh()? == Mesh::Auto.to_string();
         Ok(Self {
             light: scene.light_on(&fold)?,
             response: scene.response_of(&fold)?,
-            optics: if scene.has_camera() { Some(scene.optics()?) } else { None },
+            optics: if is_lit { Some(scene.optics()?) } else { None },
             is_daylight_assumed: scene.is_daylight_assumed()?,
-            card: if scene.has_camera() { card(scene)? } else { None },
+            card: if is_lit { card(scene)? } else { None },
             tolerance: if is_fine { Some(scene.tolerance()?) } else { None },
             fold,
         })
@@ -56,9 +58,14 @@ impl FoldSetting {
     /// Camera and illuminants.
     ///
     /// # Errors
-    /// [`Error::Field`] if no camera looks at the fold.
+    /// [`Error::Field`] if no camera looks at the fold, or its light is unknown.
     pub fn optics(&self) -> Result<&Optics> {
-        let missing = || Error::field("camera", "missing; give --camera to vforward or vextract");
+        let missing = || {
+            Error::field(
+                "camera",
+                "it, or the light, is missing; give --camera and --illuminant to vforward or vextract",
+            )
+        };
         self.optics.as_ref().ok_or_else(missing)
     }
 

@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
+use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::estimate::photograph::{Told, Unmodelled};
@@ -137,7 +138,7 @@ impl<'a> PhotographedFold<'a> {
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
             tilt_deg: light.tilt_deg(),
-            daylight: eye::daylight(&eye.daylight, &eye.sun),
+            daylight: Daylight::of(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
             sky: Some(light.sky()).filter(|sky| *sky > 0.0),
             sun: light.sun(),

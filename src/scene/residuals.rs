@@ -19,6 +19,8 @@ pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> R
     if fit.iter().any(|unknown| unknown.is_of_photographs()) {
         return Ok(None);
     }
+    let lit = estimate.lit(scene)?;
+    let scene = lit.as_ref().unwrap_or(scene);
     let (model, measured) = (Setting::of(scene)?.model_to_fit(&fit)?, sample.facet_rgb()?);
     let sd = sample.noise_of(estimate)?.deviations(model.facets(), &measured)?;
     let found =

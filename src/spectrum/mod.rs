@@ -13,6 +13,7 @@ mod grid;
 mod interpolation;
 mod kinds;
 pub mod library;
+mod likely_lights;
 mod munsell;
 mod names;
 mod own;
@@ -28,6 +29,7 @@ pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;
 pub use library::{camera_by_exif, is_other_camera, other_measurements};
+pub use likely_lights::{LikelyLight, equally_likely, likely_lights};
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 
@@ -38,6 +40,9 @@ use std::sync::Arc;
 
 /// The illuminant of a fold or photograph of which nobody stated one.
 pub const ASSUMED_LIGHT: &str = "D65";
+
+/// What stands for an illuminant that nobody knows: evidence finds it.
+pub const UNKNOWN_LIGHT: &str = "unknown";
 
 /// A quantity tabulated over wavelength, with an [`Interpolation`] between its samples.
 ///

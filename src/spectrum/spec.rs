@@ -114,6 +114,16 @@ impl Specs {
         Ok(illuminant)
     }
 
+    /// All illuminants that `spec` names: every column of a file.
+    ///
+    /// # Errors
+    /// As [`Specs::illuminant`], but that there may be several.
+    pub fn illuminants(self, spec: &str) -> Result<Vec<Spectrum>> {
+        let lights = self.find(What::Illuminants, spec)?;
+        lights.iter().try_for_each(|light| check_power(light, 0.0))?;
+        Ok(lights)
+    }
+
     /// The camera that `spec` names.
     ///
     /// # Errors

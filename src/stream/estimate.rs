@@ -6,9 +6,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
+use super::light_found::FoundLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
 use super::sample::{Sample, checked};
+use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
 use crate::estimate::noise::Noise;
@@ -62,6 +64,9 @@ pub struct EstimateRecord {
     /// The kind of day on which a photograph in daylight was taken.
     #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
     day: Option<DayRecord>,
+    /// The light, where nobody stated it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub light: Option<FoundLightRecord>,
     /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this sample's among them; absent of
     /// a sample that was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -251,6 +256,17 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
+    /// The scene in the light that was found; none if the scene says its own.
+    ///
+    /// # Errors
+    /// As [`Scene::in_light`].
+    pub fn lit(&self, scene: &Scene) -> Result<Option<Scene>> {
+        match &self.light {
+            Some(light) if scene.is_light_unknown()? => scene.in_light(light.spectrum()).map(Some),
+            Some(_) | None => Ok(None),
+        }
+    }
+
     /// As a file of spectra has it, under that name.
     #[must_use]
     pub fn measured(&self, name: String) -> Measured {
@@ -325,6 +341,7 @@ impl Sample {
             day: estimate
                 .day
                 .map(|found| DayRecord { kind: found.day.name().to_owned(), probability: found.probability }),
+            light: estimate.light.as_ref().map(FoundLightRecord::of).transpose()?,
             findings: estimate.findings.iter().map(FindingRecord::from).collect(),
             verdict: verdict.map(VerdictRecord::from),
             skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
@@ -375,7 +392,8 @@ impl Sample {
         let Measured { name, wavelengths_nm, reflectance, reflectance_sd } = estimate.measured(self.id());
         // vscore judges the truth; what is not a spectrum cannot be drawn.
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
-        Curve { name, wavelengths_nm, reflectance, reflectance_sd, truth }
+        let light = estimate.light.as_ref().map(FoundLightRecord::curve);
+        Curve { name, wavelengths_nm, reflectance, reflectance_sd, truth, light }
     }
 }
 

@@ -127,6 +127,11 @@ impl Fields {
         Ok(())
     }
 
+    /// Takes a field out, if it is there.
+    pub fn remove(&mut self, name: &str) {
+        self.0.retain(|(other, _)| other != name);
+    }
+
     fn insert(&mut self, name: String, value: Box<RawValue>) {
         match self.0.iter_mut().find(|(other, _)| *other == name) {
             Some((_, old)) => *old = value,

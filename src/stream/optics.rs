@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::LARGEST;
 use crate::error::{Error, Result};
-use crate::spectrum::{Interpolation, Outside, Sensitivities, Spectrum, WavelengthGrid};
+use crate::spectrum::{
+    ASSUMED_LIGHT, Interpolation, Outside, Sensitivities, Spectrum, WavelengthGrid, illuminant,
+};
 
 /// A named spectrum on the scene's wavelengths.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
@@ -58,7 +60,7 @@ pub struct Optics {
     pub grid: WavelengthGrid,
     /// The camera.
     pub camera: CameraRecord,
-    /// The sun, or whatever stands in its place: a picture under each.
+    /// The sun, or whatever stands in its place: a picture under each. None if the light is unknown.
     pub illuminants: Vec<SpectrumRecord>,
     /// The sky, if it has another spectrum.
     pub sky: Option<SpectrumRecord>,
@@ -128,8 +130,53 @@ impl Scene {
     pub fn set_optics(&mut self, optics: &Optics) -> Result<()> {
         self.fields.set("wavelengths_nm", optics.grid.wavelengths_nm())?;
         self.fields.set("camera", &optics.camera)?;
+        if optics.illuminants.is_empty() {
+            return self.forget_light();
+        }
         self.fields.set("illuminants", &optics.illuminants)?;
         optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
+    }
+
+    /// Forgets what the light is, as far as the scene says it.
+    ///
+    /// # Errors
+    /// As [`Fields::set`](super::Fields::set).
+    pub fn forget_light(&mut self) -> Result<()> {
+        ["illuminants", "sky_illuminant", "daylight_assumed"]
+            .iter()
+            .for_each(|name| self.fields.remove(name));
+        self.fields.set("illuminant_unknown", true)
+    }
+
+    /// Whether nobody knows the light.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if that is neither true nor false.
+    pub fn is_light_unknown(&self) -> Result<bool> {
+        Ok(self.fields.get("illuminant_unknown")?.unwrap_or(false))
+    }
+
+    /// The same scene in a light.
+    ///
+    /// # Errors
+    /// As [`Fields::set`](super::Fields::set).
+    pub fn in_light(&self, light: SpectrumRecord) -> Result<Self> {
+        let mut lit = self.clone();
+        lit.fields.remove("illuminant_unknown");
+        lit.fields.set("illuminants", [light])?;
+        Ok(lit)
+    }
+
+    /// The same scene in the daylight that is assumed where nobody says anything.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if that does not cover the wavelengths.
+    pub fn in_assumed_light(&self, grid: &WavelengthGrid) -> Result<Self> {
+        let power = illuminant(ASSUMED_LIGHT)?.on(grid, Outside::Refuse)?;
+        let mut lit =
+            self.in_light(SpectrumRecord { name: ASSUMED_LIGHT.to_owned(), power, interpolation: None })?;
+        lit.set_daylight_assumed()?;
+        Ok(lit)
     }
 
     /// Marks the illuminant as one that nobody told.
@@ -179,8 +226,13 @@ impl Scene {
     /// The illuminants, at least one.
     ///
     /// # Errors
-    /// [`Error::Field`] if they are missing or not on the scene's wavelengths.
+    /// [`Error::Field`] if they are missing, unknown or not on the scene's wavelengths.
     pub fn illuminants(&self) -> Result<Vec<SpectrumRecord>> {
+        if self.is_light_unknown()? {
+            let problem =
+                "unknown, and needed here; give vextract --illuminant the light, or leave it to vestimate";
+            return Err(Error::field("illuminants", problem));
+        }
         let illuminants: Vec<SpectrumRecord> =
             self.fields.require("illuminants", "give --illuminant to vforward or vextract")?;
         if illuminants.is_empty() {

@@ -47,4 +47,5 @@ mod spectra_files;
 mod streams;
 mod tables;
 mod terminal;
+mod unknown_light;
 mod verdict;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use vfold::Result;
+use vfold::estimate::light::Candidate;
 use vfold::estimate::measurement::Inference;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::taking::Stated;
@@ -26,6 +27,8 @@ pub struct Context {
     pub fold: Option<Box<FoldSetting>>,
     /// Light and camera.
     pub stated: Stated,
+    /// What the light may be; none if it is known.
+    pub lights: Vec<Candidate>,
 }
 
 /// The method on the wavelengths of a scene.
@@ -37,13 +40,15 @@ pub enum SceneMethod {
 }
 
 impl Context {
-    /// That of a scene of which `fit` is unknown.
+    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one of them.
     pub fn new(
         scene: &Scene,
         method: SceneMethod,
         start: Option<Vec<f64>>,
         fit: &[&'static Unknown],
+        lights: Vec<Candidate>,
     ) -> Result<Self> {
+        let stated = stated(&scene.optics()?, scene.is_daylight_assumed()?);
         let setting = Setting::of(scene)?;
         Ok(Self {
             grid: scene.grid()?,
@@ -54,7 +59,8 @@ impl Context {
                 Setting::Fold(fold) => Some(fold),
                 Setting::Surface(_) => None,
             },
-            stated: stated(&scene.optics()?, scene.is_daylight_assumed()?),
+            stated: if lights.is_empty() { stated } else { stated.but_light() },
+            lights,
         })
     }
 
@@ -67,6 +73,7 @@ impl Context {
             start: self.start.as_deref(),
             is_auto,
             stated: &self.stated,
+            lights: &self.lights,
             panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
         }
     }

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
+use vfold::estimate::light::Candidate;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::{Facets, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
@@ -15,8 +16,10 @@ use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
 use vfold::forward::FacetValues;
 use vfold::scene::{Setting, photographed};
-use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, equally_likely, likely_lights};
+use vfold::stream::{
+    CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
+};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -50,6 +53,8 @@ pub struct Estimator<'a> {
     method: Method,
     /// What is fitted beside the spectrum.
     fit: Vec<&'static Unknown>,
+    /// Whether the light is to be found, whatever scenes say of it.
+    forgets_light: bool,
     /// The prior of the scene before, with its wavelengths, nm.
     last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
 }
@@ -103,6 +108,9 @@ impl Transform for Estimator<'_> {
 
     fn scene(&self, scene: &mut Scene) -> Result<Context> {
         let grid = scene.grid()?;
+        if self.forgets_light {
+            scene.forget_light()?;
+        }
         if let Some(spec) = &self.args.reference_panel {
             let card = self.args.common.one_reflectance("--reference-panel", spec)?;
             let reflectance = card.on(&grid, Outside::Refuse)?;
@@ -112,10 +120,16 @@ impl Transform for Estimator<'_> {
         if !materials.is_empty() {
             scene.set_materials(&materials)?;
         }
+        let lights =
+            if scene.is_light_unknown()? { self.lights_before(&scene.camera()?, &grid)? } else { Vec::new() };
+        // in whichever light, the scene is made of the same parts
+        let lit = if lights.is_empty() { None } else { Some(scene.in_assumed_light(&grid)?) };
         let method = match &self.method {
             Method::Map(spectra) => SceneMethod::Map(self.prior_on(&grid, spectra.as_ref())?),
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
-            Method::Flat(flat) => SceneMethod::Flat(flat.context(&grid, &Setting::of(scene)?.model()?)?),
+            Method::Flat(flat) => {
+                SceneMethod::Flat(flat.context(&grid, &Setting::of(lit.as_ref().unwrap_or(scene))?.model()?)?)
+            }
         };
         if !self.args.common.no_history {
             scene.fields.add_history("vestimate")?;
@@ -126,7 +140,7 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        Context::new(scene, method, start, &self.fit)
+        Context::new(lit.as_ref().unwrap_or(scene), method, start, &self.fit, lights)
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
@@ -172,6 +186,7 @@ impl<'a> Estimator<'a> {
             args,
             method: method(args)?,
             fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
+            forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             last_prior: Mutex::default(),
         })
     }
@@ -221,6 +236,27 @@ impl<'a> Estimator<'a> {
         });
         *last = Some((wavelengths_nm.to_vec(), Arc::clone(&prior)));
         Ok(prior)
+    }
+
+    /// What an unknown light before a camera may be.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if flags ask for what is not found along with a light; lights that do not cover the wavelengths.
+    fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
+        let fits_scene = self.fit.iter().any(|unknown| **unknown != EXPOSURE);
+        if !self.args.has_prior() || self.args.join.is_some() || fits_scene {
+            let problem = "the light is unknown, and found under a prior alone, of each photograph by itself, with nothing but exposure fitted";
+            return Err(Error::usage(
+                "--illuminant",
+                problem,
+                "leave --prior, --method, --join and --fit out, or give vextract the light",
+            ));
+        }
+        let lights = match &self.args.illuminants {
+            Some(spec) => equally_likely(self.args.common.illuminants(spec)?),
+            None => likely_lights()?,
+        };
+        Candidate::all(&lights, grid, &camera.sensitivities)
     }
 
     /// What is known of reflectances before a scene.

@@ -68,6 +68,10 @@ struct Args {
     #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
         conflicts_with = "fit")]
     join: Option<Join>,
+    /// What an unknown light may be: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs,
+    /// fluorescent lamps]
+    #[arg(long, value_name = "FILE")]
+    illuminants: Option<String>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,

@@ -9,7 +9,7 @@ use vfold::estimate::photograph::{self, Parts};
 use vfold::estimate::{Estimate, Exposure};
 use vfold::forward::FacetValues;
 use vfold::scene::{ExpectedError, PhotographedFold, Setting};
-use vfold::spectrum::{ASSUMED_LIGHT, Outside, WavelengthGrid};
+use vfold::spectrum::{ASSUMED_LIGHT, Outside, UNKNOWN_LIGHT, WavelengthGrid};
 use vfold::stream::{Fields, NewPlan, Output, Reader, Record, Scene, Transform, needs_fold, plan};
 use vfold::{Error, Result};
 
@@ -35,8 +35,9 @@ pub struct PlanArgs {
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]
-    #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
+    /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65];
+    /// unknown: forget what scenes say of theirs, and find it
+    #[arg(long, value_name = "SPEC", value_parser = cli::light)]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
@@ -80,6 +81,35 @@ impl PlanArgs {
             }
         }
         Ok(())
+    }
+
+    /// Whether the light of all scenes is to be found.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if it is to be found where there is nothing to find it from, or is given to scenes that have one.
+    pub fn forgets_light(&self, has_kernel: bool) -> Result<bool> {
+        let is_unknown = self.illuminant.iter().any(|spec| spec == UNKNOWN_LIGHT);
+        if self.plan || has_kernel {
+            return match is_unknown {
+                true => {
+                    let problem = format!("'{UNKNOWN_LIGHT}' is no light to plan in, or for a kernel");
+                    Err(Error::usage("--illuminant", problem, "give the light"))
+                }
+                false => Ok(false),
+            };
+        }
+        match self.illuminant.as_slice() {
+            [] => Ok(false),
+            [_] if is_unknown => Ok(true),
+            _ => {
+                let problem = "scenes have a light; only one without a camera is given another";
+                Err(Error::usage(
+                    "--illuminant",
+                    problem,
+                    "leave it out, give unknown, or --plan or --kernel",
+                ))
+            }
+        }
     }
 
     /// Gives camera and light to a scene that has none.

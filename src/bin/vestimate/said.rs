@@ -74,6 +74,9 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
         Exposure::Free | Exposure::Expected(_) => estimate.fitted.is_empty().then_some("fitted"),
     };
     let exposure = how.map(|how| format!("exposure {:.4} {how}", estimate.exposure));
+    let light = estimate.light.as_ref().and_then(|light| light.candidates.first());
+    let light =
+        light.map(|most| format!("light {} with a probability of {:.2}", most.name, most.probability));
     let fitted = estimate.fitted.iter().map(|one| {
         let told = if one.supported { "" } else { ", not told by the facets" };
         format!("{} {:.4} ± {:.4}{told}", one.unknown.name, one.value, one.sd)
@@ -82,5 +85,12 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
         let (mean, most) = (sd.iter().sum::<f64>() / sd.len() as f64, sd.iter().copied().fold(0.0, f64::max));
         format!("reflectance to {mean:.4}, at worst {most:.4}")
     });
-    [iterations, misfit].into_iter().chain(exposure).chain(fitted).chain(sd).collect::<Vec<_>>().join("; ")
+    [iterations, misfit]
+        .into_iter()
+        .chain(light)
+        .chain(exposure)
+        .chain(fitted)
+        .chain(sd)
+        .collect::<Vec<_>>()
+        .join("; ")
 }

@@ -130,6 +130,10 @@ impl GivenCalibration {
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
+        if scene.is_light_unknown()? {
+            let problem = "a chart or card is worth what its light is, which is unknown";
+            return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
+        }
         let view = View { path, photograph, light: &Setting::of(scene)?.open_light()?, lens };
         target.calibrate(&view, corners).map(Some)
     }

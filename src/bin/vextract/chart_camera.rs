@@ -42,6 +42,7 @@ pub fn save(
         None => first?,
     };
     let (optics, assumed) = light::optics(&args.optics, path, Some(&photograph));
+    optics.known_illuminants("curves are made of a chart in a light that is known: give that")?;
     let illuminant =
         args.common.illuminant(optics.one_illuminant("give one: a photograph has one light")?)?;
     let grid = &optics.wavelengths_nm;

@@ -116,10 +116,36 @@ pub enum Daylight {
 }
 
 /// The reddest daylight that CIE 15 has, 4000 K, and a bluer one than any sky's, 1e-6/K.
-pub const MOST_MIRED: f64 = 250.0;
+const MOST_MIRED: f64 = 250.0;
 const LEAST_MIRED: f64 = 40.0;
 
+/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the sun's if that is: computed suns
+/// are off by 0.025, and by 0.05 where they stand 10° high; of lamps the nearest is off by 0.27.
+const CIE: f64 = 0.005;
+const DAYLIGHT: f64 = 0.06;
+/// The bluest daylight that people take the sun's for, 8000 K.
+const BLUEST_SUN_MIRED: f64 = 125.0;
+
 impl Daylight {
+    /// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its two characteristic vectors, waveband
+    /// by three.
+    #[must_use]
+    pub fn of(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Self> {
+        let sun = sun / sun.mean();
+        let off = |mired: f64| {
+            let daylight = Self::power(vectors, mired);
+            let daylight = &daylight / daylight.mean();
+            ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
+        };
+        let range = (BLUEST_SUN_MIRED as u32..=MOST_MIRED as u32).map(f64::from);
+        let (off, mired) = range.map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        match off {
+            CIE..DAYLIGHT => Some(Self::OfSun { mired }),
+            ..CIE => Some(Self::Cie { mired }),
+            _ => None,
+        }
+    }
+
     /// Relative power of daylight of a reciprocal colour temperature, from its mean and two characteristic vectors (waveband by three).
     ///
     /// # Source

@@ -6,10 +6,12 @@ use super::beliefs::Beliefs;
 use super::hypotheses::Hypothesis;
 use super::joint::{JointModel, Member, Photograph};
 use super::model::Point;
+use super::parts::Parts;
 use crate::estimate::Fitted;
 use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::Maximum;
+use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::posterior::{Linearised, Model, information};
 
@@ -39,7 +41,22 @@ pub struct Seen {
     pub shifts: Vec<DVector<f64>>,
 }
 
-impl Photographs<'_> {
+impl<'a> Photographs<'a> {
+    /// Those that are made of these parts.
+    pub fn of(parts: &'a [Parts]) -> Self {
+        Self(Photograph::all(parts))
+    }
+
+    /// One that is taken to be in the light of other parts, which are the same otherwise.
+    pub fn in_light_of(&self, parts: &'a Parts) -> Self {
+        Self(self.0.iter().map(|photograph| photograph.in_light_of(parts)).collect())
+    }
+
+    /// How many numbers their model has; none if it is not finite.
+    pub fn unknowns(&self, hypothesis: Hypothesis, prior: &Prior) -> Option<usize> {
+        self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
+    }
+
     /// What is believed of them.
     pub fn beliefs(&self) -> &'static Beliefs {
         self.0.first().map_or(&Beliefs::USUAL, |photograph| photograph.parts.told.beliefs)

@@ -2,6 +2,7 @@
 //! that took more than one of them; each has a fold, a light and a lens of its own.
 
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -20,11 +21,11 @@ pub struct Photograph<'a> {
     /// What it is made of.
     pub parts: &'a Parts,
     /// The kinds of sheets as it shows them.
-    pub kinds: Kinds<'a>,
+    pub kinds: Rc<Kinds<'a>>,
     /// The values that errors are relative to.
     values: DMatrix<f64>,
     /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first asked for.
-    whitenings: [[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4],
+    whitenings: Rc<[[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4]>,
 }
 
 /// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part of a fold in the sun.
@@ -36,7 +37,8 @@ impl<'a> Photograph<'a> {
     pub fn all(of: &'a [Parts]) -> Vec<Self> {
         let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
             let values = parts.values.clone();
-            Self { parts, kinds, values, whitenings: Default::default() }.relative_to(parts.values.clone())
+            let kinds = Rc::new(kinds);
+            Self { parts, kinds, values, whitenings: Rc::default() }.relative_to(parts.values.clone())
         };
         of.iter().zip(Kinds::of(of)).map(photograph).collect()
     }
@@ -48,7 +50,14 @@ impl<'a> Photograph<'a> {
             let least = DARKEST * channel.max();
             channel.apply(|value| *value = value.max(least));
         }
-        Self { values, whitenings: Default::default(), ..self }
+        Self { values, whitenings: Rc::default(), ..self }
+    }
+
+    /// The same photograph taken to be in the light of other parts, which are the same otherwise.
+    #[must_use]
+    pub fn in_light_of(&self, parts: &'a Parts) -> Self {
+        let Self { kinds, values, whitenings, .. } = self;
+        Self { parts, kinds: Rc::clone(kinds), values: values.clone(), whitenings: Rc::clone(whitenings) }
     }
 
     /// What makes residuals standard normal; none if facets are not finite.

@@ -30,6 +30,7 @@ mod sums;
 mod unmodelled;
 
 pub use conditions::{Conditions, Told};
+pub(super) use family::Photographs;
 pub use findings::Finding;
 pub use parts::Parts;
 pub use search::{SheetEstimate, estimate, estimate_usual};

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conditions::{Conditions, Told};
+use super::conditions::{Conditions, Daylight, Told};
 use super::sheets::Sheets;
 use super::sums::add;
 
@@ -176,4 +176,25 @@ pub struct Parts {
     pub sheets: Sheets,
     /// The camera.
     pub eye: Eye,
+}
+
+impl Parts {
+    /// The same in a light of this power, which somebody said.
+    #[must_use]
+    pub fn in_light(&self, power: &[f64]) -> Self {
+        let sun = DVector::from_column_slice(power);
+        let mut lit = self.clone();
+        lit.told.daylight = Daylight::of(&lit.eye.daylight, &sun);
+        lit.told.is_daylight_assumed = false;
+        lit.eye.reference = lit.eye.sensitivities.tr_mul(&sun).imax();
+        (lit.eye.sun, lit.eye.sky) = (sun.clone(), sun);
+        lit
+    }
+
+    /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the ground.
+    #[must_use]
+    pub fn without_sky(mut self) -> Self {
+        self.told.daylight = None;
+        self
+    }
 }

@@ -62,7 +62,7 @@ fn under(
     prior: &Prior,
     (hypotheses, dull_days): (impl Fn(&[Photograph]) -> Vec<Hypothesis>, impl Fn(&[Photograph]) -> Vec<Day>),
 ) -> Option<SheetEstimate> {
-    let family = relative_to_predictions(Photographs(Photograph::all(parts)), prior)?;
+    let family = relative_to_predictions(Photographs::of(parts), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
     let sorted = sorted(&mut search, &family.0.first()?.parts.told, all, &dull_days(&family.0));
@@ -244,6 +244,7 @@ fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Itera
         residual_rms: rms(&seen.residuals),
         unexplained: seen.unexplained,
         day: None,
+        light: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
         trace: trace.to_vec(),

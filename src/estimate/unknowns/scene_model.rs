@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::factor::Jet;
 use super::{Factor, Normal, Unknown};
+use crate::camera::CameraResponse;
 use crate::forward::FacetModel;
 
 /// An unknown of a scene, and what is known of it before a picture is taken.
@@ -78,6 +79,12 @@ impl SceneModel {
     #[must_use]
     pub fn unknowns(&self) -> &[Expected] {
         &self.unknowns
+    }
+
+    /// The same scene with another light in the place of each of its sources' own, as the camera responds to it.
+    #[must_use]
+    pub fn in_light(&self, camera: &CameraResponse) -> Self {
+        Self { facets: self.facets.in_light(camera), ..self.clone() }
     }
 
     /// The same scene with one unknown known to have this value.

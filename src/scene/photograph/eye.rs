@@ -4,17 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::Result;
 use crate::estimate::photograph::beliefs::Beliefs;
-use crate::estimate::photograph::conditions::{Daylight, MOST_MIRED};
 use crate::estimate::photograph::parts::Eye;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
 use crate::stream::Optics;
-
-/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the sun's if that is: computed suns
-/// are off by 0.025, and by 0.05 where they stand 10° high; of lamps the nearest is off by 0.27.
-const CIE: f64 = 0.005;
-const DAYLIGHT: f64 = 0.06;
-/// The bluest daylight that people take the sun's for, 8000 K.
-const LEAST_MIRED: f64 = 125.0;
 
 /// The camera of a scene.
 pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs) -> Result<Eye> {
@@ -78,22 +70,4 @@ fn errors(
         }
     }
     all
-}
-
-/// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its two characteristic vectors, waveband
-/// by three.
-pub fn daylight(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Daylight> {
-    let sun = sun / sun.mean();
-    let off = |mired: f64| {
-        let daylight = Daylight::power(vectors, mired);
-        let daylight = &daylight / daylight.mean();
-        ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
-    };
-    let range = (LEAST_MIRED as u32..=MOST_MIRED as u32).map(f64::from);
-    let (off, mired) = range.map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    match off {
-        CIE..DAYLIGHT => Some(Daylight::OfSun { mired }),
-        ..CIE => Some(Daylight::Cie { mired }),
-        _ => None,
-    }
 }

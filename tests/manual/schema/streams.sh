@@ -14,6 +14,7 @@ vestimate card.ndjson --noise-sd 1e-3 -o card-estimate.ndjson
 vforward scene.ndjson --reflectance cc24:red --noise-sd 1e-3 |
     vestimate --fit exposure,tilt,sky,angle -q -o fitted.ndjson
 vforward scene.ndjson --reflectance cc24:red | vestimate --prior smooth -o smooth.ndjson
+vforward scene.ndjson --reflectance cc24:red --illuminant A --noise-sd 1e-2 | vestimate --illuminant unknown -q -o unknown-light.ndjson
 vestimate scene.ndjson --plan --reflectance cc24:red --fit exposure,tilt,sky,angle,daylight -q -o plan.ndjson
 vkernel --facets 4x1 -o other.json
 cat other.json other.json | vestimate --plan --join --reflectance cc24:red -q -o joined_plan.ndjson

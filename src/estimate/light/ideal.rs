@@ -1,0 +1,106 @@
+//! Facets of an ideal fold in a light that nobody stated: one family of models, of which each light is a hypothesis.
+
+use std::iter;
+
+use nalgebra::DVector;
+
+use super::{Candidate, FoundLight};
+use crate::error::{Error, Result};
+use crate::estimate::Estimate;
+use crate::estimate::data::FacetData;
+use crate::estimate::facets::{Facets, Second};
+use crate::estimate::family::Family;
+use crate::estimate::gaussian::Gaussian;
+use crate::estimate::map::into_estimate;
+use crate::estimate::prior::Prior;
+use crate::estimate::search::{Search, Sorted};
+
+/// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question; that is more than what
+/// knowing the class of spectra changes.
+const LN_EVIDENCE_HOPELESS: f64 = -12.0;
+/// Under so many lights classes of spectra are told apart at most.
+const TOLD_APART: usize = 48;
+
+/// The same facets in each light.
+struct InLights<'a>(Vec<FacetData<'a>>);
+
+impl Family for InLights<'_> {
+    type Hypothesis = usize;
+    type Second = Second;
+    type Model<'m>
+        = Facets<'m>
+    where
+        Self: 'm;
+
+    fn model<'m>(&'m self, light: usize, gaussian: &'m Gaussian) -> Option<Facets<'m>> {
+        self.0.get(light).map(|data| Facets { data, gaussian })
+    }
+
+    fn class_share_power(&self, _: usize) -> f64 {
+        self.0[0].class_share_power(())
+    }
+
+    fn tells_classes(&self) -> bool {
+        self.0[0].tells_classes()
+    }
+
+    fn peak(&self) -> f64 {
+        self.0[0].peak()
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.0[0].tolerance()
+    }
+
+    /// One alone is a light that is known.
+    fn has_many_hypotheses(&self) -> bool {
+        self.0.len() > 1
+    }
+}
+
+/// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out from.
+///
+/// # Errors
+/// [`Error::Numeric`] if the facets are not finite.
+pub fn estimate(
+    data: &FacetData,
+    lights: &[Candidate],
+    prior: &Prior,
+    start: Option<&[f64]>,
+) -> Result<Estimate> {
+    let not_finite = || Error::Numeric("the facets are not finite".to_owned());
+    let family = InLights(lights.iter().map(|light| data.in_light(&light.camera)).collect());
+    let mut search = Search::new(&family, prior);
+    let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
+    let sorted = sorted(&mut search, lights, start);
+    let found = search.mixture(&sorted).ok_or_else(not_finite)?;
+    let mut probabilities = vec![0.0; lights.len()];
+    found.shares.iter().for_each(|(light, share)| probabilities[*light] += share);
+    let weighed = |(light, probability): (&'_ Candidate, f64)| light.weighed(probability);
+    let light = iter::zip(lights, probabilities).map(|one| (weighed(one), one.0.power.as_slice()));
+    let light = FoundLight::of(light);
+    let best = &family.0[found.best.start.hypothesis];
+    Ok(Estimate { light: Some(light), ..into_estimate(best, &found, &found, search.trace) })
+}
+
+/// Lights by their evidence under all spectra, each from where its neighbour led, those that are out of the question left out.
+fn sorted(
+    search: &mut Search<InLights>,
+    lights: &[Candidate],
+    start: Option<DVector<f64>>,
+) -> Vec<Sorted<usize, Second>> {
+    let mut all: Vec<Sorted<usize, Second>> = Vec::new();
+    let mut best = f64::NEG_INFINITY;
+    let mut start = start;
+    for (n, light) in lights.iter().enumerate() {
+        if let Some(one) = search.sort((n, light.ln_share), start.clone(), best + LN_EVIDENCE_HOPELESS) {
+            best = best.max(one.ln_weight());
+            start = Some(one.solution.w.clone());
+            all.push(one);
+        }
+    }
+    all.retain(|one| one.ln_weight() >= best + LN_EVIDENCE_HOPELESS);
+    all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    all.truncate(TOLD_APART);
+    all
+}

@@ -1,0 +1,153 @@
+//! A light that nobody stated, found by evidence.
+//!
+//! The misfit does not tell lights apart: some spectrum explains the facets in nearly every one. How probable that spectrum is does. So each
+//! light is a hypothesis, weighed by the evidence of what is known of reflectances, and the estimate is the mean over all of them, as it is over
+//! classes of spectra.
+
+mod ideal;
+mod photograph;
+
+use std::iter;
+
+pub use ideal::estimate;
+pub use photograph::estimate_photograph;
+
+use crate::camera::CameraResponse;
+use crate::error::Result;
+use crate::spectrum::{LikelyLight, Outside, WavelengthGrid};
+
+/// A light that may be the one, on the wavelengths of a scene.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// What it is called.
+    pub name: String,
+    /// Correlated colour temperature, K, of those that have one by definition.
+    pub cct_k: Option<f64>,
+    /// Logarithm of how often it is the one.
+    pub ln_share: f64,
+    /// Relative power, one number per waveband.
+    pub power: Vec<f64>,
+    /// What the camera makes of it.
+    pub camera: CameraResponse,
+    /// Whether it is one of all daylights, which a photograph takes as one light of unknown temperature.
+    pub is_any_daylight: bool,
+}
+
+/// A candidate, and how probable it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weighed {
+    /// What it is called.
+    pub name: String,
+    /// Correlated colour temperature, K, of those that have one by definition.
+    pub cct_k: Option<f64>,
+    /// How probable it is.
+    pub probability: f64,
+}
+
+/// A light as found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundLight {
+    /// Candidates that may be it, the most probable first; their probabilities add up to 1.
+    pub candidates: Vec<Weighed>,
+    /// The expected relative power, one number per waveband, its mean 1.
+    pub power: Vec<f64>,
+    /// Its standard deviation.
+    pub power_sd: Vec<f64>,
+}
+
+impl Candidate {
+    /// Lights before a camera of these sensitivities, `[channel][waveband]`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Spectrum`] if one does not cover the wavelengths, [`crate::Error::Numeric`] if a channel sees nothing of it.
+    pub fn all(
+        lights: &[LikelyLight],
+        grid: &WavelengthGrid,
+        sensitivities: &[Vec<f64>],
+    ) -> Result<Vec<Self>> {
+        let candidate = |light: &LikelyLight| {
+            let power = light.spectrum.on(grid, Outside::Refuse)?;
+            Ok(Self {
+                name: light.spectrum.name().to_owned(),
+                cct_k: light.cct_k,
+                ln_share: light.share.ln(),
+                is_any_daylight: light.is_any_daylight,
+                camera: CameraResponse::new(grid, sensitivities, &power)?,
+                power,
+            })
+        };
+        lights.iter().map(candidate).collect()
+    }
+}
+
+impl Candidate {
+    fn weighed(&self, probability: f64) -> Weighed {
+        Weighed { name: self.name.clone(), cct_k: self.cct_k, probability }
+    }
+}
+
+impl FoundLight {
+    /// Lights of these powers, the probabilities of which add up to 1; those that have none are left out.
+    #[must_use]
+    pub fn of<'p>(all: impl IntoIterator<Item = (Weighed, &'p [f64])>) -> Self {
+        let (mut candidates, mut power, mut square) = (Vec::new(), Vec::new(), Vec::new());
+        for (light, own) in all.into_iter().filter(|(light, _)| light.probability > 0.0) {
+            power.resize(own.len(), 0.0);
+            square.resize(own.len(), 0.0);
+            let mean = own.iter().sum::<f64>() / own.len() as f64;
+            for (band, own) in own.iter().enumerate() {
+                power[band] += light.probability * own / mean;
+                square[band] += light.probability * (own / mean).powi(2);
+            }
+            candidates.push(light);
+        }
+        candidates.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        let sd = |(square, mean): (&f64, &f64)| (square - mean * mean).max(0.0).sqrt();
+        Self { candidates, power_sd: iter::zip(&square, &power).map(sd).collect(), power }
+    }
+
+    /// The most probable one among `all`, if it is one of them.
+    #[must_use]
+    pub fn most_probable<'a>(&self, all: &'a [Candidate]) -> Option<&'a Candidate> {
+        let first = self.candidates.first()?;
+        all.iter().find(|light| light.name == first.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The mean lies between the lights, and is off from them by no more than they differ.
+        #[test]
+        fn the_expected_light_lies_between_the_candidates(
+            shares in prop::collection::vec(0.0_f64..1.0, 3),
+            powers in prop::collection::vec(prop::collection::vec(0.1_f64..10.0, 5), 3),
+        ) {
+            let sum: f64 = shares.iter().sum();
+            prop_assume!(sum > 0.01);
+            let light = |share: &f64| Weighed { name: String::new(), cct_k: None, probability: share / sum };
+            let found = FoundLight::of(iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice)));
+            let total: f64 = found.candidates.iter().map(|light| light.probability).sum();
+            prop_assert!((total - 1.0).abs() < 1e-12);
+            prop_assert!(found.candidates.is_sorted_by(|a, b| a.probability >= b.probability));
+            prop_assert!((found.power.iter().sum::<f64>() / 5.0 - 1.0).abs() < 1e-12);
+            for band in 0..5 {
+                let own = powers.iter().map(|power| 5.0 * power[band] / power.iter().sum::<f64>());
+                let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), own| (a.min(own), b.max(own)));
+                prop_assert!((least - 1e-12..=most + 1e-12).contains(&found.power[band]));
+                prop_assert!(found.power_sd[band] <= most - least + 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn one_candidate_is_the_light() {
+        let one = Weighed { name: "A".to_owned(), cct_k: Some(2856.0), probability: 1.0 };
+        let found = FoundLight::of([(one.clone(), [2.0, 4.0].as_slice())]);
+        assert_eq!((found.candidates, found.power_sd), (vec![one], vec![0.0; 2]));
+    }
+}

@@ -1,0 +1,175 @@
+//! A photograph in a light that nobody stated: in daylight of any day and temperature, as photographs usually are, or in one of the others.
+//!
+//! Under one kind of sheet and all spectra as one, each from where its neighbour led, lights show quickly which of them are out of the
+//! question. What is left is estimated as if it had been said, and the estimate is the mean of these by their evidence.
+
+use std::{iter, slice};
+
+use nalgebra::{DMatrix, DVector, RowDVector};
+
+use super::{Candidate, FoundLight, Weighed};
+use crate::error::{Error, Result};
+use crate::estimate::Estimate;
+use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::day::Day;
+use crate::estimate::photograph::hypotheses::Hypothesis;
+use crate::estimate::photograph::kinds::Kind;
+use crate::estimate::photograph::{self, Parts, Photographs, SheetEstimate};
+use crate::estimate::prior::Prior;
+use crate::estimate::search::Search;
+
+/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and at most so many are estimated beside
+/// daylight, in which photographs usually are: with looking through all of them that is less than four estimates.
+const LN_EVIDENCE_LEAST: f64 = -6.0;
+const TRIED: usize = 2;
+
+/// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
+/// window.
+const WITHOUT_SKY: f64 = 0.1;
+const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
+
+/// A light, and the photograph in it.
+struct Way<'a> {
+    /// The candidate; none for any daylight.
+    light: Option<&'a Candidate>,
+    ln_share: f64,
+    parts: Parts,
+}
+
+/// The expected reflectance, and the light, of a photograph in one of `lights`; its `parts` are those in daylight that nobody stated.
+///
+/// # Errors
+/// [`Error::Numeric`] if the facets are not finite.
+pub fn estimate_photograph(parts: &Parts, lights: &[Candidate], prior: &Prior) -> Result<Estimate> {
+    let ways = ways(parts, lights);
+    let mut tried = Vec::new();
+    let daylight = ways.iter().filter(|way| way.light.is_none());
+    for way in daylight.chain(likely(&ways, prior).into_iter().take(TRIED)) {
+        let SheetEstimate { photographs, ln_evidence } =
+            photograph::estimate(slice::from_ref(&way.parts), prior)?;
+        tried.extend(photographs.into_iter().map(|estimate| (way, way.ln_share + ln_evidence, estimate)));
+    }
+    let most = tried.iter().map(|(_, ln_weight, _)| *ln_weight).fold(f64::NEG_INFINITY, f64::max);
+    let odds: Vec<f64> = tried.iter().map(|(_, ln_weight, _)| (ln_weight - most).exp()).collect();
+    let sum: f64 = odds.iter().sum();
+    let all: Vec<_> =
+        iter::zip(tried, odds).map(|((way, _, estimate), odds)| (way, odds / sum, estimate)).collect();
+    let found: Vec<_> = all.iter().map(|(way, share, estimate)| way.found(*share, estimate)).collect();
+    let light = FoundLight::of(found.iter().map(|(light, power)| (light.clone(), power.as_slice())));
+    let mean = mean(all.into_iter().map(|(_, share, estimate)| (share, estimate)).collect());
+    mean.map(|estimate| Estimate { light: Some(light), ..estimate })
+        .ok_or_else(|| Error::Numeric("the facets of the photograph are not finite".to_owned()))
+}
+
+/// All daylight under a sky as one way, each daylight without one and each other light as one.
+fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
+    let of_daylight: f64 =
+        lights.iter().filter(|light| light.is_any_daylight).map(|light| light.ln_share.exp()).sum();
+    let of_sky = (1.0 - WITHOUT_SKY) * of_daylight;
+    let daylight =
+        (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
+    let others = lights.iter().filter(|light| !light.is_any_daylight);
+    // of lamps one hypothesis stands for all days, with the share of a clear one
+    let ln_clear = Day::Clear.share(parts.told.beliefs, parts.told.sun).ln();
+    let of = |light: &'a Candidate| {
+        let parts = parts.in_light(&light.power);
+        let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
+        Way { light: Some(light), ln_share: light.ln_share - ln_days, parts }
+    };
+    let is_of_flash = |light: &&Candidate| {
+        light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
+    };
+    let flashes: Vec<&Candidate> = lights.iter().filter(is_of_flash).collect();
+    let ln_flash = (WITHOUT_SKY * of_daylight / flashes.len() as f64).ln() - ln_clear;
+    let of_flash = |light: &'a Candidate| Way {
+        light: Some(light),
+        ln_share: ln_flash,
+        parts: parts.in_light(&light.power).without_sky(),
+    };
+    daylight.into_iter().chain(flashes.into_iter().map(of_flash)).chain(others.map(of)).collect()
+}
+
+/// Those beside any daylight that are not out of the question, the likeliest first.
+fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
+    let Some(first) = ways.first() else { return Vec::new() };
+    let photographs = Photographs::of(slice::from_ref(&first.parts));
+    let mut all: Vec<(&Way, f64)> = Vec::new();
+    let mut start: Option<DVector<f64>> = None;
+    let mut best = f64::NEG_INFINITY;
+    for way in ways {
+        let family = photographs.in_light_of(&way.parts);
+        let mut search = Search::new(&family, prior);
+        for day in way.days() {
+            let hypothesis = Hypothesis::on_dull_day(*day, Kind::Family);
+            let ln_share = way.ln_share + day.share(family.beliefs(), way.parts.told.sun).ln();
+            // lights of another kind have other unknowns
+            let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
+            let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {
+                continue;
+            };
+            best = best.max(one.ln_weight());
+            all.push((way, one.ln_weight()));
+            start = Some(one.solution.w);
+        }
+    }
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut kept: Vec<&Way> = Vec::new();
+    let near = all.into_iter().filter(|(way, ln)| way.light.is_some() && *ln >= best + LN_EVIDENCE_LEAST);
+    for (way, _) in near {
+        // one that is a daylight stands there once for each kind of day
+        if !kept.iter().any(|other| std::ptr::eq(*other, way)) {
+            kept.push(way);
+        }
+    }
+    kept
+}
+
+impl Way<'_> {
+    /// Days on which the light may have been so; indoors they make no difference.
+    fn days(&self) -> &'static [Day] {
+        if self.parts.told.daylight.is_some() { &Day::ALL } else { &[Day::Clear] }
+    }
+
+    /// The light with this probability, and its power; of daylight, as the photograph shows it.
+    fn found(&self, probability: f64, estimate: &Estimate) -> (Weighed, Vec<f64>) {
+        if let Some(light) = self.light {
+            return (light.weighed(probability), light.power.clone());
+        }
+        let has_sun = estimate.day.is_none_or(|found| found.day.has_sun());
+        let name = if has_sun { "sun_cct_k" } else { "sky_cct_k" };
+        let cct_k = estimate.fitted.iter().find(|one| one.unknown.name == name).map(|one| one.value.round());
+        let mired = cct_k.map_or(self.parts.told.beliefs.sun_mired, |cct_k| 1e6 / cct_k);
+        let name = cct_k.map_or_else(|| "daylight".to_owned(), |cct_k| format!("daylight:{cct_k}"));
+        let power = Daylight::power(&self.parts.eye.daylight, mired);
+        (Weighed { name, cct_k, probability }, power.as_slice().to_vec())
+    }
+}
+
+/// The mean of estimates by their shares, its errors widened by how far they are from it; all else is that of the largest share.
+fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
+    all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let weighted = |of: &dyn Fn(&Estimate) -> Option<DVector<f64>>| {
+        let each: Option<Vec<_>> =
+            all.iter().map(|(share, one)| of(one).map(|values| *share * values)).collect();
+        each?.into_iter().reduce(|sum, one| sum + one)
+    };
+    let reflectance = weighted(&|one| Some(DVector::from_column_slice(&one.reflectance)))?;
+    let total = weighted(&|one| one.total.as_deref().map(DVector::from_column_slice));
+    let rows = |(share, one): &(f64, Estimate)| {
+        let apart = RowDVector::from_row_slice(&one.reflectance) - reflectance.transpose();
+        let within = one.spread.as_ref()?.row_iter().map(nalgebra::Matrix::into_owned);
+        Some(within.chain([apart]).map(|row| share.sqrt() * row).collect::<Vec<_>>())
+    };
+    let spread: Option<Vec<_>> = all.iter().map(rows).collect();
+    let spread = spread.map(|rows| DMatrix::from_rows(&rows.concat()));
+    let without_bounces = all.iter().map(|(share, one)| share * one.without_bounces).sum();
+    let (_, best) = all.into_iter().next()?;
+    let within = |values: DVector<f64>| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
+    Some(Estimate {
+        reflectance: within(reflectance),
+        total: total.map(within).filter(|_| best.total.is_some()),
+        spread,
+        without_bounces,
+        ..best
+    })
+}

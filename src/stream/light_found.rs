@@ -1,0 +1,78 @@
+//! What an estimate says of a light that nobody stated.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fields::finite;
+use super::optics::SpectrumRecord;
+use crate::error::Result;
+use crate::estimate::light::{FoundLight, Weighed};
+use crate::plot::spectra::LightCurve;
+use crate::spectrum::UNKNOWN_LIGHT;
+
+/// Candidates that are less probable are not named.
+const PROBABILITY_LEAST: f64 = 1e-3;
+
+/// The light as it was found along with the reflectance.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FoundLightRecord {
+    /// What it may be, the most probable first; what is left out is less probable than one in a thousand.
+    pub candidates: Vec<CandidateRecord>,
+    /// The expected relative power, one number per wavelength, its mean 1.
+    #[schemars(inner(range(min = 0)))]
+    pub power: Vec<f64>,
+    /// Its standard deviation.
+    #[schemars(inner(range(min = 0)))]
+    pub power_sd: Vec<f64>,
+}
+
+/// A light that it may be.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct CandidateRecord {
+    /// Built-in name, or that of a column of `vestimate --illuminants`.
+    pub name: String,
+    /// How probable it is.
+    #[schemars(range(min = 0, max = 1))]
+    pub probability: f64,
+    /// Correlated colour temperature, K, of daylight and black bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cct_k: Option<f64>,
+}
+
+impl From<&Weighed> for CandidateRecord {
+    fn from(Weighed { name, probability, cct_k }: &Weighed) -> Self {
+        Self { name: name.clone(), probability: *probability, cct_k: *cct_k }
+    }
+}
+
+impl FoundLightRecord {
+    /// As the record has it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn of(found: &FoundLight) -> Result<Self> {
+        finite("estimate.light", found.power.iter().chain(&found.power_sd))?;
+        let probable = found.candidates.iter().filter(|one| one.probability >= PROBABILITY_LEAST);
+        Ok(Self {
+            candidates: probable.map(CandidateRecord::from).collect(),
+            power: found.power.clone(),
+            power_sd: found.power_sd.clone(),
+        })
+    }
+
+    /// The expected light as a curve to draw.
+    #[must_use]
+    pub fn curve(&self) -> LightCurve {
+        let most = self.candidates.first();
+        let name = most
+            .map_or_else(|| UNKNOWN_LIGHT.to_owned(), |one| format!("{} ({:.2})", one.name, one.probability));
+        LightCurve { name, power: self.power.clone() }
+    }
+
+    /// The expected light as that of a scene.
+    #[must_use]
+    pub fn spectrum(&self) -> SpectrumRecord {
+        let name = self.candidates.first().map_or(UNKNOWN_LIGHT, |first| &first.name);
+        SpectrumRecord { name: name.to_owned(), power: self.power.clone(), interpolation: None }
+    }
+}

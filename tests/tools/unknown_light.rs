@@ -1,0 +1,124 @@
+//! A light that nobody states.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::common::Workdir;
+
+const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
+const PANELS: &str = "--panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'";
+
+fn records(lines: &str) -> Vec<Value> {
+    lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn rms(a: &[f64], b: &[f64]) -> f64 {
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    (squares / a.len() as f64).sqrt()
+}
+
+/// Facets of computed sheets, and of a photograph: they end where they would if the light had been stated.
+#[test]
+fn one_candidate_is_a_light_that_is_stated() {
+    let run = Workdir::new().sh(&format!(
+        "vkernel | vforward -q --reflectance cc24:red cc24:foliage --illuminant FL11 --noise-sd 1e-3 -o computed.ndjson
+        vkernel --angle-deg 50 -o scene.json
+        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant FL11 {PANELS} -o photo.ndjson
+        for records in computed photo; do
+            vestimate -q $records.ndjson --exposure free
+            vestimate -q $records.ndjson --exposure free --illuminant unknown --illuminants FL11
+        done"
+    ));
+    assert_eq!(run.status, 0, "{run:?}");
+    let all = records(&run.stdout);
+    let samples: Vec<&Value> = all.iter().filter(|record| record["kind"] == "sample").collect();
+    for [stated, found] in [[0, 2], [1, 3], [4, 5]].map(|pair| pair.map(|n| &samples[n]["estimate"])) {
+        for name in ["reflectance", "reflectance_sd"] {
+            assert!(rms(&numbers(&stated[name]), &numbers(&found[name])) < 1e-9, "{name}");
+        }
+        assert!(
+            stated["light"].is_null() && found["light"]["candidates"][0]["probability"] == 1.0,
+            "{found}"
+        );
+    }
+}
+
+/// Nearer than with another light told, by far, and no further than its bars say.
+#[test]
+fn a_sheet_is_found_in_a_light_that_is_unknown() {
+    let run = Workdir::new().sh(
+        "vkernel | vforward -q --reflectance cc24 --illuminant A --noise-sd 1e-3 | vestimate -q --exposure free --illuminant unknown",
+    );
+    assert_eq!(run.status, 0, "{run:?}");
+    let (mut squares, mut held, mut count) = (0.0, 0, 0);
+    for sample in records(&run.stdout).iter().skip(1) {
+        let (truth, estimate) = (numbers(&sample["truth"]["reflectance"]), &sample["estimate"]);
+        let (found, sd) = (numbers(&estimate["reflectance"]), numbers(&estimate["reflectance_sd"]));
+        for n in 0..truth.len() {
+            squares += (found[n] - truth[n]).powi(2);
+            held += usize::from((found[n] - truth[n]).abs() <= 2.0 * sd[n]);
+            count += 1;
+        }
+    }
+    let (rmse, within) = ((squares / f64::from(count)).sqrt(), held as f64 / f64::from(count));
+    // told daylight, 0.13
+    assert!(rmse < 0.05 && within > 0.85, "{rmse} {within}");
+}
+
+#[test]
+fn probabilities_add_up_to_one() {
+    let run = Workdir::new().sh(&format!(
+        "vkernel --angle-deg 50 | vextract -q '{PHOTO}' --camera canon-5d-mark-ii --illuminant unknown {PANELS} | vestimate -q
+        vkernel | vforward -q --reflectance 0.5 --illuminant LED-B3 --noise-sd 1e-2 | vestimate -q --illuminant unknown --save light.power=light.npy"
+    ));
+    assert_eq!(run.status, 0, "{run:?}");
+    for sample in records(&run.stdout).iter().filter(|record| record["kind"] == "sample") {
+        let light = &sample["estimate"]["light"];
+        let probabilities: Vec<f64> = light["candidates"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|candidate| candidate["probability"].as_f64().unwrap())
+            .collect();
+        // those below one in a thousand are not named
+        let sum: f64 = probabilities.iter().sum();
+        assert!((0.95..1.0 + 1e-9).contains(&sum), "{sum}");
+        assert!(probabilities.is_sorted_by(|a, b| a >= b), "{probabilities:?}");
+        let power = numbers(&light["power"]);
+        assert!((power.iter().sum::<f64>() / power.len() as f64 - 1.0).abs() < 1e-9);
+        let because = sample["estimate"]["verdict"]["because"].as_str().unwrap();
+        assert!(!because.contains("the light D65"), "{because}");
+    }
+}
+
+/// What needs a light says so in a line.
+#[test]
+fn what_needs_a_light_refuses_one_that_is_unknown() {
+    let folder = Workdir::new();
+    let made = folder.sh(&format!(
+        "vkernel --angle-deg 50 -o scene.json
+        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant unknown {PANELS} -o photo.ndjson"
+    ));
+    assert_eq!(made.status, 0, "{made:?}");
+    for (line, said) in [
+        (
+            "vforward --reflectance 0.5 --illuminant unknown scene.json",
+            "vforward computes what a camera sees",
+        ),
+        ("vestimate photo.ndjson --prior smooth", "the light is unknown"),
+        ("vestimate photo.ndjson --join", "the light is unknown"),
+        ("vestimate photo.ndjson --illuminant D65", "scenes have a light"),
+        ("vestimate --plan scene.json --illuminant unknown", "no light to plan in"),
+    ] {
+        let run = folder.sh(line);
+        assert_ne!(run.status, 0, "{line}");
+        assert!(run.stderr.contains(said) && run.stderr.lines().count() == 1, "{line}: {}", run.stderr);
+    }
+    let scene = fs::read_to_string(folder.path().join("photo.ndjson")).unwrap();
+    assert!(!scene.contains("illuminants") && scene.contains("illuminant_unknown"));
+}
