@@ -8,7 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::edge::{Edge, Side};
+use super::edge::{Edge, Look, Side, common_blur};
+use super::piece::BLURS;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Homography, Lens, Point};
 use crate::{Error, Result};
@@ -48,6 +49,8 @@ const SIDES: [&str; 4] = ["crease", "end 1", "outer side", "end 0"];
 
 /// What is found at one side moves the ends of others, so that they are looked at again.
 const ROUNDS: usize = 6;
+/// Blurs that are tried, by number; after the first round that of the picture is known.
+const ALL_BLURS: [usize; BLURS] = [0, 1, 2, 3];
 /// Each round looks this much nearer than the one before, and more finely,
 const NEARER: f64 = 0.4;
 /// but not nearer than this many standard deviations.
@@ -79,47 +82,70 @@ const LEAST_SDS: f64 = 3.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
+    let settled = settle(photograph, panels, lens, reach_px, ROUNDS)?;
+    let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
+    let sides = sides(panels);
+    let without = sides
+        .iter()
+        .zip(&settled.edges)
+        .filter(|(_, edge)| edge.is_none())
+        .map(|(side, _)| side.name.clone());
+    Ok(Refinement {
+        moved_px: panels.iter().zip(&settled.panels).map(moved).collect(),
+        sides_without_edge: without.collect(),
+        panels: settled.panels,
+    })
+}
+
+/// Panels after so many rounds of refinement, and what was found along their sides: those of the first panel, then those of the others
+/// that it does not share, each from the crease on.
+pub(in crate::image) struct Settled {
+    /// Corners of every panel, in the order in which they were given.
+    pub panels: Vec<[Point; 4]>,
+    /// Edges within the reach of the given sides.
+    pub first_edges: Vec<Option<Edge>>,
+    /// Edges at the sides where they are now.
+    pub edges: Vec<Option<Edge>>,
+}
+
+/// As [`refine`], in so many rounds, with all that was found.
+pub(in crate::image) fn settle(
+    photograph: &Photograph,
+    panels: &[Marked],
+    lens: &Lens,
+    reach_px: f64,
+    rounds: usize,
+) -> Result<Settled> {
     panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
     let given: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
     let sides = sides(panels);
-    let (corners, edges) = settle(photograph, &given, &sides, lens, reach_px);
-    let refined: Vec<[Point; 4]> =
-        panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner]))).collect();
-    let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
-    let without =
-        sides.iter().zip(&edges).filter(|(_, edge)| edge.is_none()).map(|(side, _)| side.name.clone());
-    Ok(Refinement {
-        moved_px: panels.iter().zip(&refined).map(moved).collect(),
-        sides_without_edge: without.collect(),
-        panels: refined,
-    })
-}
-
-/// Corners and edges after all rounds.
-fn settle(
-    photograph: &Photograph,
-    given: &[Point],
-    sides: &[Ends],
-    lens: &Lens,
-    reach_px: f64,
-) -> (Vec<Point>, Vec<Option<Edge>>) {
-    let mut corners = given.to_vec();
+    let mut corners = given.clone();
     let mut reaches = vec![reach_px; sides.len()];
-    let mut edges = Vec::new();
-    for _ in 0..ROUNDS {
-        let find = |(side, reach): (&Ends, &f64)| {
+    let mut blurs = ALL_BLURS.to_vec();
+    let (mut first_edges, mut edges) = (Vec::new(), Vec::new());
+    for round in 0..rounds {
+        let look = |(side, reach): (&Ends, &f64)| {
             let inner = side.inner.map(|corner| corners[corner]);
-            Side::new(corners[side.from], corners[side.to]).edge(photograph, lens, *reach, inner)
+            // a kink's blur is its own
+            let blurs = if inner.is_some() { &blurs[..] } else { &ALL_BLURS };
+            Side::new(corners[side.from], corners[side.to]).look(photograph, lens, *reach, inner, blurs)
         };
-        edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
-        corners = meeting_point(given, &corners, sides, &edges, reach_px);
+        let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
+        let blur = common_blur(&looks);
+        blurs = vec![blur];
+        edges = looks.iter().map(|look| look.edge(blur)).collect();
+        corners = meeting_point(&given, &corners, &sides, &edges, reach_px);
         for (reach, edge) in reaches.iter_mut().zip(&edges) {
             let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
             *reach = nearer.max(NEARER * *reach).min(reach_px);
         }
+        if round == 0 {
+            first_edges.clone_from(&edges);
+        }
     }
-    (corners, edges)
+    let panels = panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner])));
+    Ok(Settled { panels: panels.collect(), first_edges, edges })
 }
 
 /// The sides of panels, those of two panels once.
