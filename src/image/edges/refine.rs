@@ -49,8 +49,6 @@ const SIDES: [&str; 4] = ["crease", "end 1", "outer side", "end 0"];
 
 /// What is found at one side moves the ends of others, so that they are looked at again.
 const ROUNDS: usize = 6;
-/// Blurs that are tried, by number; after the first round that of the picture is known.
-const ALL_BLURS: [usize; BLURS] = [0, 1, 2, 3];
 /// Each round looks this much nearer than the one before, and more finely,
 const NEARER: f64 = 0.4;
 /// but not nearer than this many standard deviations.
@@ -82,7 +80,7 @@ const LEAST_SDS: f64 = 3.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
-    let settled = settle(photograph, panels, lens, reach_px, ROUNDS)?;
+    let settled = settle(photograph, panels, lens, reach_px, ROUNDS, None)?;
     let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
     let sides = sides(panels);
     let without = sides
@@ -106,15 +104,18 @@ pub(in crate::image) struct Settled {
     pub first_edges: Vec<Option<Edge>>,
     /// Edges at the sides where they are now.
     pub edges: Vec<Option<Edge>>,
+    /// The number of the picture's blur; none after no round.
+    pub blur: Option<usize>,
 }
 
-/// As [`refine`], in so many rounds, with all that was found.
+/// As [`refine`], in so many rounds, with all that was found; under a blur of the picture, by number, if that is known.
 pub(in crate::image) fn settle(
     photograph: &Photograph,
     panels: &[Marked],
     lens: &Lens,
     reach_px: f64,
     rounds: usize,
+    blur: Option<usize>,
 ) -> Result<Settled> {
     panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
@@ -122,18 +123,21 @@ pub(in crate::image) fn settle(
     let sides = sides(panels);
     let mut corners = given.clone();
     let mut reaches = vec![reach_px; sides.len()];
-    let mut blurs = ALL_BLURS.to_vec();
+    let mut known_blur = blur;
     let (mut first_edges, mut edges) = (Vec::new(), Vec::new());
     for round in 0..rounds {
         let look = |(side, reach): (&Ends, &f64)| {
             let inner = side.inner.map(|corner| corners[corner]);
-            // a kink's blur is its own
-            let blurs = if inner.is_some() { &blurs[..] } else { &ALL_BLURS };
-            Side::new(corners[side.from], corners[side.to]).look(photograph, lens, *reach, inner, blurs)
+            // the light of a kink bends over more than the lens blurs
+            let blurs = match known_blur {
+                Some(blur) if inner.is_some() => vec![blur],
+                Some(blur) => vec![blur, (blur + 1).min(BLURS - 1)],
+                None => (0..BLURS).collect(),
+            };
+            Side::new(corners[side.from], corners[side.to]).look(photograph, lens, *reach, inner, &blurs)
         };
         let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
-        let blur = common_blur(&looks);
-        blurs = vec![blur];
+        let blur = *known_blur.get_or_insert_with(|| common_blur(&looks));
         edges = looks.iter().map(|look| look.edge(blur)).collect();
         corners = meeting_point(&given, &corners, &sides, &edges, reach_px);
         for (reach, edge) in reaches.iter_mut().zip(&edges) {
@@ -145,7 +149,7 @@ pub(in crate::image) fn settle(
         }
     }
     let panels = panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner])));
-    Ok(Settled { panels: panels.collect(), first_edges, edges })
+    Ok(Settled { panels: panels.collect(), first_edges, edges, blur: known_blur })
 }
 
 /// The sides of panels, those of two panels once.

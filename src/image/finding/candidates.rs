@@ -11,7 +11,7 @@ use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, Point};
 
 /// Hypotheses that are looked at closely.
-const TRIED: usize = 6;
+const TRIED: usize = 4;
 /// Rounds in which their sides are moved: they need not be exact.
 const ROUNDS: usize = 2;
 /// How far an edge is looked for, relative to the panels' size, and least and most of it, px.
@@ -38,9 +38,16 @@ pub(super) struct Candidate {
 pub(super) fn candidates(reduced: &Reduced) -> (Vec<Hypothesis>, Vec<Candidate>) {
     let (views, hypotheses) = search(reduced);
     let Ok(picture) = reduced.photograph() else { return (hypotheses, Vec::new()) };
-    let refine = |hypothesis: &Hypothesis| Refined::of(hypothesis, &views, &picture);
-    let refined: Vec<Refined> =
-        hypotheses[..TRIED.min(hypotheses.len())].par_iter().filter_map(refine).collect();
+    let refine =
+        |hypothesis: &Hypothesis, blur: Option<usize>| Refined::of(hypothesis, &views, &picture, blur);
+    let Some((likeliest, others)) = hypotheses[..TRIED.min(hypotheses.len())].split_first() else {
+        return (hypotheses, Vec::new());
+    };
+    // the picture's blur is that of its likeliest fold
+    let likeliest = refine(likeliest, None);
+    let blur = likeliest.as_ref().and_then(|likeliest| likeliest.blur);
+    let others: Vec<Refined> = others.par_iter().filter_map(|other| refine(other, blur)).collect();
+    let refined: Vec<Refined> = likeliest.into_iter().chain(others).collect();
     let candidate = |n: usize| Candidate { outline: refined[n].now.outline, clues: clues(&refined, n) };
     let candidates = (0..refined.len()).map(candidate).collect();
     (hypotheses, candidates)
@@ -53,20 +60,23 @@ struct Refined {
     first_edges: Vec<Option<Edge>>,
     /// How far the furthest corner was moved, px.
     moved_px: f64,
+    /// The number of the blur of its sides.
+    blur: Option<usize>,
 }
 
 impl Refined {
-    fn of(hypothesis: &Hypothesis, views: &Views, picture: &Photograph) -> Option<Self> {
+    fn of(hypothesis: &Hypothesis, views: &Views, picture: &Photograph, blur: Option<usize>) -> Option<Self> {
         let reach_px = (REACH * hypothesis.outline.size_px()).clamp(REACH_PX[0], REACH_PX[1]);
         let marked = hypothesis.outline.marked();
-        let Settled { panels, first_edges, edges } =
-            settle(picture, &marked, &Lens::STRAIGHT, reach_px, ROUNDS).ok()?;
+        let Settled { panels, first_edges, edges, blur } =
+            settle(picture, &marked, &Lens::STRAIGHT, reach_px, ROUNDS, blur).ok()?;
         let outline = Outline::of_panels([panels[0], panels[1]]);
         outline.may_be_fold().then(|| Self {
             now: views.judge(&outline),
             edges,
             first_edges,
             moved_px: outline.distance_px(&hypothesis.outline),
+            blur,
         })
     }
 }

@@ -159,3 +159,33 @@ impl Evidence {
         if seen > 0.0 { edges / seen } else { 1.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{off, outline, views};
+
+    #[test]
+    fn sides_have_an_edge_and_lines_beside_them_have_none() {
+        let (_, evidence, _) = views();
+        let support = |fold: super::super::outline::Outline, side: usize| {
+            evidence.support(fold.side(side), 24, &[-1.0, 0.0, 1.0])
+        };
+        for side in 1..7 {
+            let (at, beside) = (support(outline(), side), support(off(25.0), side));
+            assert!(at.step > 0.7 && at.weakest > 0.8, "{side}: {at:?}");
+            assert!(beside.step < at.step - 0.2, "{side}: {beside:?}");
+        }
+        assert!(support(outline(), 0).ridge > 0.7, "{:?}", support(outline(), 0));
+    }
+
+    #[test]
+    fn a_panel_has_no_edges_inside_and_a_strip_along_its_side_has() {
+        let (_, evidence, _) = views();
+        let [panel, _] = outline().panels();
+        assert!(evidence.inner_edges(&panel, 0.03) < 0.01);
+        // three of its seven rows of places run along the edge
+        let [c0, c1, a1, a0] = panel;
+        let narrow = [c1, a1, a1 - (a0 - a1) * 0.02, c1 - (c0 - c1) * 0.02];
+        assert!(evidence.inner_edges(&narrow, 0.03) > 0.2);
+    }
+}

@@ -172,3 +172,29 @@ fn median(mut numbers: Vec<f64>) -> f64 {
     let middle = numbers.len() / 2;
     *numbers.select_nth_unstable_by(middle, f64::total_cmp).1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{SHEET, lit, off, outline, views};
+
+    #[test]
+    fn both_panels_are_smooth_of_one_colour_and_brighter_at_the_crease() {
+        let (_, _, light) = views();
+        let [a, b] = outline().panels().map(|panel| light.panel(&panel));
+        for panel in [&a, &b] {
+            let rise =
+                SHEET.map(|channel| (lit(channel, 0.06) / lit(channel, 0.92)).ln()).iter().sum::<f64>() / 3.0;
+            assert!((panel.rise - rise).abs() < 0.02, "{rise}: {panel:?}");
+            assert!(panel.unevenness < 0.01 && panel.wrong_way < 0.05 && panel.seen > 0.999, "{panel:?}");
+        }
+        assert!((a.colour[0] - b.colour[0]).abs() < 0.01 && (a.at_crease - b.at_crease).abs() < 0.02);
+    }
+
+    #[test]
+    fn light_across_an_edge_is_uneven() {
+        let (_, _, light) = views();
+        let [panel, _] = outline().panels();
+        let [over, _] = off(30.0).panels();
+        assert!(light.unevenness(&panel) < 0.01 && light.unevenness(&over) > 0.05);
+    }
+}

@@ -142,3 +142,39 @@ pub(super) fn distinct(mut folds: Vec<(f64, Outline)>, apart_px: f64, most: usiz
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::outline;
+    use super::*;
+
+    #[test]
+    fn a_fold_has_one_name_however_it_was_found() {
+        for naming in NAMINGS {
+            let other = Outline(naming.map(|corner| outline().0[corner]));
+            assert_eq!(other.named(), outline());
+            assert!(other.distance_px(&outline()) < 1e-12);
+        }
+        let lower = Outline(outline().0.map(|p| Place::new(p.y, p.x))).named();
+        assert!(lower.0[0].x > lower.0[1].x && lower.0[3].y > lower.0[0].y, "{lower:?}");
+    }
+
+    #[test]
+    fn panels_lie_on_either_side_of_the_crease() {
+        assert!(outline().may_be_fold());
+        let mut folded = outline();
+        (folded.0[4], folded.0[5]) = (folded.0[2], folded.0[3]);
+        assert!(!folded.may_be_fold());
+        let [a, _] = outline().panels();
+        assert!(may_be_rectangle(&a) && !may_be_rectangle(&[a[0], a[2], a[1], a[3]]));
+        assert!((outline().size_px() - 125.0).abs() < 10.0);
+    }
+
+    #[test]
+    fn of_folds_that_are_alike_the_likelier_one_stays() {
+        let moved = |px: f64| Outline(outline().0.map(|corner| corner + Place::new(px, 0.0)));
+        let kept = distinct(vec![(1.0, moved(0.0)), (3.0, moved(1.0)), (2.0, moved(9.0))], 2.0, 5);
+        assert_eq!(kept, [(3.0, moved(1.0)), (2.0, moved(9.0))]);
+        assert_eq!(distinct(kept, 2.0, 1).len(), 1);
+    }
+}

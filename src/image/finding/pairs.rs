@@ -144,3 +144,36 @@ fn crease_like([from, to]: [Place; 2], evidence: &Evidence) -> (f64, f64) {
     });
     if count > 0.0 { (step / count, bend / count) } else { (0.0, 0.0) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::outline::area;
+    use super::super::synthetic::{outline, views};
+    use super::*;
+
+    #[test]
+    fn two_panels_make_a_fold_and_one_with_itself_none() {
+        let [a, b] = outline().panels();
+        // corners may be named from any on, in either sense
+        let quads = [a, [b[2], b[1], b[0], b[3]]].map(|quad| Scored { quad, score: 1.0 });
+        let found = pairs(&quads);
+        assert!(found.iter().any(|(_, fold)| fold.distance_px(&outline()) < 1e-9));
+        assert!(pairs(&quads[..1]).is_empty());
+    }
+
+    #[test]
+    fn a_hexagon_is_cut_at_its_ridge() {
+        let (_, evidence, light) = views();
+        let c = outline().0;
+        let whole = [c[3], c[5], c[4], c[2]];
+        assert!(area(&whole).abs() > 0.0);
+        let cut = halves(&[Scored { quad: whole, score: 1.0 }], &light);
+        let on_crease =
+            |fold: &&Outline| (fold.0[0].x - 159.0).abs() < 6.0 && (fold.0[1].x - 159.0).abs() < 6.0;
+        let Some(fold) = cut.iter().find(on_crease) else { unreachable!("{cut:?}") };
+        // the crease ends below the line between outer corners
+        assert!(straightened(&outline()).iter().all(|other| other.distance_px(&outline()) > 4.0));
+        let moved = slid(fold, &evidence);
+        assert!((moved.0[0].x - 159.0).abs() < 8.0, "{moved:?}");
+    }
+}

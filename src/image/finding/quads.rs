@@ -193,3 +193,29 @@ fn opposite(segments: &[Segment], first: usize) -> Vec<Quad> {
     };
     segments[first + 1..].iter().filter_map(quad).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::evidence::{curvatures, steps};
+    use super::super::plane::Plane;
+    use super::super::segments::{FINE_PX, RIDGE_PX, segments};
+    use super::super::synthetic::{outline, views};
+    use super::*;
+
+    #[test]
+    fn both_panels_are_among_the_best() {
+        let (reduced, evidence, light) = views();
+        let channels = reduced.even();
+        let sum = Plane::sum(&channels);
+        let segments = segments(&channels, &steps(&channels, FINE_PX), &curvatures(&sum, RIDGE_PX));
+        let found = quads(&segments, &evidence, &light, 60);
+        for panel in outline().panels() {
+            let far = |quad: &Quad| {
+                let (quad, panel) = (from_top_left(quad), from_top_left(&panel));
+                (0..4).map(|k| (quad[k] - panel[k]).norm()).fold(0.0, f64::max)
+            };
+            let nearest = found.iter().map(|scored| far(&scored.quad)).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 6.0, "{nearest}");
+        }
+    }
+}

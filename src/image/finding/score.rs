@@ -109,3 +109,18 @@ fn greater([a, b]: [f64; 2]) -> f64 {
 fn skew(quad: &Quad) -> f64 {
     (quad[1] - quad[0] - quad[2] + quad[3]).norm() / (quad[1] - quad[0]).norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{off, outline, views};
+    use super::*;
+
+    #[test]
+    fn the_fold_is_likelier_than_none_and_than_what_lies_beside_it() {
+        let (_, evidence, light) = views();
+        let odds = |fold: &Outline| log_odds(&features(fold, &evidence, &light));
+        assert!(odds(&outline()) > 3.0, "{}", odds(&outline()));
+        assert!(odds(&off(8.0)) < odds(&outline()) - 3.0, "{}", odds(&off(8.0)));
+        assert!(odds(&off(25.0)) < 0.0, "{}", odds(&off(25.0)));
+    }
+}

@@ -144,3 +144,16 @@ fn robust_line(found: &[(f64, f64, f64)], reach_px: f64) -> (f64, f64) {
     }
     (from, from + slope)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{off, outline, views};
+    use super::*;
+
+    #[test]
+    fn corners_three_pixels_off_go_to_the_edges() {
+        let (_, evidence, _) = views();
+        let found = snapped(&off(3.0), &evidence, 5.0);
+        assert!(found.distance_px(&outline()) < 1.2, "{}", found.distance_px(&outline()));
+    }
+}
