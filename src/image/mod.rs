@@ -1,8 +1,8 @@
 //! From a picture file to the mean colour of every facet of a folded sheet.
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
-//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`refine`] finds where exactly the panels
-//! are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`find_fold`] finds the panels of a
+//! fold, [`refine`] where exactly panels are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -12,12 +12,13 @@
 //!
 //! ```text
 //! drawing -> measuring -> placing
-//! edges   -> placing
-//! drawing, measuring, edges, reading -> photograph -> numbers
+//! finding -> edges -> placing
+//! drawing, measuring, finding, edges, reading -> photograph -> numbers
 //! ```
 
 mod drawing;
 mod edges;
+mod finding;
 mod measuring;
 mod numbers;
 mod photograph;
@@ -29,6 +30,7 @@ pub use drawing::{
     write_preview, write_srgb_png,
 };
 pub use edges::{Marked, Refinement, refine};
+pub use finding::{FoundFold, NoFold, WeighedFold, find_fold, weighed_folds};
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,
     measure_patches, open_sides, pixels_sharing_noise,

@@ -87,6 +87,10 @@ pub struct ImageRecord {
     /// How corners were moved to the edges around them.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<RefinedRecord>,
+    /// Of panels that were found, not told, the probability that all their corners are right.
+    #[schemars(inner(range(min = 0, max = 1)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found_confidence: Option<f64>,
     /// What was wrong with the file but did no harm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
@@ -214,6 +218,7 @@ impl ImageRecord {
             margin_px,
             distortion: None,
             refined: None,
+            found_confidence: None,
             notes: info.camera.notes.clone(),
         }
     }
@@ -240,6 +245,13 @@ impl ImageRecord {
             moved_px: refinement.moved_px.clone(),
             sides_without_edge: refinement.sides_without_edge.clone(),
         });
+        self
+    }
+
+    /// The record with the probability that panels which were found are right; none of panels that were told.
+    #[must_use]
+    pub fn with_confidence(mut self, confidence: Option<f64>) -> Self {
+        self.found_confidence = confidence;
         self
     }
 }

@@ -12,6 +12,8 @@
 //! white card in any order round it. Panels count from 0 in the order in which the scene has them. All fields may be absent or null.
 //! - `image`: the photograph's file name, with or without its ending and without its folder. A list of regions needs it; in a
 //!   single object it is a remark.
+//! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
+//! - `found`: false of a photograph in which it found none, and `reason`, why.
 //! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same shape but
 //!   another size, such as the original of a preview, corners are scaled; one of another shape is refused.
 
@@ -28,7 +30,7 @@ use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
 /// Fields beside those of the panels.
-const FIELDS: [&str; 5] = ["chart", "white", "image", "width", "height"];
+const FIELDS: [&str; 8] = ["chart", "white", "image", "width", "height", "confidence", "found", "reason"];
 
 /// Four corners, px of the upright picture.
 pub type Corners = [Point; 4];
@@ -46,6 +48,10 @@ pub struct Regions {
     pub image: Option<String>,
     /// Width and height of the picture in which the corners were found, px.
     pub size: Option<[usize; 2]>,
+    /// Of panels that were found, the probability that their corners are right, 0 to 1.
+    pub confidence: Option<f64>,
+    /// Why none were found.
+    pub missing: Option<String>,
 }
 
 /// Where panels are in a picture: `panel0`, `panel1`, .. have four corners each, [x, y], px of the upright picture, in the order of
@@ -83,12 +89,17 @@ impl Regions {
                 return Err(Error::regions(path, problem, "give both or neither"));
             }
         };
+        let is_missing = read(path, fields, "found", "give true or false")? == Some(false);
+        let reason =
+            read(path, fields, "reason", "give a text")?.unwrap_or_else(|| "no fold was found".to_owned());
         Ok(Self {
             panels: panels.into_iter().filter_map(|(number, corners)| Some((number?, corners))).collect(),
             chart: marked("chart")?,
             white: marked("white")?,
             image: read(path, fields, "image", "give a file name")?,
             size,
+            confidence: read(path, fields, "confidence", "give a number from 0 to 1")?,
+            missing: is_missing.then_some(reason),
         })
     }
 
@@ -120,6 +131,8 @@ impl Regions {
             white: self.white.or(others.white),
             image: self.image.or(others.image),
             size: self.size.or(others.size),
+            confidence: self.confidence.or(others.confidence),
+            missing: self.missing.or(others.missing),
         }
     }
 }

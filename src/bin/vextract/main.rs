@@ -5,6 +5,7 @@ mod batch;
 mod calibration;
 mod camera;
 mod chart_camera;
+mod finding;
 mod light;
 mod list;
 mod numbers;
@@ -40,6 +41,11 @@ Examples:
   vextract *.exr --scene scene.json --regions corners.json --camera nikon-d5100 -o samples.ndjson
   find . -name '*.exr' | sort | vextract --files-from - --scene scene.json --camera nikon-d5100 \\
     --regions corners.json --resume measured.ndjson
+
+Without corners the fold is found: it is measured where that is sure, and else said what to do.
+--find says where it is, with the probability that all corners are right:
+  vextract --find photo.tif > found.json
+  vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
 Corners are x,y in pixels from the top left corner of the upright picture; the centre of the
 first pixel is at 0.5,0.5. Order:
@@ -83,6 +89,9 @@ struct Args {
     camera: Option<String>,
     #[command(flatten)]
     optics: OpticsArgs,
+    /// Print where the fold is in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
+    #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
+    find: bool,
     #[command(flatten)]
     regions: RegionArgs,
     #[command(flatten)]
@@ -116,6 +125,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         return Ok(());
     }
     args.placing.check()?;
+    if args.find {
+        return finding::print(args, &images, &reading, out);
+    }
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;

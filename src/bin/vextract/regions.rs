@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use vfold::image::{CHART_CORNERS, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
+use vfold::image::{CHART_CORNERS, FoundFold, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
 use vfold::stream::{Corners, Regions, RegionsFile};
 use vfold::{Error, Result};
+
+use super::finding;
 
 #[derive(Args)]
 #[command(
@@ -15,8 +17,8 @@ use vfold::{Error, Result};
     group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
 )]
 pub struct RegionArgs {
-    /// Corners of panel 0; facets of panels without corners are null
-    #[arg(long, value_name = "x,y x,y x,y x,y", required_unless_present_any = ["generate", "list", "panel", "panel1", "regions", "preview", "save_camera"], allow_hyphen_values = true)]
+    /// Corners of panel 0; facets of panels without corners are null [default: found, if no panel has any]
+    #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel0: Option<String>,
     /// Corners of panel 1
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
@@ -76,6 +78,15 @@ impl RegionArgs {
     }
 }
 
+/// Refuses panels that were not found, or not surely.
+fn check_found(path: &Path, regions: &Regions) -> Result<()> {
+    if let Some(reason) = &regions.missing {
+        return Err(finding::not_found(path, reason));
+    }
+    let unsure = regions.confidence.filter(|confidence| *confidence < FoundFold::SURE);
+    unsure.map_or(Ok(()), |confidence| Err(finding::unsure(path, confidence)))
+}
+
 /// Parses `2=x,y x,y x,y x,y`.
 fn numbered(text: &str) -> std::result::Result<(usize, String), String> {
     let parts = text
@@ -98,7 +109,13 @@ impl GivenRegions {
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
         let size = [photograph.width(), photograph.height()];
         match &self.file {
-            Some(file) => Ok(self.flags.clone().or(file.of(path, size)?)),
+            Some(file) => {
+                let of_file = file.of(path, size)?;
+                if self.flags.panels.is_empty() {
+                    check_found(path, &of_file)?;
+                }
+                Ok(self.flags.clone().or(of_file))
+            }
             None => Ok(self.flags.clone()),
         }
     }

@@ -19,7 +19,7 @@ use super::pictures::name;
 use super::placing;
 use super::reading::Reading;
 use super::regions::GivenRegions;
-use super::{Args, balance, camera, numbers};
+use super::{Args, balance, camera, finding, numbers};
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {
@@ -44,7 +44,14 @@ impl Setup<'_> {
         };
         self.check_colours(path, &photograph)?;
         let args = self.args;
-        let regions = self.regions.of(path, &photograph)?;
+        let mut regions = self.regions.of(path, &photograph)?;
+        let told = !regions.panels.is_empty() || self.scene.fold_if_one()?.is_none();
+        let confidence = if told {
+            regions.confidence
+        } else {
+            let lens = args.placing.lens(&photograph)?;
+            Some(finding::find(args, path, &photograph, lens, &mut regions)?)
+        };
         let panels = MarkedPanels::new(&self.panels, &regions.panels)?;
         let placed = args.placing.place(&photograph, &panels)?;
         let margin = args.regions.margin;
@@ -75,7 +82,8 @@ impl Setup<'_> {
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &pixels_sharing_noise)
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
-            .with_placing(placed.distortion, placed.refinement.as_ref());
+            .with_placing(placed.distortion, placed.refinement.as_ref())
+            .with_confidence(confidence);
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
             placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);

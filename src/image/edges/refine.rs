@@ -8,7 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::edge::{Edge, Side};
+use super::edge::{Edge, Look, Side, common_blur};
+use super::piece::BLURS;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Homography, Lens, Point};
 use crate::{Error, Result};
@@ -79,47 +80,76 @@ const LEAST_SDS: f64 = 3.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
+    let settled = settle(photograph, panels, lens, reach_px, ROUNDS, None)?;
+    let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
+    let sides = sides(panels);
+    let without = sides
+        .iter()
+        .zip(&settled.edges)
+        .filter(|(_, edge)| edge.is_none())
+        .map(|(side, _)| side.name.clone());
+    Ok(Refinement {
+        moved_px: panels.iter().zip(&settled.panels).map(moved).collect(),
+        sides_without_edge: without.collect(),
+        panels: settled.panels,
+    })
+}
+
+/// Panels after so many rounds of refinement, and what was found along their sides: those of the first panel, then those of the others
+/// that it does not share, each from the crease on.
+pub(in crate::image) struct Settled {
+    /// Corners of every panel, in the order in which they were given.
+    pub panels: Vec<[Point; 4]>,
+    /// Edges within the reach of the given sides.
+    pub first_edges: Vec<Option<Edge>>,
+    /// Edges at the sides where they are now.
+    pub edges: Vec<Option<Edge>>,
+    /// The number of the picture's blur; none after no round.
+    pub blur: Option<usize>,
+}
+
+/// As [`refine`], in so many rounds, with all that was found; under a blur of the picture, by number, if that is known.
+pub(in crate::image) fn settle(
+    photograph: &Photograph,
+    panels: &[Marked],
+    lens: &Lens,
+    reach_px: f64,
+    rounds: usize,
+    blur: Option<usize>,
+) -> Result<Settled> {
     panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
     let given: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
     let sides = sides(panels);
-    let (corners, edges) = settle(photograph, &given, &sides, lens, reach_px);
-    let refined: Vec<[Point; 4]> =
-        panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner]))).collect();
-    let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
-    let without =
-        sides.iter().zip(&edges).filter(|(_, edge)| edge.is_none()).map(|(side, _)| side.name.clone());
-    Ok(Refinement {
-        moved_px: panels.iter().zip(&refined).map(moved).collect(),
-        sides_without_edge: without.collect(),
-        panels: refined,
-    })
-}
-
-/// Corners and edges after all rounds.
-fn settle(
-    photograph: &Photograph,
-    given: &[Point],
-    sides: &[Ends],
-    lens: &Lens,
-    reach_px: f64,
-) -> (Vec<Point>, Vec<Option<Edge>>) {
-    let mut corners = given.to_vec();
+    let mut corners = given.clone();
     let mut reaches = vec![reach_px; sides.len()];
-    let mut edges = Vec::new();
-    for _ in 0..ROUNDS {
-        let find = |(side, reach): (&Ends, &f64)| {
+    let mut known_blur = blur;
+    let (mut first_edges, mut edges) = (Vec::new(), Vec::new());
+    for round in 0..rounds {
+        let look = |(side, reach): (&Ends, &f64)| {
             let inner = side.inner.map(|corner| corners[corner]);
-            Side::new(corners[side.from], corners[side.to]).edge(photograph, lens, *reach, inner)
+            // the light of a kink bends over more than the lens blurs
+            let blurs = match known_blur {
+                Some(blur) if inner.is_some() => vec![blur],
+                Some(blur) => vec![blur, (blur + 1).min(BLURS - 1)],
+                None => (0..BLURS).collect(),
+            };
+            Side::new(corners[side.from], corners[side.to]).look(photograph, lens, *reach, inner, &blurs)
         };
-        edges = sides.par_iter().zip(&reaches).map(find).collect::<Vec<_>>();
-        corners = meeting_point(given, &corners, sides, &edges, reach_px);
+        let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
+        let blur = *known_blur.get_or_insert_with(|| common_blur(&looks));
+        edges = looks.iter().map(|look| look.edge(blur)).collect();
+        corners = meeting_point(&given, &corners, &sides, &edges, reach_px);
         for (reach, edge) in reaches.iter_mut().zip(&edges) {
             let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
             *reach = nearer.max(NEARER * *reach).min(reach_px);
         }
+        if round == 0 {
+            first_edges.clone_from(&edges);
+        }
     }
-    (corners, edges)
+    let panels = panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner])));
+    Ok(Settled { panels: panels.collect(), first_edges, edges, blur: known_blur })
 }
 
 /// The sides of panels, those of two panels once.

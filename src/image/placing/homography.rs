@@ -115,8 +115,9 @@ impl Homography {
     }
 }
 
+/// The map that takes the unit square's corners (0, 0), (1, 0), (1, 1), (0, 1) to those of a quadrilateral.
 #[rustfmt::skip] // a matrix has rows
-fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix3<f64> {
+pub(in crate::image) fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix3<f64> {
     let (ax, ay) = (p1.x - p2.x, p1.y - p2.y);
     let (bx, by) = (p3.x - p2.x, p3.y - p2.y);
     let (cx, cy) = (p0.x - p1.x + p2.x - p3.x, p0.y - p1.y + p2.y - p3.y);

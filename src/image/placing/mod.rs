@@ -15,6 +15,7 @@ pub use distortion::Lens;
 pub use framing::Framing;
 pub use grid::Grid;
 pub use homography::Homography;
+pub(in crate::image) use homography::square_to_quadrilateral;
 pub(in crate::image) use pixel_area::{Quadrilateral, Sides, sense};
 pub use point::Point;
 pub use pose::camera_position;

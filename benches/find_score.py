@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""How well `vextract --find` finds folds, as tables of Markdown.
+
+    find_score.py VEXTRACT FOLDER       pictures and truth.json of find_pictures.py
+
+A corner's error is its distance from the true one, over the side of a panel; a picture's is that of its worst corner. A claim is a fold said
+with the confidence from which on vextract measures without asking, and wrong if a corner is off by more than 3 %.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from find_fit import corners, error
+
+CLAIMED, RIGHT = 0.97, 0.03
+
+
+def found(vextract, folder, names):
+    """What --find says of each picture."""
+    run = subprocess.run([vextract, "--find", *(folder / name for name in names)], capture_output=True, text=True, check=True)
+    return dict(zip(names, map(json.loads, run.stdout.splitlines()), strict=True))
+
+
+class Row:
+    """Pictures of one kind."""
+
+    def __init__(self, pictures):
+        self.off = np.array([picture["off"] for picture in pictures])
+        self.said = np.array([picture["said"] for picture in pictures])
+        claimed = self.said >= CLAIMED
+        self.claimed, self.wrong = claimed.sum(), (claimed & (self.off > RIGHT)).sum()
+
+    def cells(self, has_fold):
+        within = [f"{100 * (self.off < bound).mean():.0f}" if has_fold else "" for bound in (0.01, 0.02, 0.03, 0.05)]
+        return [str(len(self.off)), *within, str(self.claimed), str(self.wrong)]
+
+
+def table(title, groups, has_fold=True):
+    print(f"| {title} | pictures | within 1 % | 2 % | 3 % | 5 % | claimed | of them wrong |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, pictures in groups:
+        if pictures:
+            print(f"| {name} | " + " | ".join(Row(pictures).cells(has_fold)) + " |")
+    print()
+
+
+def reliability(pictures):
+    said, right = np.array([p["said"] for p in pictures]), np.array([p["off"] <= RIGHT for p in pictures])
+    print("| confidence said | pictures | mean of it | were right |\n|---|---|---|---|")
+    for low, high in zip(bounds := [0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 1.01], bounds[1:]):
+        inside = (said >= low) & (said < high)
+        if inside.any():
+            print(f"| {low} to {min(high, 1)} | {inside.sum()} | {said[inside].mean():.3f} | {right[inside].mean():.3f} |")
+    print()
+
+
+def seconds(vextract, folder, names):
+    """Time for one picture beside its decoding and the program's start, the least of three."""
+    def least(*arguments):
+        times = []
+        for _ in range(3):
+            start = time.perf_counter()
+            subprocess.run([vextract, *arguments], check=True, capture_output=True)
+            times.append(time.perf_counter() - start)
+        return min(times)
+
+    once = [folder / name for name in names]
+    return least("--find", *once) / len(once)
+
+
+def main():
+    vextract, folder = Path(sys.argv[1]), Path(sys.argv[2])
+    truth = json.loads((folder / "truth.json").read_text())
+    answers = found(vextract, folder, list(truth))
+    pictures = []
+    for name, known in truth.items():
+        answer = answers[name]
+        is_found = "panel0" in answer and known["corners"] is not None
+        off = error(corners([answer["panel0"], answer["panel1"]]), np.array(known["corners"])) if is_found else 9.0
+        pictures.append({**known, "off": off, "said": answer.get("confidence", 0.0), "reason": answer.get("reason")})
+    whole = [p for p in pictures if p["corners"] is not None and p["whole"]]
+    cut = [p for p in pictures if p["corners"] is not None and not p["whole"]]
+    none = [p for p in pictures if p["corners"] is None]
+    plain = [p for p in whole if p["kind"] == "as it is"]
+    hard = [p for p in whole if p["kind"] != "as it is"]
+    by = lambda group, key: [(value, [p for p in group if p[key] == value]) for value in dict.fromkeys(p[key] for p in group)]
+    table("photographs as they are", [*by(plain, "set"), ("all", plain)])
+    table("made harder", [*by(hard, "kind"), ("all", hard)])
+    table("cut by the edge of the picture", [("all", cut)])
+    said_so = sum(p["reason"] is not None and "cut" in p["reason"] for p in cut)
+    print(f"Of {len(cut)} cut folds {said_so} are said to be cut.\n")
+    table("without a fold", [*by(none, "kind"), ("all", none)], has_fold=False)
+    reliability(pictures)
+    few = [name for name, known in truth.items() if known["kind"] == "as it is"][:8]
+    print(f"A photograph of 0.2 to 0.4 megapixels takes {seconds(vextract, folder, few):.2f} s, decoding and a share of the program's start included.")
+
+
+if __name__ == "__main__":
+    main()

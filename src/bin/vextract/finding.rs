@@ -1,0 +1,85 @@
+//! Panels that are found, not told.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use vfold::cli;
+use vfold::image::{FoundFold, Grid, Homography, Lens, Photograph, find_fold};
+use vfold::stream::{Output, Regions, found_line, not_found_line};
+use vfold::{Error, Result};
+
+use super::{Args, balance, reading::Reading};
+
+/// Prints where the fold is in each photograph, and draws it if `--overlay` is given.
+///
+/// # Errors
+/// As [`Reading::open`] for a single photograph; of several, one that cannot be read is said in its line.
+pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
+    out.expect(images.len());
+    for path in images {
+        let photograph = match reading.open(path) {
+            Err(error) if images.len() > 1 && !error.is_out_of_files() => {
+                out.text(&not_found_line(path, &error.to_string())?)?;
+                continue;
+            }
+            opened => opened?,
+        };
+        let lens = args.placing.lens(&photograph)?;
+        match find_fold(&photograph, &lens) {
+            Ok(found) => {
+                draw(args, path, &photograph, &found, lens)?;
+                out.text(&found_line(path, &photograph, &found)?)?;
+            }
+            Err(none) => out.text(&not_found_line(path, &none.to_string())?)?,
+        }
+    }
+    Ok(())
+}
+
+/// Finds the panels of a fold and puts them into `regions`; the confidence with which they were found.
+///
+/// # Errors
+/// [`Error::Picture`] if no fold is found, or none surely enough to measure it without a look.
+pub fn find(
+    args: &Args,
+    path: &Path,
+    photograph: &Photograph,
+    lens: Lens,
+    regions: &mut Regions,
+) -> Result<f64> {
+    let found = find_fold(photograph, &lens).map_err(|none| not_found(path, &none))?;
+    if !found.is_sure() {
+        draw(args, path, photograph, &found, lens)?;
+        return Err(unsure(path, found.confidence));
+    }
+    if !args.common.quiet {
+        let line = format!("{}: corners found, to {:.1} % sure", path.display(), 100.0 * found.confidence);
+        cli::say("vextract", &line);
+    }
+    regions.panels.extend(found.panels.into_iter().enumerate());
+    Ok(found.confidence)
+}
+
+/// What to do where finding does not.
+const REMEDY: &str = "mark the corners with share/picker.html in what --preview FILE.png writes, or give --panel0 and --panel1";
+
+/// A photograph in which there is no fold, for that reason.
+pub fn not_found(path: &Path, reason: &impl Display) -> Error {
+    Error::picture(path, reason, REMEDY)
+}
+
+/// A fold that may be another thing, or of which a side may lie along another edge.
+pub fn unsure(path: &Path, confidence: f64) -> Error {
+    let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
+    Error::picture(path, problem, format!("look at what --find --overlay FILE.png draws, {REMEDY}"))
+}
+
+/// Draws a fold over its photograph, if that is asked for.
+fn draw(args: &Args, path: &Path, photograph: &Photograph, found: &FoundFold, lens: Lens) -> Result<()> {
+    let grid = |(number, corners)| {
+        let outline = Homography::through(lens, corners)?;
+        Ok(Grid::of_panel(number, outline, &[0.0, 1.0], &[0.0, 1.0]))
+    };
+    let grids = found.panels.into_iter().enumerate().map(grid).collect::<Result<Vec<_>>>()?;
+    args.pictures.overlay(path, photograph, &grids, &[], &balance::of_photograph(args, photograph))
+}

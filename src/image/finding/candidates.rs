@@ -1,0 +1,135 @@
+//! The likeliest folds, their sides moved to where edges explain the pixels best, and what tells whether all corners are right.
+
+use rayon::prelude::*;
+
+use super::outline::{Outline, Place};
+use super::reduced::Reduced;
+use super::score::FEATURES;
+use super::search::{Hypothesis, Views, search};
+use crate::image::edges::{Edge, Marked, Settled, settle};
+use crate::image::photograph::Photograph;
+use crate::image::placing::{Lens, Point};
+
+/// Hypotheses that are looked at closely.
+const TRIED: usize = 4;
+/// Rounds in which their sides are moved: they need not be exact.
+const ROUNDS: usize = 2;
+/// How far an edge is looked for, relative to the panels' size, and least and most of it, px.
+const REACH: f64 = 0.06;
+const REACH_PX: [f64; 2] = [3.0, 8.0];
+/// Candidates this near to each other are one fold, relative to their size, and such far ones are rivals.
+const SAME: f64 = 0.015;
+const RIVAL: f64 = 0.05;
+/// The log odds of a rival when there is none.
+const NO_RIVAL: f64 = -10.0;
+
+/// Numbers that tell whether all corners of a candidate are right.
+pub(super) const CLUES: usize = 12 + FEATURES;
+
+/// A fold whose sides lie along edges.
+pub(super) struct Candidate {
+    /// In pixels of the reduced picture.
+    pub outline: Outline,
+    /// What tells whether all corners are right.
+    pub clues: [f64; CLUES],
+}
+
+/// The folds that a reduced picture may show, and the likeliest of them refined.
+pub(super) fn candidates(reduced: &Reduced) -> (Vec<Hypothesis>, Vec<Candidate>) {
+    let (views, hypotheses) = search(reduced);
+    let Ok(picture) = reduced.photograph() else { return (hypotheses, Vec::new()) };
+    let refine =
+        |hypothesis: &Hypothesis, blur: Option<usize>| Refined::of(hypothesis, &views, &picture, blur);
+    let Some((likeliest, others)) = hypotheses[..TRIED.min(hypotheses.len())].split_first() else {
+        return (hypotheses, Vec::new());
+    };
+    // the picture's blur is that of its likeliest fold
+    let likeliest = refine(likeliest, None);
+    let blur = likeliest.as_ref().and_then(|likeliest| likeliest.blur);
+    let others: Vec<Refined> = others.par_iter().filter_map(|other| refine(other, blur)).collect();
+    let refined: Vec<Refined> = likeliest.into_iter().chain(others).collect();
+    let candidate = |n: usize| Candidate { outline: refined[n].now.outline, clues: clues(&refined, n) };
+    let candidates = (0..refined.len()).map(candidate).collect();
+    (hypotheses, candidates)
+}
+
+/// A hypothesis before and after its sides were moved.
+struct Refined {
+    now: Hypothesis,
+    edges: Vec<Option<Edge>>,
+    first_edges: Vec<Option<Edge>>,
+    /// How far the furthest corner was moved, px.
+    moved_px: f64,
+    /// The number of the blur of its sides.
+    blur: Option<usize>,
+}
+
+impl Refined {
+    fn of(hypothesis: &Hypothesis, views: &Views, picture: &Photograph, blur: Option<usize>) -> Option<Self> {
+        let reach_px = (REACH * hypothesis.outline.size_px()).clamp(REACH_PX[0], REACH_PX[1]);
+        let marked = hypothesis.outline.marked();
+        let Settled { panels, first_edges, edges, blur } =
+            settle(picture, &marked, &Lens::STRAIGHT, reach_px, ROUNDS, blur).ok()?;
+        let outline = Outline::of_panels([panels[0], panels[1]]);
+        outline.may_be_fold().then(|| Self {
+            now: views.judge(&outline),
+            edges,
+            first_edges,
+            moved_px: outline.distance_px(&hypothesis.outline),
+            blur,
+        })
+    }
+}
+
+/// What tells whether all corners of the `n`th are right.
+fn clues(all: &[Refined], n: usize) -> [f64; CLUES] {
+    let this = &all[n];
+    let size = this.now.outline.size_px();
+    let far = |other: &&Refined| this.now.outline.distance_px(&other.now.outline) / size;
+    let rivals = all.iter().filter(|other| far(other) > RIVAL).map(|other| other.now.log_odds);
+    let alike = all.iter().filter(|other| far(other) < SAME).count() as f64;
+    let gain = |edge: &Option<Edge>| edge.as_ref().map_or(0.0, |edge| edge.gain);
+    let lead = |edge: &Option<Edge>| edge.as_ref().map_or(0.0, |edge| edge.lead);
+    let least_two = |numbers: &mut dyn Iterator<Item = f64>| {
+        numbers.fold([f64::INFINITY; 2], |[a, b], x| if x < a { [x, a] } else { [a, b.min(x)] })
+    };
+    let gains = least_two(&mut this.edges[1..].iter().map(gain));
+    let leads = least_two(&mut this.first_edges[1..].iter().map(lead));
+    let without = this.edges[1..].iter().filter(|edge| edge.is_none()).count() as f64;
+    let least_sure = this.edges.iter().flatten().map(|edge| edge.sd_px).fold(0.0, f64::max);
+    let of_gain = |gain: f64| (gain + 10.0).ln();
+    let own = [
+        this.now.log_odds,
+        this.now.log_odds - rivals.fold(NO_RIVAL, f64::max),
+        alike,
+        of_gain(gains[0]),
+        of_gain(gains[1]),
+        of_gain(gain(&this.edges[0])),
+        without,
+        (least_sure / size + 1e-4).ln(),
+        (this.moved_px / size + 1e-3).ln(),
+        of_gain(leads[0]),
+        of_gain(leads[1]),
+        of_gain(lead(&this.first_edges[0])),
+    ];
+    let mut clues = [0.0; CLUES];
+    clues[..own.len()].copy_from_slice(&own);
+    clues[own.len()..].copy_from_slice(&this.now.features);
+    clues
+}
+
+impl Outline {
+    /// Its panels as they are refined.
+    pub fn marked(&self) -> [Marked; 2] {
+        let [a, b] = self.points();
+        [
+            Marked { panel: 0, corners: a, joints: [0, 1, 2, 3] },
+            Marked { panel: 1, corners: b, joints: [0, 1, 4, 5] },
+        ]
+    }
+
+    /// The fold of two panels that have a crease in common.
+    pub fn of_panels([a, b]: [[Point; 4]; 2]) -> Self {
+        Self([a[0], a[1], a[2], a[3], b[2], b[3]].map(|p| Place::new(p.x, p.y)))
+    }
+}

@@ -1,0 +1,204 @@
+//! Where a fold is in a photograph, and how sure that is.
+//!
+//! A fold is two quadrilaterals with one side in common; what tells it from two other things that touch is its own physics: either panel
+//! is one sheet of one colour, its light rises smoothly to the crease (or falls, under an overcast sky), both look alike there, and
+//! around them is an edge. All six corners are found at once:
+//!
+//! 1. [`reduced`], [`plane`], [`evidence`]: a small copy, and steps and ridges of light in all its channels;
+//! 2. [`chains`], [`segments`]: straight edges and ridges;
+//! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants of where their crease is;
+//! 4. [`light`], [`score`], [`search`]: the likeliest of these against "no fold", a logit over what is seen of each;
+//! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
+//!
+//! The fold that is likeliest to be right is then refined in the whole picture.
+
+mod candidates;
+mod chains;
+mod evidence;
+mod light;
+mod outline;
+mod pairs;
+mod plane;
+mod quads;
+mod reduced;
+mod score;
+mod search;
+mod segments;
+mod snap;
+#[cfg(test)]
+mod synthetic;
+mod trust;
+mod weights;
+
+use super::edges::refine;
+use super::photograph::Photograph;
+use super::placing::{Lens, Point};
+use candidates::{Candidate, candidates};
+use outline::{Outline, Place};
+use reduced::Reduced;
+use trust::confidence;
+
+/// A fold in a photograph.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundFold {
+    /// Corners of panels 0 and 1, px of the upright picture, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). Of an
+    /// upright crease end 0 is below and panel 0 on the left; of a level one panel 0 is the lower.
+    pub panels: [[Point; 4]; 2],
+    /// Probability that all six corners are within 3 % of a panel's side of where they should be.
+    pub confidence: f64,
+}
+
+impl FoundFold {
+    /// From this confidence on a fold is measured without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
+    pub const SURE: f64 = 0.97;
+
+    /// Whether it may be measured without a look at it.
+    #[must_use]
+    pub fn is_sure(&self) -> bool {
+        self.confidence >= Self::SURE
+    }
+}
+
+/// Why no fold was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoFold {
+    /// Nothing looks like one.
+    #[error("nothing in the picture looks like a fold")]
+    Nothing,
+    /// One seems to go on beyond the picture.
+    #[error("the fold is cut by the edge of the picture")]
+    Cut,
+}
+
+/// Guesses below this confidence are not worth showing.
+const LEAST_CONFIDENCE: f64 = 0.02;
+/// A corner that lies further beyond the edge of the reduced picture, px, is not in it.
+const BEYOND_PX: f64 = 0.5;
+/// What may be no fold with a corner this near to the edge, px, may be one that goes on beyond it.
+const AT_EDGE_PX: f64 = 3.0;
+/// How far edges are looked for in the whole picture, px and in pixels of the reduced one.
+const REACH_PX: f64 = 2.0;
+const LEAST_REACH_PX: f64 = 4.0;
+
+/// Finds the fold in a photograph.
+///
+/// # Arguments
+/// - `lens`: what bends the picture; its sides are straight without it.
+///
+/// # Errors
+/// [`NoFold`] if there is not even a guess.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, NoFold, Photograph, find_fold};
+/// // on a dark table, a sheet whose light rises to a level crease in the middle
+/// let panel = |x: usize, y: usize| (60..180).contains(&x) && (40..160).contains(&y);
+/// let light = |x, y: usize| if panel(x, y) { 0.8 - 0.004 * (y as f32 + 0.5 - 100.0).abs() } else { 0.1 };
+/// let light = (0..240 * 200).map(|k| light(k % 240, k / 240)).collect();
+/// let found = find_fold(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT).unwrap();
+/// let [x, y] = [found.panels[0][2].x, found.panels[0][2].y]; // outer end 1 of the lower panel
+/// assert!((x - 60.0).hypot(y - 160.0) < 2.0, "{x} {y}");
+///
+/// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
+/// assert_eq!(find_fold(&empty, &Lens::STRAIGHT), Err(NoFold::Nothing));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<FoundFold, NoFold> {
+    let reduced = Reduced::of(photograph);
+    let (_, candidates) = candidates(&reduced);
+    let trusted = candidates.iter().map(|candidate| (confidence(&candidate.clues), candidate));
+    let best = trusted.max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(NoFold::Nothing)?;
+    let (confidence, Candidate { outline, .. }) = best;
+    let nearest = nearest_to_frame(outline, &reduced);
+    if nearest < -BEYOND_PX || (confidence < FoundFold::SURE && nearest < AT_EDGE_PX) {
+        return Err(NoFold::Cut);
+    }
+    if confidence < LEAST_CONFIDENCE {
+        return Err(NoFold::Nothing);
+    }
+    let scale = reduced.scale as f64;
+    let outline = outline.scaled(scale).named();
+    let reach_px = LEAST_REACH_PX.max(REACH_PX * scale + REACH_PX);
+    let refined = refine(photograph, &outline.marked(), lens, reach_px).ok();
+    let exact = refined.map(|refined| Outline::of_panels([refined.panels[0], refined.panels[1]]));
+    let exact = exact.filter(Outline::may_be_fold).unwrap_or(outline);
+    Ok(FoundFold { panels: exact.points(), confidence })
+}
+
+/// The least distance of a corner from the edge of the reduced picture, px, negative beyond it.
+fn nearest_to_frame(outline: &Outline, reduced: &Reduced) -> f64 {
+    let [width, height] = [reduced.width, reduced.height].map(|side| side as f64);
+    let inside = |p: &Place| p.x.min(width - p.x).min(p.y).min(height - p.y);
+    outline.0.iter().map(inside).fold(f64::INFINITY, f64::min)
+}
+
+/// A fold that the search weighed, and what it weighed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WeighedFold {
+    /// Corners of both panels, px, as [`FoundFold::panels`].
+    pub panels: [[Point; 4]; 2],
+    /// What speaks for it and against it.
+    pub weighed: Vec<f64>,
+}
+
+/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the likeliest of them refined.
+#[must_use]
+pub fn weighed_folds(photograph: &Photograph) -> [Vec<WeighedFold>; 2] {
+    let reduced = Reduced::of(photograph);
+    let (hypotheses, candidates) = candidates(&reduced);
+    let fold = |outline: &Outline, weighed: &[f64]| WeighedFold {
+        panels: outline.scaled(reduced.scale as f64).named().points(),
+        weighed: weighed.to_vec(),
+    };
+    [
+        hypotheses.iter().map(|hypothesis| fold(&hypothesis.outline, &hypothesis.features)).collect(),
+        candidates.iter().map(|candidate| fold(&candidate.outline, &candidate.clues)).collect(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use super::synthetic::{HEIGHT, WIDTH, outline, picture};
+    use super::*;
+
+    fn found(fold: &Outline, scale: usize) -> FoundFold {
+        find_fold(&picture(fold, scale), &Lens::STRAIGHT).unwrap()
+    }
+
+    #[test]
+    fn a_fold_is_found_surely_in_pictures_of_any_size() {
+        for scale in [1, 4] {
+            let found = found(&outline(), scale);
+            let off = Outline::of_panels(found.panels).distance_px(&outline().scaled(scale as f64));
+            assert!(off < 0.5 * scale as f64 && found.is_sure(), "{scale}: {off} {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_turned_fold_is_named_by_how_it_lies() {
+        let (x, y) = (WIDTH as f64 / 2.0, HEIGHT as f64 / 2.0);
+        let turned = Outline(outline().0.map(|p| Place::new(x + p.y - y, y - p.x + x)));
+        let fold = found(&turned, 1);
+        let [a, b] = fold.panels;
+        assert!(fold.is_sure() && a[0] == b[0] && a[0].x > a[1].x && a[2].y > b[2].y, "{fold:?}");
+    }
+
+    #[test]
+    fn a_fold_cut_by_the_edge_is_not_claimed() {
+        let cut = Outline(outline().0.map(|p| p - Place::new(72.0, 0.0)));
+        let found = find_fold(&picture(&cut, 1), &Lens::STRAIGHT);
+        assert!(!found.is_ok_and(|found| found.is_sure()), "{found:?}");
+    }
+
+    /// Light falls towards one side of a sheet, and nowhere is a crease.
+    #[test]
+    fn a_flat_sheet_is_not_claimed() {
+        let inside = |x: usize, y: usize| (60..260).contains(&x) && (50..210).contains(&y);
+        let light = |x: usize, y: usize| if inside(x, y) { 0.5 + 0.001 * x as f32 } else { 0.1 };
+        let light = (0..WIDTH * HEIGHT).map(|k| light(k % WIDTH, k / WIDTH)).collect();
+        let sheet = Photograph::from_light(WIDTH, HEIGHT, light).unwrap();
+        assert!(!find_fold(&sheet, &Lens::STRAIGHT).is_ok_and(|found| found.is_sure()));
+    }
+}
