@@ -3,7 +3,7 @@
 
     lights.py TOOLS SHARED [--pick N]       TOOLS: folder of the tools; SHARED: folder of `data`
 
-64 sheets: the ColorChecker and five of each other set of `data/reflectance`, spread over it from its Nth on. Exposure free.
+The sheets are the ColorChecker and five of each other set of `data/reflectance`, spread over it from its Nth on. Exposure free.
 """
 
 import argparse

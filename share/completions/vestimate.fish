@@ -11,6 +11,7 @@ daylight\t'Colour of the sun, where the illuminant is daylight'
 auto\t'All that sets a real sheet apart from an ideal one, bounded by priors'
 none\t'Nothing: the scene is believed as it is told'"
 complete -c vestimate -l join -d 'Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id up to its last - or _' -r
+complete -c vestimate -l illuminants -d 'What an unknown light may be: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; of more than seven samples, up to sixty, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
@@ -96,7 +97,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]' -r -F -a "A\t''
+complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]; unknown: forget what scenes say of theirs, and find it' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''

@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
