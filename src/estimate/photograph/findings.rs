@@ -19,8 +19,8 @@ pub struct Finding {
 
 /// Differences from what is ideal, in standard deviations, of which a word is said.
 const SURE: f64 = 2.0;
-/// Numbers are unusual that far from what was known before, as standard normal ones: three in a thousand are.
-const UNUSUAL: f64 = 3.0;
+/// Numbers are unusual that far from what was known before, as standard normal ones: one in forty is.
+const UNUSUAL: f64 = 2.24;
 
 /// Other light than that of a clear day.
 #[must_use]
