@@ -71,7 +71,7 @@ pub enum NoFold {
 }
 
 /// Guesses below this confidence are not worth showing.
-const LEAST_CONFIDENCE: f64 = 0.02;
+const LEAST_CONFIDENCE: f64 = 0.1;
 /// A corner that lies further beyond the edge of the reduced picture, px, is not in it.
 const BEYOND_PX: f64 = 0.5;
 /// What may be no fold with a corner this near to the edge, px, may be one that goes on beyond it.
