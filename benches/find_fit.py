@@ -168,7 +168,7 @@ def main():
     print(f"/// The score of \"no fold\".\npub(super) const NO_FOLD: f64 = {number(no_fold)};")
     print(f"/// What is said before any tree, and how sums are made log odds.\npub(super) const BASE: f64 = {number(base)};")
     print(f"pub(super) const SLOPE: f64 = {number(slope)};\npub(super) const OFFSET: f64 = {number(offset)};")
-    print(f"#[rustfmt::skip]\npub(super) const TREES: [Tree; {len(trees)}] = [")
+    print(f"#[rustfmt::skip]\npub(super) static TREES: [Tree; {len(trees)}] = [")
     for questions, answers in trees:
         asked = ", ".join(f"({clue}, {number(bound)})" for clue, bound in questions)
         print(f"    Tree {{ questions: [{asked}], answers: [{', '.join(map(number, answers))}] }},")

@@ -63,7 +63,7 @@ impl FoundFold {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoFold {
     /// Nothing looks like one.
-    #[error("nothing in the picture looks like a fold")]
+    #[error("nothing in the picture looks like a whole fold")]
     Nothing,
     /// One seems to go on beyond the picture.
     #[error("the fold is cut by the edge of the picture")]
@@ -71,7 +71,7 @@ pub enum NoFold {
 }
 
 /// Guesses below this confidence are not worth showing.
-const LEAST_CONFIDENCE: f64 = 0.02;
+const LEAST_CONFIDENCE: f64 = 0.1;
 /// A corner that lies further beyond the edge of the reduced picture, px, is not in it.
 const BEYOND_PX: f64 = 0.5;
 /// What may be no fold with a corner this near to the edge, px, may be one that goes on beyond it.
@@ -91,10 +91,11 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// # Example
 /// ```
 /// use vfold::image::{Lens, NoFold, Photograph, find_fold};
-/// // on a dark table, a sheet whose light rises to a level crease in the middle
-/// let panel = |x: usize, y: usize| (60..180).contains(&x) && (40..160).contains(&y);
-/// let light = |x, y: usize| if panel(x, y) { 0.8 - 0.004 * (y as f32 + 0.5 - 100.0).abs() } else { 0.1 };
-/// let light = (0..240 * 200).map(|k| light(k % 240, k / 240)).collect();
+/// // on a dark table, a sheet with a level crease, which is brighter there and more of its colour
+/// let lit = |reflectance: f32, y: usize| reflectance * (0.5 + reflectance * (-(y as f32 + 0.5 - 100.0).abs() / 30.0).exp());
+/// let inside = |x: usize, y: usize| (60..180).contains(&x) && (40..160).contains(&y);
+/// let light = |x, y| [0.7, 0.5, 0.3].map(|reflectance| if inside(x, y) { lit(reflectance, y) } else { 0.1 });
+/// let light = (0..240 * 200).flat_map(|k| light(k % 240, k / 240)).collect();
 /// let found = find_fold(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT).unwrap();
 /// let [x, y] = [found.panels[0][2].x, found.panels[0][2].y]; // outer end 1 of the lower panel
 /// assert!((x - 60.0).hypot(y - 160.0) < 2.0, "{x} {y}");
