@@ -15,7 +15,7 @@ complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed,
 complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the mean]' -r
 complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
-complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there' -r
+complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
 complete -c vkernel -l plot -d 'Draw how much of its light every facet hands to others, and the direct light on it' -r -F
 complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for pairs that are near or partly hidden' -r -F

@@ -131,7 +131,8 @@ END
                 2,
                 &["--camera"],
             ),
-            case("vextract photo.exr < scene.json", 2, &["--panel0"]),
+            // the fold would be found
+            case("vextract photo.exr < scene.json", 2, &["--camera"]),
             case("vextract --panel0 '332,462 345,77 122,12 104,442' < scene.json", 2, &["IMAGE"]),
         ],
     );

@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 use vfold::estimate::measured::Measured;
+use vfold::estimate::photograph::day::Day;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::hypotheses::{
     Hypothesis, Mistake, hypotheses_without_bounces, usual_hypotheses,
@@ -42,10 +43,11 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let parts = [parts];
     let prior = Prior::built_in(wavelengths_nm).unwrap();
     let kinds = Kinds::of(&parts).remove(0);
-    let whitening = ModelError::of(parts[0].told.beliefs)
+    let whitening = ModelError::of(parts[0].told.beliefs, Day::Clear)
         .whitening(&parts[0].places, &parts[0].values, &parts[0].sd)
         .unwrap();
-    let ideal = [None, Some(Mistake::Angle), Some(Mistake::Exposure)].map(Hypothesis::ideal);
+    let ideal =
+        [None, Some(Mistake::Angle), Some(Mistake::Exposure), Some(Mistake::Sky)].map(Hypothesis::ideal);
     let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
     for hypothesis in all {
         let model = PhotographModel::new(&parts[0], &kinds, hypothesis, prior.broad(), &whitening);

@@ -29,8 +29,8 @@ const KINK_SD_PX: f64 = 0.5;
 /// An edge is elsewhere if its middle is further away than this, px and relative to the reach.
 const ELSEWHERE_PX: f64 = 1.5;
 const ELSEWHERE: f64 = 0.25;
-/// What a piece says against a line counts no more than this: a finger may hide the side there.
-const MOST_OF_PIECE: f64 = 60.0;
+/// What a piece says against a line counts no more than this where something may hide the side there, as a finger does.
+pub(in crate::image) const MOST_OF_PIECE: f64 = 60.0;
 /// A side speaks against a blur by at most this part of what it says for the best.
 const MOST_AGAINST: f64 = 0.25;
 
@@ -68,7 +68,7 @@ impl Side {
     }
 
     /// What the pixels within `reach_px` of the side say of an edge under each of the blurs. `inner`: a place on the sheet, if that ends
-    /// here.
+    /// here; `most_of_piece`: what a piece may say against a line, in log likelihood.
     pub fn look(
         &self,
         photograph: &Photograph,
@@ -76,6 +76,7 @@ impl Side {
         reach_px: f64,
         inner: Option<Point>,
         blurs: &[usize],
+        most_of_piece: f64,
     ) -> Look {
         let pieces = self.pieces(photograph, lens, reach_px);
         let inwards = inner.map(|inner| {
@@ -91,7 +92,7 @@ impl Side {
                     (
                         piece.place,
                         std::array::from_fn(|place| {
-                            gains[place].max(most - MOST_OF_PIECE) - breaks[place].min(2.0 * MOST_OF_PIECE)
+                            gains[place].max(most - most_of_piece) - breaks[place].min(2.0 * most_of_piece)
                         }),
                     ),
                 )

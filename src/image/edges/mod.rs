@@ -5,6 +5,6 @@ mod fit;
 mod piece;
 mod refine;
 
-pub(in crate::image) use edge::Edge;
+pub(in crate::image) use edge::{Edge, MOST_OF_PIECE};
 pub use refine::{Marked, Refinement, refine};
-pub(in crate::image) use refine::{Settled, settle};
+pub(in crate::image) use refine::{Settled, refine_in_sight, settle};

@@ -80,7 +80,18 @@ const LEAST_SDS: f64 = 3.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
-    let settled = settle(photograph, panels, lens, reach_px, ROUNDS, None)?;
+    refine_in_sight(photograph, panels, lens, reach_px, f64::INFINITY)
+}
+
+/// As [`refine`], each piece of a side saying no more than that against a line, in log likelihood: something may hide it.
+pub(in crate::image) fn refine_in_sight(
+    photograph: &Photograph,
+    panels: &[Marked],
+    lens: &Lens,
+    reach_px: f64,
+    most_of_piece: f64,
+) -> Result<Refinement> {
+    let settled = settle(photograph, panels, (lens, reach_px), (ROUNDS, None), most_of_piece)?;
     let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
     let sides = sides(panels);
     let without = sides
@@ -108,14 +119,13 @@ pub(in crate::image) struct Settled {
     pub blur: Option<usize>,
 }
 
-/// As [`refine`], in so many rounds, with all that was found; under a blur of the picture, by number, if that is known.
+/// As [`refine_in_sight`], in so many rounds, with all that was found; under a blur of the picture, by number, if that is known.
 pub(in crate::image) fn settle(
     photograph: &Photograph,
     panels: &[Marked],
-    lens: &Lens,
-    reach_px: f64,
-    rounds: usize,
-    blur: Option<usize>,
+    (lens, reach_px): (&Lens, f64),
+    (rounds, blur): (usize, Option<usize>),
+    most_of_piece: f64,
 ) -> Result<Settled> {
     panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
@@ -134,7 +144,8 @@ pub(in crate::image) fn settle(
                 Some(blur) => vec![blur, (blur + 1).min(BLURS - 1)],
                 None => (0..BLURS).collect(),
             };
-            Side::new(corners[side.from], corners[side.to]).look(photograph, lens, *reach, inner, &blurs)
+            let side = Side::new(corners[side.from], corners[side.to]);
+            side.look(photograph, lens, *reach, inner, &blurs, most_of_piece)
         };
         let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
         let blur = *known_blur.get_or_insert_with(|| common_blur(&looks));

@@ -6,7 +6,7 @@ use super::outline::{Outline, Place};
 use super::reduced::Reduced;
 use super::score::FEATURES;
 use super::search::{Hypothesis, Views, search};
-use crate::image::edges::{Edge, Marked, Settled, settle};
+use crate::image::edges::{Edge, MOST_OF_PIECE, Marked, Settled, settle};
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, Point};
 
@@ -69,7 +69,7 @@ impl Refined {
         let reach_px = (REACH * hypothesis.outline.size_px()).clamp(REACH_PX[0], REACH_PX[1]);
         let marked = hypothesis.outline.marked();
         let Settled { panels, first_edges, edges, blur } =
-            settle(picture, &marked, &Lens::STRAIGHT, reach_px, ROUNDS, blur).ok()?;
+            settle(picture, &marked, (&Lens::STRAIGHT, reach_px), (ROUNDS, blur), MOST_OF_PIECE).ok()?;
         let outline = Outline::of_panels([panels[0], panels[1]]);
         outline.may_be_fold().then(|| Self {
             now: views.judge(&outline),

@@ -30,7 +30,7 @@ mod synthetic;
 mod trust;
 mod weights;
 
-use super::edges::refine;
+use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
 use super::placing::{Lens, Point};
 use candidates::{Candidate, candidates};
@@ -120,7 +120,7 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<FoundFold, NoFo
     let scale = reduced.scale as f64;
     let outline = outline.scaled(scale).named();
     let reach_px = LEAST_REACH_PX.max(REACH_PX * scale + REACH_PX);
-    let refined = refine(photograph, &outline.marked(), lens, reach_px).ok();
+    let refined = refine_in_sight(photograph, &outline.marked(), lens, reach_px, MOST_OF_PIECE).ok();
     let exact = refined.map(|refined| Outline::of_panels([refined.panels[0], refined.panels[1]]));
     let exact = exact.filter(Outline::may_be_fold).unwrap_or(outline);
     Ok(FoundFold { panels: exact.points(), confidence })

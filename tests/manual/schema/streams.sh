@@ -62,14 +62,15 @@ oiiotool noisy.tif --clamp:max=0.8 -d uint16 -o cut.tif
 oiiotool noisy.tif --ccmatrix 1.9,-0.2,0.05,-0.8,1.9,-0.75,-0.1,-0.7,1.7 -d uint16 -o matrix.tif
 vextract black.tif cut.tif matrix.tif --scene finer.ndjson --regions marked.json --camera canon-5d-mark-ii --illuminant D65 -q \
     -o levels.ndjson 2>said || [ $? = 3 ]
-# in the light of a sky, of which nobody says anything: an ideal fold, and two of another angle than is told, on an overcast day and in haze
+# a photograph in which the fold is found
+vextract "$data/photos/a_ideal_magenta_50.exr" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o found.ndjson
+# in the light of a sky, of which nobody says anything: an ideal fold, and one of another angle than is told, in haze
 under_sky() { # sky, angle, exposure
     vkernel --angle-deg $2 --sky $1 | vforward --reflectance cc24:foliage --exposure $3 --photon-noise 0.01 --render dull.tif -q -o dull.ndjson
     vkernel --angle-deg 60 | vextract dull.tif --regions dull.ndjson --camera canon-5d-mark-ii --illuminant D65 -q | vestimate -q
 }
 under_sky 20 60 0.04 >even-sky.ndjson
-under_sky 20 62 0.04 >overcast.ndjson
-under_sky 1 62 0.5 >hazy.ndjson
+under_sky 40 64 0.02 >hazy.ndjson
 # as the camera developed it, which leaves a doubt
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
     vestimate -q -o doubtful.ndjson
