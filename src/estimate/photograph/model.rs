@@ -133,8 +133,12 @@ impl<'a> PhotographModel<'a> {
             let (values, slopes) = chebyshev(albedo, count);
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
-        // of a dark sheet light bounces once
-        let once = &self.coefficients * chebyshev(&[0.0], count).1;
+        // of a dark sheet light bounces once: what it sends for each unit of albedo at the two darkest nodes leads on to none
+        let nodes = nodes(count);
+        let apart = nodes[1] - nodes[0];
+        let mut once = DMatrix::zeros(count, 1);
+        once[0] = nodes[1] / (apart * nodes[0]);
+        once[1] = -nodes[0] / (apart * nodes[1]);
         Terms {
             values: &once * DMatrix::from_row_slice(1, albedo.len(), albedo),
             slopes: once * DMatrix::from_element(1, albedo.len(), 1.0),
