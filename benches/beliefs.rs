@@ -109,9 +109,7 @@ fn quality(all: &[Known], beliefs: Beliefs) -> Result<Quality> {
 /// The same with one number changed: by a factor, or, if it is a mean, by as many standard deviations as the factor is doublings, halved.
 fn changed(mut beliefs: Beliefs, number: usize, factor: f64) -> Beliefs {
     let (name, of) = Beliefs::NUMBERS[number];
-    let sd_of_mean = Beliefs::NUMBERS.get(number + 1).filter(|(next, _)| {
-        next.strip_suffix("_sd").is_some_and(|stem| stem == name || Some(stem) == name.strip_suffix("_mean"))
-    });
+    let sd_of_mean = Beliefs::NUMBERS.get(number + 1).filter(|(next, _)| next.replacen("_sd", "", 1) == name);
     match sd_of_mean {
         Some((_, sd)) => {
             let sd = *sd(&mut beliefs);

@@ -185,6 +185,18 @@ fn error_bars_hold_with_a_second_photograph() {
     assert!(lamp[0] < 0.048 && lamp[1] > 0.8);
 }
 
+/// Join and plans know the sun alone: a fold that the sky lights alone is no silent part of them.
+#[test]
+fn without_a_sun_photographs_are_not_joined() {
+    let run = Workdir::new().sh(
+        "vkernel --angle-deg 50 --facets 4x4 --sky only > scene.json
+        vforward scene.json --reflectance cc24:orange --render sheet.tif --render-size 320x240 -q | tail -n 1 > corners.json
+        vextract sheet.tif --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 -q > sheet.ndjson
+        cat sheet.ndjson sheet.ndjson | vestimate -q --join",
+    );
+    assert!(run.status != 0 && run.stderr.contains("light.sun"), "{run:?}");
+}
+
 /// The longer exposure clips the facets away from the crease, the shorter one is noisier at the crease.
 #[test]
 fn brackets_fill_what_clipped() {

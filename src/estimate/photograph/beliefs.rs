@@ -90,7 +90,7 @@ beliefs! {
     overcast_mired: 157.0,
     /// See `overcast_mired`.
     overcast_mired_sd: 9.0,
-    /// Share of a hazy sky's light that is an overcast sky's, as likely as not off by as much.
+    /// Share of a hazy sky's light that is an overcast sky's, and the standard deviation of it.
     hazy_cloud: 0.3,
     /// Amount of sunlight that comes through clouds or past what throws a shadow: irradiance of a plane that faces the sun, that of an open
     /// horizontal plane by the sky being 1.
@@ -133,13 +133,12 @@ beliefs! {
     /// How far sheets that a formula describes vary beyond its numbers, in the same unit.
     formula_variation: 0.3,
 
-    /// What no unknown explains, relative to predicted values, in all channels alike. These sizes, shares and variations of kinds, and the amounts of ground,
-    /// gloss, fibres and crease are fitted (`benches/beliefs.sh --fit`), but for variations of formulas, which are as they were, and gloss and length, which go half of the
-    /// way or less: with all of it bars are too short where a sheet is glossier than those of the fit. Of corners people mark most within 1 %.
+    /// What no unknown explains, relative to predicted values, in all channels alike. Where its sizes come from: docs/model.md.
     discrepancy_shared: 0.01,
-    /// As much more where all light is the sky's: no sky is as a formula has it, and even ones differ by that (`benches/skies.rs`).
+    /// As much more where all light is the sky's: root mean square of what the types 1, 3 and 5 of overcast skies leave within panels
+    /// (`benches/skies.rs`).
     discrepancy_sky: 0.016,
-    /// Panel 0 beside panel 1, likewise: half of the overcast skies are brighter about the hidden sun, to which few folds are turned.
+    /// Panel 0 beside panel 1, likewise: what all six types leave between panels, of which half are brighter about the hidden sun.
     discrepancy_sky_aside: 0.07,
     /// In each channel by itself.
     discrepancy_own: 0.006,

@@ -62,6 +62,12 @@ impl<'a> Photograph<'a> {
 
     /// What makes residuals standard normal; none if facets are not finite.
     pub fn whitening(&self, discrepancy: Discrepancy, day: Day) -> Option<&Whitening> {
+        // where nothing is left unexplained the day makes no difference, nor does it matter what hides the sun
+        let day = match day {
+            _ if discrepancy == Discrepancy::None => Day::Clear,
+            Day::Shade => Day::Overcast,
+            other => other,
+        };
         let whitening = || {
             let error = ModelError::of(self.parts.told.beliefs, day).scaled(discrepancy.size());
             error.whitening(&self.parts.places, &self.values, &self.parts.sd)

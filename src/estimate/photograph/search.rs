@@ -51,8 +51,12 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
 /// The estimate from photographs that are as people take them, however ideal their facets are, as those of photographs that are only planned.
 ///
 /// # Errors
-/// As [`estimate`].
+/// As [`estimate`]; [`Error::Field`] where it was stated that there is no sun, which these have.
 pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
+    if parts.iter().any(|one| one.told.sun <= 0.0) {
+        let problem = "photographs are joined and planned in the sun alone; estimate one that the sky lights alone by itself";
+        return Err(Error::field("light.sun", problem));
+    }
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)
 }
