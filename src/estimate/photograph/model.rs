@@ -133,12 +133,14 @@ impl<'a> PhotographModel<'a> {
             let (values, slopes) = chebyshev(albedo, count);
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
-        // of a dark sheet light bounces once: what it sends for each unit of albedo at the two darkest nodes leads on to none
-        let nodes = nodes(count);
-        let apart = nodes[1] - nodes[0];
-        let mut once = DMatrix::zeros(count, 1);
-        once[0] = nodes[1] / (apart * nodes[0]);
-        once[1] = -nodes[0] / (apart * nodes[1]);
+        // of a dark sheet light bounces once. What a Lambertian one sends for each unit of its albedo is smoother than what it sends, and has
+        // no end; gloss does not vanish with albedo, and only the slope can be told
+        let (values, slopes) = chebyshev(&[0.0], count);
+        let once = if self.hypothesis.imperfection.is_ideal() {
+            (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
+        } else {
+            &self.coefficients * slopes
+        };
         Terms {
             values: &once * DMatrix::from_row_slice(1, albedo.len(), albedo),
             slopes: once * DMatrix::from_element(1, albedo.len(), 1.0),

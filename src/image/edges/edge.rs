@@ -87,18 +87,14 @@ impl Side {
                 let gains = piece.gains(&self.across(), *blur, reach_px, reach_px + FLANK_PX);
                 let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, *blur));
                 let most = gains.iter().copied().fold(0.0, f64::max);
-                (
-                    most,
-                    (
-                        piece.place,
-                        std::array::from_fn(|place| {
-                            gains[place].max(most - most_of_piece) - breaks[place].min(2.0 * most_of_piece)
-                        }),
-                    ),
-                )
+                let says = |place: usize| {
+                    gains[place].max(most - most_of_piece) - breaks[place].min(2.0 * most_of_piece)
+                };
+                (piece.place, std::array::from_fn(says))
             };
-            let (most, gains): (Vec<f64>, Vec<_>) = pieces.iter().map(gains).unzip();
-            Blurred { blur: *blur, says: most.iter().sum(), gains }
+            let gains: Vec<_> = pieces.iter().map(gains).collect();
+            let likelihoods: Vec<f64> = lines().map(|line| log_likelihood(&gains, line)).collect();
+            Blurred { blur: *blur, gain: likelihoods.iter().copied().fold(0.0, f64::max), likelihoods }
         };
         Look { reach_px, ends_here: inner.is_some(), blurred: blurs.iter().map(of_blur).collect() }
     }
@@ -152,10 +148,10 @@ pub(super) struct Look {
 /// What they say under one blur.
 struct Blurred {
     blur: usize,
-    /// What speaks for an edge anywhere, in log likelihood.
-    says: f64,
-    /// Where each piece is along the side, and what it says for an edge at each of the places.
-    gains: Vec<(f64, [f64; PLACES])>,
+    /// By how much the best line explains all pieces better than smooth light, in log likelihood; 0 if none does.
+    gain: f64,
+    /// The same for each of [`lines`].
+    likelihoods: Vec<f64>,
 }
 
 /// The blur that all outer sides say together, none of them louder for being longer or brighter.
@@ -163,9 +159,9 @@ pub(super) fn common_blur(looks: &[Look]) -> usize {
     let outer = || looks.iter().filter(|look| look.ends_here);
     let vote = |blur: &usize| {
         let of_side = |look: &Look| {
-            let most = look.blurred.iter().map(|blurred| blurred.says).fold(1.0, f64::max);
+            let most = look.blurred.iter().map(|blurred| blurred.gain).fold(1.0, f64::max);
             let says =
-                look.blurred.iter().find(|blurred| blurred.blur == *blur).map_or(0.0, |blurred| blurred.says);
+                look.blurred.iter().find(|blurred| blurred.blur == *blur).map_or(0.0, |blurred| blurred.gain);
             ((says - most) / most).max(-MOST_AGAINST)
         };
         outer().map(of_side).sum::<f64>()
@@ -177,20 +173,17 @@ impl Look {
     /// The edge, if there is one; under a blur, if the sheet ends there, else under the likeliest.
     pub fn edge(&self, blur: usize) -> Option<Edge> {
         let usable = self.blurred.iter().filter(|blurred| !self.ends_here || blurred.blur == blur);
-        let likelihoods = |blurred: &Blurred| -> (f64, Vec<f64>) {
-            let likelihoods: Vec<f64> = lines().map(|line| log_likelihood(&blurred.gains, line)).collect();
-            (likelihoods.iter().copied().fold(0.0, f64::max), likelihoods)
-        };
-        let (gain, likelihoods) = usable.map(likelihoods).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let Blurred { gain, likelihoods, .. } = usable.max_by(|a, b| a.gain.total_cmp(&b.gain))?;
+        let gain = *gain;
         if gain < LEAST_GAIN {
             return None;
         }
-        let weighted = lines().zip(&likelihoods).map(|(line, likelihood)| {
+        let weighted = lines().zip(likelihoods).map(|(line, likelihood)| {
             let ends = line.map(|place| offset(place, self.reach_px));
             (Vector2::from(ends), (likelihood - gain).exp())
         });
         let model_sd_px = if self.ends_here { STEP_SD_PX } else { KINK_SD_PX };
-        let lead = gain - elsewhere(&likelihoods, gain, self.reach_px);
+        let lead = gain - elsewhere(likelihoods, gain, self.reach_px);
         Some(Edge { gain, lead, ..Edge::of(weighted, self.reach_px, model_sd_px) })
     }
 }
