@@ -9,6 +9,7 @@ mod finding;
 mod light;
 mod list;
 mod numbers;
+mod picking;
 mod pictures;
 mod placing;
 mod reading;
@@ -92,6 +93,10 @@ struct Args {
     /// Print where the fold is in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
     #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
+    /// Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is
+    /// seen on this machine alone
+    #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region", "preview", "overlay"])]
+    pick: bool,
     #[command(flatten)]
     regions: RegionArgs,
     #[command(flatten)]
@@ -127,6 +132,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.placing.check()?;
     if args.find {
         return finding::print(args, &images, &reading, out);
+    }
+    if args.pick {
+        return picking::print(args, &images, &reading, out);
     }
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
