@@ -21,8 +21,9 @@ page=benches/results/metered.md
     echo
     machine "$bin/vestimate"
     echo
-    echo 'Rendered photographs without a chart or a card, three times each, their numbers taken for more or less light (standard deviation 50 per cent):'
-    echo 'without settings, and with an exposure time, an aperture and a sensitivity in their EXIF that make white what it is within 30 per cent.'
+    echo 'Rendered photographs without a chart or a card, three times each, their numbers taken for less light, as of those who fear'
+    echo 'clipped pixels (up to a half in two of three): without settings, and with an exposure time, an aperture and a sensitivity in their EXIF that make'
+    echo 'white what it is within 30 per cent.'
     echo
     "$python" -B benches/metered.py "$bin" "$shared"
 } | tee "$page.new"
