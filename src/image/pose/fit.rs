@@ -120,10 +120,12 @@ impl Problem<'_> {
         let factor = jacobian.tr_mul(&jacobian).cholesky()?;
         let ln_determinant = 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum();
         let expected = self.hypothesis.expected.iter();
+        // corners that the model does not explain are further off than they should be
+        let misfit = (residuals.norm_squared() / (RESIDUALS - UNKNOWNS) as f64).max(1.0).sqrt();
         let ln_prior = self.hypothesis.share.ln() - expected.map(|expected| expected.sd.ln()).sum::<f64>();
         Some(Fitted {
             unknowns,
-            angle_sd: factor.inverse()[(ANGLE, ANGLE)].sqrt(),
+            angle_sd: misfit * factor.inverse()[(ANGLE, ANGLE)].sqrt(),
             ln_evidence: ln_prior - 0.5 * (residuals.norm_squared() + ln_determinant),
         })
     }

@@ -11,6 +11,8 @@ mod belief;
 mod fit;
 mod mixture;
 mod outline;
+#[cfg(test)]
+mod tests;
 mod view;
 
 use super::placing::{Lens, Point};

@@ -20,7 +20,7 @@ impl Outline {
     pub fn of(panels: &[[Point; 4]; 2], lens: Option<Lens>, size: [f64; 2], unit_px: f64) -> Option<Self> {
         let lens = lens.unwrap_or(Lens::STRAIGHT);
         let panels = panels.map(|panel| panel.map(|corner| lens.undistort(corner)));
-        let areas = panels.map(|[a, b, c, d]| (cross(a, b, c) + cross(a, c, d)) / 2.0);
+        let areas = panels.map(|panel| twice_area(panel) / 2.0);
         let is_swapped = areas[0] > 0.0;
         let [left, right] = if is_swapped { [panels[1], panels[0]] } else { panels };
         let place = |p: Point| Vector2::new(p.x - size[0] / 2.0, p.y - size[1] / 2.0) / unit_px;
@@ -36,4 +36,9 @@ impl Outline {
     pub fn in_order<T: Copy>(&self, [a, b]: [T; 2]) -> [T; 2] {
         if self.is_swapped { [b, a] } else { [a, b] }
     }
+}
+
+/// Twice the area of a quadrilateral, positive if it runs clockwise as seen.
+pub(super) fn twice_area([a, b, c, d]: [Point; 4]) -> f64 {
+    cross(a, b, c) + cross(a, c, d)
 }

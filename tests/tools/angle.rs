@@ -1,0 +1,112 @@
+//! The angle of a fold from a photograph alone: `--find` prints it, vkernel takes it, vestimate believes it as far as it is known.
+
+use serde_json::Value;
+
+use crate::common::{Ended, Workdir};
+
+const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
+const ALL: &str = "vextract --find photo.exr > regions.json
+    vkernel --regions regions.json | vextract -q photo.exr --regions regions.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q";
+
+/// A folder with a photograph of a fold of 50°.
+fn with_photo() -> Workdir {
+    let folder = Workdir::new();
+    std::fs::copy(format!("{PHOTOS}/a_ideal_magenta_50.exr"), folder.path().join("photo.exr")).unwrap();
+    folder
+}
+
+fn records(run: &Ended) -> Vec<Value> {
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn a_photograph_alone_gives_the_spectrum() {
+    let [scene, sample] = <[Value; 2]>::try_from(records(&with_photo().sh(ALL))).unwrap();
+    let geometry = &scene["geometry"];
+    assert!((number(&geometry["angle_deg"]) - 50.0).abs() < 1.0, "{geometry}");
+    assert!((0.01..1.0).contains(&number(&geometry["angle_sd_deg"])), "{geometry}");
+    let sidecar = std::fs::read_to_string(format!("{PHOTOS}/a_ideal_magenta_50.json")).unwrap();
+    let truth = serde_json::from_str::<Value>(&sidecar).unwrap()["reflectance"].take();
+    let values = |list: &Value| list.as_array().unwrap().iter().map(number).collect::<Vec<_>>();
+    let (truth, estimate) = (values(&truth), values(&sample["estimate"]["reflectance"]));
+    let squares = truth.iter().zip(&estimate).map(|(truth, estimate)| (truth - estimate).powi(2));
+    let rmse = (squares.sum::<f64>() / truth.len() as f64).sqrt();
+    assert!(rmse < 0.03, "{rmse}");
+}
+
+/// A wrong angle is left behind for that of the facets only if it is not said to be exact.
+#[test]
+fn the_estimate_moves_an_angle_as_far_as_its_deviation_allows() {
+    let fitted = |sd: &str| {
+        let run = with_photo().sh(&format!(
+            "vextract --find photo.exr > found.json
+            jq -c '.angle_deg = 51.5 | .angle_sd_deg = {sd}' found.json > regions.json
+            vkernel --regions regions.json |
+            vextract -q photo.exr --regions found.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q"
+        ));
+        number(&records(&run)[1]["estimate"]["fit"]["angle_deg"]["value"])
+    };
+    let [exact, vague] = ["0.02", "2"].map(fitted);
+    assert!((exact - 51.5).abs() < 0.2 && (vague - 50.0).abs() < 0.5, "{exact} {vague}");
+}
+
+#[test]
+fn an_angle_that_is_told_wins_and_is_compared() {
+    let folder = with_photo();
+    let angle = |flags: &str| {
+        let run = folder.sh(&format!("vextract --find photo.exr | vkernel --regions - {flags}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let scene: Value = serde_json::from_str(run.stdout.lines().next().unwrap()).unwrap();
+        (scene["geometry"].clone(), run.stderr)
+    };
+    let (told, said) = angle("--angle-deg 50.2");
+    assert!((number(&told["angle_deg"]) - 50.2).abs() < 1e-9 && told.get("angle_sd_deg").is_none(), "{told}");
+    assert_eq!(said, "");
+    let (_, said) = angle("--angle-deg 45");
+    assert_eq!(said, "vkernel: -: the corners say 50.0 ± 0.3°, --angle-deg 45, which is taken\n");
+    assert_eq!(angle("--angle-deg 45 -q").1, "");
+    let (of_square, _) = angle("--panel 2x2");
+    assert!((number(&of_square["angle_deg"]) - 50.0).abs() < 0.3, "{of_square}");
+}
+
+/// Corners that somebody marked tell the angle, too, of panels whose form is known.
+#[test]
+fn corners_of_the_picker_tell_the_angle() {
+    let run = |regions: &str, flags: &str| {
+        Workdir::new().sh(&format!("echo '{regions}' > corners.json; vkernel --regions corners.json {flags}"))
+    };
+    let panels = r#""panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "panel1": [[332, 462], [345, 77], [485, 17], [472, 446]]"#;
+    let sized = format!(r#"{{{panels}, "width": 640, "height": 480}}"#);
+    let scene = &records(&run(&sized, "--panel 1x1"))[0];
+    assert!((number(&scene["geometry"]["angle_deg"]) - 50.0).abs() < 1.5, "{}", scene["geometry"]);
+
+    let refused = |regions: &str, flags: &str| {
+        let run = run(regions, flags);
+        assert_eq!((run.status, run.stdout.as_str(), run.stderr.lines().count()), (1, "", 1), "{}", run.stderr);
+        run.stderr
+    };
+    let sizeless = format!("{{{panels}}}");
+    assert!(refused(&sizeless, "").contains("'width' and 'height' are missing"));
+    assert_eq!(records(&run(&sizeless, "--angle-deg 50"))[0]["geometry"]["angle_deg"], 50.0);
+    let half = r#"{"panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "width": 640, "height": 480}"#;
+    assert!(refused(half, "").contains("no corners of panel1"));
+    let vague = sized.replace("{\"panel0", "{\"angle_deg\": 50, \"angle_sd_deg\": 8, \"panel0");
+    assert!(refused(&vague, "").contains("the corners tell the angle to 8° only, 50°; give the panels' form"));
+    assert!(refused(r#"{"found": false, "reason": "it is dark"}"#, "").contains("it is dark"));
+    assert!(refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image"));
+    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("to 50 % sure only"));
+    assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
+}
+
+/// One angle for two photographs would be that of neither.
+#[test]
+fn a_scene_is_of_one_photograph() {
+    let run = with_photo().sh("cp photo.exr other.exr; vextract --find photo.exr other.exr | vkernel --regions -");
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("regions of 2 photographs where one is needed"), "{}", run.stderr);
+}
