@@ -39,20 +39,20 @@ fn a_photograph_alone_gives_the_spectrum() {
     assert!(rmse < 0.03, "{rmse}");
 }
 
-/// A wrong angle is left behind for that of the facets only if it is not said to be exact.
+/// The facets of an ideal fold tell the angle as exactly as the first of these deviations.
 #[test]
 fn the_estimate_moves_an_angle_as_far_as_its_deviation_allows() {
     let fitted = |sd: &str| {
         let run = with_photo().sh(&format!(
             "vextract --find photo.exr > found.json
-            jq -c '.angle_deg = 51.5 | .angle_sd_deg = {sd}' found.json > regions.json
+            jq -c '.angle_deg = 50.5 | .angle_sd_deg = {sd}' found.json > regions.json
             vkernel --regions regions.json |
             vextract -q photo.exr --regions found.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q"
         ));
         number(&records(&run)[1]["estimate"]["fit"]["angle_deg"]["value"])
     };
-    let [exact, vague] = ["0.02", "2"].map(fitted);
-    assert!((exact - 51.5).abs() < 0.2 && (vague - 50.0).abs() < 0.5, "{exact} {vague}");
+    let [exact, vague] = ["0.05", "2"].map(fitted);
+    assert!((vague - 50.0).abs() < 0.2 && (vague + 0.03..50.5).contains(&exact), "{exact} {vague}");
 }
 
 #[test]
@@ -87,7 +87,12 @@ fn corners_of_the_picker_tell_the_angle() {
 
     let refused = |regions: &str, flags: &str| {
         let run = run(regions, flags);
-        assert_eq!((run.status, run.stdout.as_str(), run.stderr.lines().count()), (1, "", 1), "{}", run.stderr);
+        assert_eq!(
+            (run.status, run.stdout.as_str(), run.stderr.lines().count()),
+            (1, "", 1),
+            "{}",
+            run.stderr
+        );
         run.stderr
     };
     let sizeless = format!("{{{panels}}}");
@@ -96,9 +101,13 @@ fn corners_of_the_picker_tell_the_angle() {
     let half = r#"{"panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "width": 640, "height": 480}"#;
     assert!(refused(half, "").contains("no corners of panel1"));
     let vague = sized.replace("{\"panel0", "{\"angle_deg\": 50, \"angle_sd_deg\": 8, \"panel0");
-    assert!(refused(&vague, "").contains("the corners tell the angle to 8° only, 50°; give the panels' form"));
+    assert!(
+        refused(&vague, "").contains("the corners tell the angle to 8° only, 50°; give the panels' form")
+    );
     assert!(refused(r#"{"found": false, "reason": "it is dark"}"#, "").contains("it is dark"));
-    assert!(refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image"));
+    assert!(
+        refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image")
+    );
     assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("to 50 % sure only"));
     assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
 }
@@ -106,7 +115,8 @@ fn corners_of_the_picker_tell_the_angle() {
 /// One angle for two photographs would be that of neither.
 #[test]
 fn a_scene_is_of_one_photograph() {
-    let run = with_photo().sh("cp photo.exr other.exr; vextract --find photo.exr other.exr | vkernel --regions -");
+    let run =
+        with_photo().sh("cp photo.exr other.exr; vextract --find photo.exr other.exr | vkernel --regions -");
     assert_eq!(run.status, 1);
     assert!(run.stderr.contains("regions of 2 photographs where one is needed"), "{}", run.stderr);
 }
