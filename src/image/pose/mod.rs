@@ -11,8 +11,6 @@ mod belief;
 mod fit;
 mod mixture;
 mod outline;
-#[cfg(test)]
-mod tests;
 mod view;
 
 use super::placing::{Lens, Point};

@@ -39,6 +39,6 @@ impl Outline {
 }
 
 /// Twice the area of a quadrilateral, positive if it runs clockwise as seen.
-pub(super) fn twice_area([a, b, c, d]: [Point; 4]) -> f64 {
+fn twice_area([a, b, c, d]: [Point; 4]) -> f64 {
     cross(a, b, c) + cross(a, c, d)
 }
