@@ -45,7 +45,7 @@ fn the_estimate_moves_an_angle_as_far_as_its_deviation_allows() {
     let fitted = |sd: &str| {
         let run = with_photo().sh(&format!(
             "vextract --find photo.exr > found.json
-            jq -c '.angle_deg = 50.5 | .angle_sd_deg = {sd}' found.json > regions.json
+            sed 's/\"angle_deg\":[0-9.]*,\"angle_sd_deg\":[0-9.]*/\"angle_deg\":50.5,\"angle_sd_deg\":{sd}/' found.json > regions.json
             vkernel --regions regions.json |
             vextract -q photo.exr --regions found.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q"
         ));
@@ -110,6 +110,33 @@ fn corners_of_the_picker_tell_the_angle() {
     );
     assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("to 50 % sure only"));
     assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
+}
+
+/// Panels that are not square are found to be so, and the focal length that the camera wrote counts.
+#[test]
+fn the_form_of_the_panels_and_the_focal_length_are_taken() {
+    let folder = Workdir::new();
+    if !folder.can("oiiotool --version", "the focal length of a JPEG") {
+        return;
+    }
+    let found = |focal_mm: u32| {
+        let run = folder.sh(&format!(
+            "vkernel --panel 1x0.85 --angle-deg 50 |
+            vforward --reflectance cc24:orange --camera nikon-d5100 --render fold.exr --render-size 900x700 \
+                --eye 0.2,1.0,2.4 --look-at 0,0,0.4 --field-of-view-deg 50 -q > sample.ndjson
+            oiiotool fold.exr --mulc 3 --colorconvert linear sRGB -d uint8 --attrib Compression jpeg:98 \
+                --attrib:type=uint16 Exif:FocalLengthIn35mmFilm {focal_mm} -o fold.jpg
+            vextract --find fold.jpg | sed 's/\"confidence\":[0-9.]*,//' | vkernel --regions -"
+        ));
+        records(&run).remove(0)["geometry"].take()
+    };
+    let [unknown, right, wrong] = [0, 37, 41].map(found);
+    for geometry in [&unknown, &right] {
+        assert!((number(&geometry["angle_deg"]) - 50.0).abs() < 0.5, "{geometry}");
+        assert!((number(&geometry["panel"][1]) - 0.85).abs() < 0.01, "{geometry}");
+    }
+    let [unknown, right, wrong] = [unknown, right, wrong].map(|geometry| number(&geometry["angle_deg"]));
+    assert!((unknown - right).abs() < 0.1 && (wrong - right).abs() > 0.1, "{unknown} {right} {wrong}");
 }
 
 /// One angle for two photographs would be that of neither.
