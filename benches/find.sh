@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # How well folds are found, in photographs that nothing was fitted to and composites of them: benches/results/find.md, in ten minutes.
-# `find.sh quick` takes a third of the composites.
+# `find.sh quick` takes a third of the composites; `find.sh angle` prints the table of angles alone, in half a minute.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -20,8 +20,13 @@ page=benches/results/find.md
 pictures=$(mktemp -d)
 trap 'rm -rf "$pictures"' EXIT
 made_by=$(machine "$bin/vextract")
+sidecars=("$shared"/real/*.json "$shared"/real/*/*.json "$shared"/photos/*.json "$shared"/materials/*.json)
+if [ "${1-}" = angle ]; then
+    "$python" -B benches/find_angle.py "$bin/vextract" "${sidecars[@]}"
+    exit
+fi
 "$python" -B benches/find_pictures.py "$pictures" --apart --every "$([ "${1-}" = quick ] && echo 12 || echo 4)" \
-    "$shared"/real/*.json "$shared"/real/*/*.json "$shared"/photos/*.json "$shared"/materials/*.json
+    "${sidecars[@]}"
 {
     echo '# Folds found in photographs'
     echo
@@ -33,5 +38,9 @@ made_by=$(machine "$bin/vextract")
     echo 'there was no picture when the weights were fitted.'
     echo
     "$python" -B benches/find_score.py "$bin/vextract" "$pictures"
+    echo
+    echo 'How far the folds are open by their corners alone, in the photographs as they are, of which all are of square panels:'
+    echo
+    "$python" -B benches/find_angle.py "$bin/vextract" "${sidecars[@]}"
 } | tee "$page.new"
 mv "$page.new" "$page"

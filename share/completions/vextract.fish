@@ -6,7 +6,7 @@ complete -c vextract -l panel1 -d 'Corners of panel 1' -r
 complete -c vextract -l panel -d 'Corners of panel N, counted from 0 as the scene has them; once for each' -r
 complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, to calibrate with' -r
 complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
-complete -c vextract -l regions -d 'JSON file of corners, see below; the flags above win over it' -r -F
+complete -c vextract -l regions -d 'JSON file of corners, see below, - for standard input; the flags above win over it' -r -F
 complete -c vextract -l margin -d 'Stay this far from the panels\' edges' -r
 complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels [PX: 6]' -r
 complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r

@@ -23,7 +23,7 @@ _vkernel() {
 
     case "${cmd}" in
         vkernel)
-            opts="-o -j -q -v -h -V --angle-deg --panel --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --plot --shape --two-sided --folds --ridge-deg --bow --bow-deg --light --sky-type --zenith --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --help --version"
+            opts="-o -j -q -v -h -V --angle-deg --panel --regions --panel1-depth --facets --spacing --method --sampling --samples --seed --check --mesh --tolerance --tilt-deg --slant-deg --sky --id --plot --shape --two-sided --folds --ridge-deg --bow --bow-deg --light --sky-type --zenith --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -34,6 +34,10 @@ _vkernel() {
                     return 0
                     ;;
                 --panel)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --regions)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,5 +1,6 @@
-complete -c vkernel -l angle-deg -d 'Angle between the two panels, degrees' -r
-complete -c vkernel -l panel -d 'Panel along the crease x away from it; only the ratio matters' -r
+complete -c vkernel -l angle-deg -d 'Angle between the two panels, degrees [default: that of --regions, or 45]' -r
+complete -c vkernel -l panel -d 'Panel along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]' -r
+complete -c vkernel -l regions -d 'Take angle and panels from what vextract --find printed of a photograph, - for standard input; of other files with the corners of both panels and the picture\'s size the corners tell them' -r -F
 complete -c vkernel -l panel1-depth -d 'Depth of panel 1, in the unit of --panel, if it is not that of panel 0' -r
 complete -c vkernel -l facets -d 'Facets of a panel, rows away from the crease x columns along it: where colour is measured' -r
 complete -c vkernel -l spacing -d 'Rows of equal depth, or graded: narrow at the crease, where colour varies' -r -f -a "uniform\t'Rows of equal depth'

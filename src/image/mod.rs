@@ -2,7 +2,7 @@
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
 //! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`find_fold`] finds the panels of a
-//! fold, [`refine`] where exactly panels are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! fold, [`FoldSeen`] the angle between them, [`refine`] where exactly panels are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -13,6 +13,7 @@
 //! ```text
 //! drawing -> measuring -> placing
 //! finding -> edges -> placing
+//! pose -> placing
 //! drawing, measuring, finding, edges, reading -> photograph -> numbers
 //! ```
 
@@ -23,6 +24,7 @@ mod measuring;
 mod numbers;
 mod photograph;
 mod placing;
+mod pose;
 mod reading;
 
 pub use drawing::{
@@ -44,4 +46,5 @@ pub use placing::{
     CHART_CORNERS, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
     check_inside, parse_corners,
 };
+pub use pose::{CornersBy, FoldAngle, FoldSeen};
 pub use reading::PictureFile;

@@ -80,6 +80,7 @@ impl Setup<'_> {
         optics.camera.stands_in = camera.stands_in;
         Ok(FoldSetting {
             fold: self.fold,
+            angle_sd_deg: None,
             light: self.light,
             response: respond(&self.fold, Mesh::Auto, TOLERANCE)?.0,
             optics: Some(optics),

@@ -17,6 +17,8 @@ const PICTURE_TOLERANCE: f64 = 1e-4;
 pub struct FoldSetting {
     /// The fold and its facets.
     pub fold: Fold,
+    /// Standard deviation of the fold's angle, degrees, if it is known.
+    pub angle_sd_deg: Option<f64>,
     /// Sun and sky.
     pub light: Light,
     /// What all bounces make of light.
@@ -45,6 +47,7 @@ impl FoldSetting {
         let is_lit = scene.has_camera() && !scene.is_light_unknown()?;
         let is_fine = scene.has_accuracy() && scene.mesh()? == Mesh::Auto.to_string();
         Ok(Self {
+            angle_sd_deg: scene.angle_sd_deg()?,
             light: scene.light_on(&fold)?,
             response: scene.response_of(&fold)?,
             optics: if is_lit { Some(scene.optics()?) } else { None },

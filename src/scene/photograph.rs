@@ -122,7 +122,7 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let FoldSetting { fold, light, is_daylight_assumed, .. } = self.setting;
+        let FoldSetting { fold, angle_sd_deg, light, is_daylight_assumed, .. } = self.setting;
         let Picture { measured, exposure, by_chart, white_per_klx, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
@@ -143,6 +143,7 @@ impl<'a> PhotographedFold<'a> {
             by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
+            angle_sd_deg: angle_sd_deg.unwrap_or(self.beliefs.angle_sd_deg),
             tilt_deg: light.tilt_deg(),
             daylight: Daylight::of(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,

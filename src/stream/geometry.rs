@@ -27,6 +27,10 @@ pub(super) struct FoldRecord {
     /// Angle between the panels, degrees; 180 is a flat sheet.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
     angle_deg: f64,
+    /// Standard deviation of that angle, degrees, where it is known, such as that of an angle found in a photograph.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    angle_sd_deg: Option<f64>,
     /// Extent of panel 0 along the crease and away from it, in any unit.
     #[schemars(inner(range(min = 0)))]
     panel: [f64; 2],
@@ -41,6 +45,7 @@ impl From<&Fold> for FoldRecord {
         let [depth0, depth1] = fold.depths();
         Self {
             angle_deg: fold.angle_deg(),
+            angle_sd_deg: None,
             panel: [fold.width(), depth0],
             panel1_depth: (!fold.is_symmetric()).then_some(depth1),
         }
@@ -59,6 +64,30 @@ impl Scene {
         self.fields.require("geometry", BY_VKERNEL)
     }
 
+    /// Says how exactly the angle of the fold is known: its standard deviation, degrees.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the surface is not a fold.
+    pub fn set_angle_sd_deg(&mut self, sd_deg: f64) -> Result<()> {
+        let GeometryRecord::Fold(fold) = self.geometry()? else { return Err(needs_fold()) };
+        self.fields.set("geometry", GeometryRecord::Fold(FoldRecord { angle_sd_deg: Some(sd_deg), ..fold }))
+    }
+
+    /// How exactly the angle of the fold is known: its standard deviation, degrees; none if nobody said so, or there is no fold.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the geometry is missing or unknown, or no angle is known so.
+    pub fn angle_sd_deg(&self) -> Result<Option<f64>> {
+        let GeometryRecord::Fold(FoldRecord { angle_sd_deg, .. }) = self.geometry()? else { return Ok(None) };
+        match angle_sd_deg {
+            Some(sd_deg) if !(sd_deg > 0.0 && sd_deg.is_finite()) => {
+                let problem = format!("{sd_deg} is no standard deviation; give degrees above 0");
+                Err(Error::field("geometry.angle_sd_deg", problem))
+            }
+            known => Ok(known),
+        }
+    }
+
     /// The fold and its facets.
     ///
     /// # Errors
@@ -72,7 +101,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Field`] if the geometry is missing or unknown, or that of an impossible fold.
     pub fn fold_if_one(&self) -> Result<Option<Fold>> {
-        let FoldRecord { angle_deg, panel: [width, depth], panel1_depth } = match self.geometry()? {
+        let FoldRecord { angle_deg, panel: [width, depth], panel1_depth, .. } = match self.geometry()? {
             GeometryRecord::Fold(fold) => fold,
             GeometryRecord::Mesh(_) | GeometryRecord::Kernel => return Ok(None),
         };

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, stdin};
 
 use serde::de::DeserializeOwned;
 
@@ -12,7 +12,7 @@ use crate::files::forms::Text;
 /// A list of regions for a hundred thousand photographs is smaller.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// Reads a JSON file; `example` shows what it should hold.
+/// Reads a JSON file, or standard input for `-`; `example` shows what it should hold.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds something else.
@@ -28,7 +28,7 @@ pub(super) fn parse<T: DeserializeOwned>(path: &str, text: &str, example: &str) 
     serde_json::from_str(text).map_err(|error| fault(path, error.line(), &error, example))
 }
 
-/// Reads a file of JSON values one after the other, such as NDJSON.
+/// Reads a file of JSON values one after the other, such as NDJSON; `-` is standard input.
 ///
 /// # Errors
 /// As [`read`].
@@ -41,7 +41,11 @@ pub(super) fn read_all<T: DeserializeOwned>(path: &str, example: &str) -> Result
 fn text(path: &str, example: &str) -> Result<String> {
     let failed = |source| Error::file(path, source);
     let mut bytes = Vec::new();
-    File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    let file: Box<dyn Read> = match path {
+        "-" => Box::new(stdin()),
+        _ => Box::new(File::open(path).map_err(failed)?),
+    };
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }

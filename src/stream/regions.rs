@@ -13,6 +13,8 @@
 //! - `image`: the photograph's file name, with or without its ending and without its folder. A list of regions needs it; in a
 //!   single object it is a remark.
 //! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
+//! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as `vextract --find` found them by its corners;
+//!   `panel`: width of its panels along the crease and their depth, in any unit, if they are not square. `vkernel` reads these.
 //! - `found`: false of a photograph in which it found none, and `reason`, why.
 //! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same shape but
 //!   another size, such as the original of a preview, corners are scaled; one of another shape is refused.
@@ -30,7 +32,19 @@ use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
 /// Fields beside those of the panels.
-const FIELDS: [&str; 8] = ["chart", "white", "image", "width", "height", "confidence", "found", "reason"];
+const FIELDS: [&str; 11] = [
+    "chart",
+    "white",
+    "image",
+    "width",
+    "height",
+    "confidence",
+    "angle_deg",
+    "angle_sd_deg",
+    "panel",
+    "found",
+    "reason",
+];
 
 /// Four corners, px of the upright picture.
 pub type Corners = [Point; 4];
@@ -50,6 +64,12 @@ pub struct Regions {
     pub size: Option<[usize; 2]>,
     /// Of panels that were found, the probability that their corners are right, 0 to 1.
     pub confidence: Option<f64>,
+    /// Angle between the panels, degrees, and its standard deviation.
+    pub angle_deg: Option<f64>,
+    /// See `angle_deg`.
+    pub angle_sd_deg: Option<f64>,
+    /// Width of the panels along the crease and their depth, in any unit.
+    pub panel: Option<[f64; 2]>,
     /// Why none were found.
     pub missing: Option<String>,
 }
@@ -90,6 +110,13 @@ impl Regions {
             }
         };
         let is_missing = read(path, fields, "found", "give true or false")? == Some(false);
+        let above_0 = |name: &str| match read::<f64>(path, fields, name, "give degrees")? {
+            Some(degrees) if !(degrees > 0.0 && degrees <= 180.0) => {
+                let problem = format!("field '{name}': {degrees} is out of range");
+                Err(Error::regions(path, problem, "give degrees above 0 and up to 180"))
+            }
+            degrees => Ok(degrees),
+        };
         let reason =
             read(path, fields, "reason", "give a text")?.unwrap_or_else(|| "no fold was found".to_owned());
         Ok(Self {
@@ -99,6 +126,14 @@ impl Regions {
             image: read(path, fields, "image", "give a file name")?,
             size,
             confidence: read(path, fields, "confidence", "give a number from 0 to 1")?,
+            angle_deg: above_0("angle_deg")?,
+            angle_sd_deg: above_0("angle_sd_deg")?,
+            panel: read(
+                path,
+                fields,
+                "panel",
+                "give its width along the crease and its depth, such as [1, 0.7]",
+            )?,
             missing: is_missing.then_some(reason),
         })
     }
@@ -132,6 +167,9 @@ impl Regions {
             image: self.image.or(others.image),
             size: self.size.or(others.size),
             confidence: self.confidence.or(others.confidence),
+            angle_deg: self.angle_deg.or(others.angle_deg),
+            angle_sd_deg: self.angle_sd_deg.or(others.angle_sd_deg),
+            panel: self.panel.or(others.panel),
             missing: self.missing.or(others.missing),
         }
     }

@@ -23,7 +23,7 @@ pub struct RegionsFile {
 }
 
 impl RegionsFile {
-    /// Reads a file of regions.
+    /// Reads a file of regions, or standard input for `-`.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON; [`Error::Regions`], with the field, if
@@ -60,6 +60,20 @@ impl RegionsFile {
         let entries = objects.into_iter().enumerate().map(entry).collect::<Result<Vec<_>>>()?;
         let places = if is_list { Some(places(&path, &entries)?) } else { None };
         Ok(Self { path, entries, places })
+    }
+
+    /// The regions of the one photograph that the file is about.
+    ///
+    /// # Errors
+    /// [`Error::Regions`] if there are several.
+    pub fn only(&self) -> Result<&Regions> {
+        match self.entries.as_slice() {
+            [only] => Ok(only),
+            entries => {
+                let problem = format!("regions of {} photographs where one is needed", entries.len());
+                Err(Error::regions(&self.path, problem, "keep one of them"))
+            }
+        }
     }
 
     /// The regions of the photograph `image`, scaled to its upright `size`, px.

@@ -46,6 +46,9 @@ fn geometry() {
             case("vkernel -j none", 2, &["--threads"]),
             case("vkernel -j 0", 2, &["--threads", "1024"]),
             case("vkernel -j 1000000", 2, &["--threads", "1024"]),
+            case("vkernel --regions none.json", 1, &["none.json"]),
+            case("vkernel --regions r.json --folds 3", 2, &["--regions", "--folds"]),
+            case("echo '{}' | vkernel --regions -", 1, &["-", "no corners of panel0", "--angle-deg"]),
             case("vkernel surplus", 2, &["surplus"]),
         ],
     );

@@ -11,6 +11,7 @@ mod colorimetry;
 #[path = "../common/mod.rs"]
 mod common;
 mod false_maxima;
+mod fold_angle;
 mod image_facets;
 mod image_files;
 mod image_refine;

@@ -4,6 +4,7 @@
 // a test stops at the first surprise, and prints what it measured
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod angle;
 mod cameras;
 mod cli;
 mod cluster;

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use vfold::cli;
-use vfold::image::{FoundFold, Grid, Homography, Lens, Photograph, find_fold};
+use vfold::image::{CornersBy, FoldSeen, FoundFold, Grid, Homography, Lens, Photograph, find_fold};
 use vfold::stream::{Output, Regions, found_line, not_found_line};
 use vfold::{Error, Result};
 
@@ -28,12 +28,24 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         match find_fold(&photograph, &lens) {
             Ok(found) => {
                 draw(args, path, &photograph, &found, lens)?;
-                out.text(&found_line(path, &photograph, &found)?)?;
+                let angle = seen(args, &photograph, lens).angle(&found.panels);
+                out.text(&found_line(path, &photograph, &found, angle.as_ref())?)?;
             }
             Err(none) => out.text(&not_found_line(path, &none.to_string())?)?,
         }
     }
     Ok(())
+}
+
+/// What tells the angle of a fold in a photograph beside its corners.
+fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
+    FoldSeen {
+        size: [photograph.width(), photograph.height()],
+        corners_by: CornersBy::Finding,
+        lens: args.placing.is_lens_told().then_some(lens),
+        focal_35mm: photograph.info().camera.focal_35mm,
+        depths: None,
+    }
 }
 
 /// Finds the panels of a fold and puts them into `regions`; the confidence with which they were found.

@@ -136,6 +136,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.pick {
         return picking::print(args, &images, &reading, out);
     }
+    let takes_scene = args.calibration.save_camera.is_none() && args.scene == "-";
+    cli::refuse(
+        [("--regions", args.regions.is_stdin() && takes_scene)],
+        "standard input is the scene",
+        "give --scene FILE",
+    )?;
     let regions = args.regions.given()?;
     let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;

@@ -38,6 +38,11 @@ impl PlacingArgs {
         }
     }
 
+    /// Whether somebody told how the lens bends the picture.
+    pub fn is_lens_told(&self) -> bool {
+        self.distortion.is_some()
+    }
+
     /// The lens of a photograph.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ pub struct RegionArgs {
     /// Corners of a white card in the picture, to calibrate with
     #[arg(long, value_name = "x,y x,y x,y x,y", conflicts_with = "chart", allow_hyphen_values = true)]
     white_region: Option<String>,
-    /// JSON file of corners, see below; the flags above win over it
+    /// JSON file of corners, see below, - for standard input; the flags above win over it
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
     /// Stay this far from the panels' edges
@@ -41,6 +41,11 @@ pub struct RegionArgs {
 }
 
 impl RegionArgs {
+    /// Whether the file of corners is standard input.
+    pub fn is_stdin(&self) -> bool {
+        self.regions.as_deref().is_some_and(|path| path.as_os_str() == "-")
+    }
+
     /// What was given.
     ///
     /// # Errors

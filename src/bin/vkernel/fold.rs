@@ -14,7 +14,7 @@ use vfold::scene::FoldSetting;
 use vfold::stream::{Output, Scene, write_matrix};
 use vfold::{Error, Result};
 
-use super::{Args, MethodName, SamplingName, SpacingName, say_work};
+use super::{Args, MethodName, SamplingName, SpacingName, regions, say_work};
 
 /// Facet means that may be this far off are no answer.
 const USELESS: f64 = 0.05;
@@ -27,12 +27,22 @@ const SAMPLES: u32 = 10_000;
 /// Writes the scene of a fold, or what its kernel makes of the laws of light.
 pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     args.light.check_fold()?;
-    let (fold, method) = (fold(args)?, method(args)?);
-    if args.check { report(args, &fold, method, out) } else { scene(args, &fold, method, out) }
+    let Opened { fold, angle_sd_deg } = fold(args)?;
+    let method = method(args)?;
+    if args.check {
+        report(args, &fold, method, out)
+    } else {
+        scene(args, (&fold, angle_sd_deg), method, out)
+    }
 }
 
 /// Solves the bounces and writes the scene.
-fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<()> {
+fn scene(
+    args: &Args,
+    (fold, angle_sd_deg): (&Fold, Option<f64>),
+    method: Method,
+    out: &mut Output,
+) -> Result<()> {
     if args.sky.is_infinite() {
         let given = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
         refuse(given, "there is no sun", "leave it out, or give --sky a number")?;
@@ -51,6 +61,7 @@ fn scene(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<(
     let skipped = skipped(fold, &light, &accuracy, response.poles().len());
     say_work(args, &accuracy, response.poles().len(), &skipped);
     let mut scene = Scene::new(&args.id, fold, &light, &response)?;
+    angle_sd_deg.map_or(Ok(()), |sd_deg| scene.set_angle_sd_deg(sd_deg))?;
     scene.set_accuracy(&mesh.to_string(), tolerance, &accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = out.saves.take("kernel") {
@@ -155,13 +166,29 @@ fn method(args: &Args) -> Result<Method> {
     }
 }
 
-/// The fold that the flags describe.
-pub fn fold(args: &Args) -> Result<Fold> {
+/// Angle of a fold that nobody says anything of, degrees, and its panels.
+const ANGLE_DEG: f64 = 45.0;
+pub const PANEL: (f64, f64) = (1.0, 1.0);
+
+/// A fold, and how exactly its angle is known.
+pub struct Opened {
+    pub fold: Fold,
+    /// Standard deviation of the angle, degrees, if a photograph told it.
+    pub angle_sd_deg: Option<f64>,
+}
+
+/// The fold that flags and regions describe.
+pub fn fold(args: &Args) -> Result<Opened> {
+    let seen = args.regions.as_deref().map(|path| regions::seen(args, path)).transpose()?;
+    let angle_deg = args.angle_deg.or(seen.map(|seen| seen.angle_deg)).unwrap_or(ANGLE_DEG);
+    let panel = args.panel.or(seen.map(|seen| seen.panel)).unwrap_or(PANEL);
     let facets = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
-    let fold = Fold::new(args.angle_deg, args.panel.0, args.panel.1, facets)?;
+    let fold = Fold::new(angle_deg, panel.0, panel.1, facets)?;
     let fold = args.panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth))?;
-    Ok(fold.with_spacing(match args.spacing {
+    let fold = fold.with_spacing(match args.spacing {
         SpacingName::Uniform => Spacing::Uniform,
         SpacingName::Graded => Spacing::Graded,
-    }))
+    });
+    let of_photograph = seen.filter(|_| args.angle_deg.is_none());
+    Ok(Opened { fold, angle_sd_deg: of_photograph.and_then(|seen| seen.angle_sd_deg) })
 }

@@ -2,6 +2,7 @@
 
 mod fold;
 mod light;
+mod regions;
 mod shape;
 mod sky;
 
@@ -26,16 +27,21 @@ use vfold::{Error, Result};
     after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
                   vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json\n  \
                   vkernel --angle-deg 1 --check\n  \
+                  vextract --find photo.exr | vkernel --regions - -o scene.json\n  \
                   vkernel --shape corner.obj --light 1,1,2 | vforward --reflectance cc24 | vestimate\n  \
                   vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
 )]
 struct Args {
-    /// Angle between the two panels, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 45.0, allow_negative_numbers = true)]
-    angle_deg: f64,
-    /// Panel along the crease x away from it; only the ratio matters
-    #[arg(long, value_name = "WIDTHxDEPTH", default_value = "1x1", value_parser = cli::pair::<f64>)]
-    panel: (f64, f64),
+    /// Angle between the two panels, degrees [default: that of --regions, or 45]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    angle_deg: Option<f64>,
+    /// Panel along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]
+    #[arg(long, value_name = "WIDTHxDEPTH", value_parser = cli::pair::<f64>)]
+    panel: Option<(f64, f64)>,
+    /// Take angle and panels from what vextract --find printed of a photograph, - for standard input; of other files with the corners of both
+    /// panels and the picture's size the corners tell them
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["shape", "folds", "ridge_deg", "bow_deg"])]
+    regions: Option<PathBuf>,
     /// Depth of panel 1, in the unit of --panel, if it is not that of panel 0
     #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
     panel1_depth: Option<f64>,

@@ -137,7 +137,7 @@ fn check(args: &Args) -> Result<()> {
 fn shape(args: &Args) -> Result<Shape> {
     let ShapeArgs { shape: file, two_sided, folds, ridge_deg, bow_deg } = &args.shape;
     let Some(path) = file else {
-        let valley = fold::fold(args)?;
+        let valley = fold::fold(args)?.fold;
         let ridge_deg = ridge_deg.unwrap_or(valley.angle_deg());
         return Accordion { valley, creases: *folds, ridge_deg, bow_deg: *bow_deg }.shape();
     };

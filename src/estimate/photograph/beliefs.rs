@@ -32,7 +32,8 @@ macro_rules! beliefs {
 }
 
 beliefs! {
-    /// How far an angle is off that somebody measured, degrees: a protractor, and a sheet that springs back.
+    /// How far an angle is off that somebody measured, degrees: a protractor, and a sheet that springs back. Of one that comes with a standard
+    /// deviation of its own that counts.
     angle_sd_deg: 1.2,
     /// How far a sheet is turned off the sun that was turned to it with care, degrees.
     tilt_sd_deg: 2.0,

@@ -73,6 +73,8 @@ pub struct Told {
     pub channels: usize,
     /// Angle between the panels, degrees.
     pub angle_deg: f64,
+    /// Its standard deviation, degrees.
+    pub angle_sd_deg: f64,
     /// Angle of the sun off the bisecting plane, degrees.
     pub tilt_deg: f64,
     /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground are.

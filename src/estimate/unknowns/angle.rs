@@ -65,5 +65,5 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
 }
 
 fn of_photograph(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: told.angle_deg, sd: told.beliefs.angle_sd_deg }.into())
+    Some(Normal { mean: told.angle_deg, sd: told.angle_sd_deg }.into())
 }

@@ -14,6 +14,8 @@ pub struct CameraNotes {
     pub exposure_s: Option<f64>,
     /// Focal length over aperture.
     pub f_number: Option<f64>,
+    /// Focal length that shows as much on film of 36 x 24 mm, mm.
+    pub focal_35mm: Option<f64>,
     /// ISO sensitivity.
     pub iso: Option<u32>,
     /// Rows of the matrix from XYZ to its R, G and B in daylight, as DNG has it.

@@ -18,4 +18,5 @@ pub use homography::Homography;
 pub(in crate::image) use homography::square_to_quadrilateral;
 pub(in crate::image) use pixel_area::{Quadrilateral, Sides, sense};
 pub use point::Point;
+pub(in crate::image) use point::cross;
 pub use pose::camera_position;

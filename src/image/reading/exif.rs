@@ -59,6 +59,10 @@ pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
         model: field(Tag::Model).and_then(text),
         exposure_s: field(Tag::ExposureTime).and_then(positive),
         f_number: field(Tag::FNumber).and_then(positive),
+        focal_35mm: field(Tag::FocalLengthIn35mmFilm)
+            .and_then(|value| value.get_uint(0))
+            .filter(|focal_mm| *focal_mm > 0)
+            .map(f64::from),
         iso: field(Tag::PhotographicSensitivity).and_then(|value| value.get_uint(0)),
         orientation: of_page(Tag::Orientation)
             .or_else(|| field(Tag::Orientation))

@@ -1,10 +1,11 @@
 # Leaves streams with every kind of record, and every form of their fields, that the five tools write.
 data=$CARGO_MANIFEST_DIR/tests/data
 
-# folds: even and graded rows, unlike panels, sampled form factors, a card, several pictures, noise, few bounces
+# folds: even and graded rows, unlike panels, sampled form factors, an angle by its corners, a card, several pictures, noise, few bounces
 vkernel --angle-deg 50 --facets 3x3 -o scene.ndjson
 vkernel --angle-deg 60 --facets 2x3 --spacing graded --panel1-depth 0.7 --tilt-deg 4 --sky 0.2 -o unlike.ndjson
 vkernel --angle-deg 60 --facets 2x2 --method monte-carlo --sampling cosine --samples 1000 -q -o sampled.ndjson
+vextract --find "$data/photos/a_ideal_magenta_50.exr" | vkernel --regions - --facets 2x2 -o opened.ndjson
 vforward unlike.ndjson --reflectance cc24:red --reference-panel cc24:yellow --sky-illuminant daylight:9000 --camera sigma-sd-merrill \
     --wavelengths-nm 400:680:4 -o card.ndjson
 vforward sampled.ndjson --reflectance 0.5 --bounces 2 --wavelengths-nm 380:780:20 -o few.ndjson

@@ -1,0 +1,109 @@
+//! A fold as a photograph shows it.
+
+use std::path::Path;
+
+use vfold::cli;
+use vfold::image::{FoldAngle, FoundFold};
+use vfold::stream::{NoAngle, Regions, RegionsFile};
+use vfold::{Error, Result};
+
+use super::{Args, fold};
+
+/// What regions say of a fold.
+#[derive(Clone, Copy)]
+pub struct Seen {
+    pub angle_deg: f64,
+    /// Standard deviation of the angle, degrees, if it is known.
+    pub angle_sd_deg: Option<f64>,
+    /// Width and depth of the panels.
+    pub panel: (f64, f64),
+}
+
+/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the one that is told.
+const MOST_SD_DEG: f64 = 3.0;
+/// Angles further apart than this, in standard deviations, are not those of one fold.
+const APART: f64 = 3.0;
+
+/// The fold that the regions of one photograph show.
+///
+/// # Errors
+/// [`Error::Regions`] if there is none, or not surely, or its angle is not told.
+pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
+    let name = path.display().to_string();
+    let file = RegionsFile::open(path)?;
+    let regions = file.only()?;
+    check_found(&name, regions)?;
+    let told = told_depths(args);
+    let stated = stated(regions).filter(|_| told.is_none());
+    match (stated.map_or_else(|| by_corners(regions, told), Ok), args.angle_deg) {
+        (Ok(seen), Some(angle_deg)) => {
+            warn_if_apart(args, &name, &seen, angle_deg);
+            Ok(seen)
+        }
+        (Ok(seen), None) => check_certain(&name, seen),
+        (Err(_), Some(angle_deg)) => Ok(Seen { angle_deg, angle_sd_deg: None, panel: panel(regions) }),
+        (Err(problem), None) => {
+            Err(Error::regions(&name, problem.to_string(), "give --angle-deg, or regions of vextract --find"))
+        }
+    }
+}
+
+/// Refuses regions of a photograph in which no fold was found, or not surely.
+fn check_found(name: &str, regions: &Regions) -> Result<()> {
+    let remedy = "mark its corners with share/picker.html";
+    if let Some(reason) = &regions.missing {
+        return Err(Error::regions(name, reason, remedy));
+    }
+    match regions.confidence {
+        Some(confidence) if confidence < FoundFold::SURE => {
+            let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
+            Err(Error::regions(name, problem, remedy))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Depths of both panels over their width, if flags tell them.
+fn told_depths(args: &Args) -> Option<[f64; 2]> {
+    let (width, depth) = args.panel.or(args.panel1_depth.map(|_| fold::PANEL))?;
+    Some([depth / width, args.panel1_depth.unwrap_or(depth) / width])
+}
+
+/// What is written beside the corners.
+fn stated(regions: &Regions) -> Option<Seen> {
+    let angle_deg = regions.angle_deg?;
+    Some(Seen { angle_deg, angle_sd_deg: regions.angle_sd_deg, panel: panel(regions) })
+}
+
+fn panel(regions: &Regions) -> (f64, f64) {
+    regions.panel.map_or((1.0, 1.0), |[width, depth]| (width, depth))
+}
+
+/// What the corners tell, of panels of these depths if they are known.
+fn by_corners(regions: &Regions, told: Option<[f64; 2]>) -> std::result::Result<Seen, NoAngle> {
+    let depths = told.or_else(|| regions.panel.map(|[width, depth]| [depth / width; 2]));
+    let FoldAngle { angle_deg, angle_sd_deg, depths } = regions.angle_by_corners(depths)?;
+    Ok(Seen { angle_deg, angle_sd_deg: Some(angle_sd_deg), panel: (1.0, depths[0]) })
+}
+
+/// Says so if the angle that was told is another than that of the photograph.
+fn warn_if_apart(args: &Args, name: &str, seen: &Seen, told_deg: f64) {
+    let Seen { angle_deg, angle_sd_deg: Some(sd_deg), .. } = *seen else { return };
+    if (told_deg - angle_deg).abs() > APART * sd_deg && !args.common.quiet {
+        let line = format!(
+            "{name}: the corners say {angle_deg:.1} ± {sd_deg:.1}°, --angle-deg {told_deg}, which is taken"
+        );
+        cli::say("vkernel", &line);
+    }
+}
+
+/// Refuses an angle that corners leave open.
+fn check_certain(name: &str, seen: Seen) -> Result<Seen> {
+    match seen.angle_sd_deg {
+        Some(sd_deg) if sd_deg > MOST_SD_DEG => {
+            let problem = format!("the corners tell the angle to {sd_deg:.0}° only, {:.0}°", seen.angle_deg);
+            Err(Error::regions(name, problem, "give the panels' form, such as --panel 1x1, or --angle-deg"))
+        }
+        _ => Ok(seen),
+    }
+}

@@ -1,0 +1,132 @@
+//! What is believed of a fold and a camera before corners are looked at.
+
+use std::f64::consts::SQRT_2;
+
+use super::view::{K1, LN_DEPTH, LN_DEPTH_RATIO, LN_FOCAL};
+
+/// A number of known mean and standard deviation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Expected {
+    /// Its place among the unknowns.
+    pub unknown: usize,
+    pub mean: f64,
+    pub sd: f64,
+}
+
+/// Numbers of which something is known beforehand.
+pub(super) const EXPECTED: usize = 4;
+
+/// One way in which a fold may have been made and photographed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hypothesis {
+    /// Its share of all folds.
+    pub share: f64,
+    pub expected: [Expected; EXPECTED],
+    pub form: Form,
+}
+
+/// A form of both panels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Form {
+    /// Their depths over their width.
+    Usual([f64; 2]),
+    /// Any.
+    Other,
+}
+
+/// Diagonal of a picture on film, mm, to which equivalent focal lengths refer (CIPA DCG-001).
+pub(super) const FILM_DIAGONAL_MM: f64 = 43.27;
+/// Focal length of a camera of which nothing is known, as on film, mm: two in three between 25 mm and 120 mm.
+pub(super) const FOCAL_MM: f64 = 55.0;
+const LN_FOCAL_SD: f64 = 0.8;
+/// How far one that the file states is off: it is rounded to mm, and lenses are focused near.
+const LN_STATED_FOCAL_SD: f64 = 0.05;
+/// Share of pictures that were cropped after that was written, so that it says little.
+const CROPPED_SHARE: f64 = 0.1;
+/// Distortion of a lens of which nothing is known: that of most lenses is within 2 % at the middle of the picture's longer sides.
+const K1_SD: f64 = 0.02;
+/// The same of one that was told.
+const K1_TOLD_SD: f64 = 1e-4;
+/// How far the depth of a panel is off what it should be: sheets are cut and folded by hand.
+const LN_DEPTH_SD: f64 = 0.005;
+/// Depth over width of panels of which nothing is known: two in three between a half and two.
+const LN_ANY_DEPTH_SD: f64 = 0.7;
+
+/// Depth over width of usual panels, and their shares of all: squares most of all, halves of A and Letter sheets along either middle,
+/// whole ones of sheets twice as large, and the same folded the other way.
+const FORMS: [(f64, f64); 11] = [
+    (1.0, 0.75),
+    (1.0 / SQRT_2, 0.02),
+    (0.5 / SQRT_2, 0.02),
+    (5.5 / 8.5, 0.02),
+    (4.25 / 11.0, 0.02),
+    (8.5 / 11.0, 0.02),
+    (SQRT_2, 0.01),
+    (2.0 * SQRT_2, 0.01),
+    (8.5 / 5.5, 0.01),
+    (11.0 / 4.25, 0.01),
+    (11.0 / 8.5, 0.01),
+];
+
+/// What is known of a fold and its camera beside the corners.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Told {
+    /// Whether the lens' distortion is known, and undone.
+    pub is_lens_known: bool,
+    /// The focal length that the file states, in the unit of the picture.
+    pub focal: Option<f64>,
+    /// The focal length of [`FOCAL_MM`], in the unit of the picture.
+    pub usual_focal: f64,
+    /// Depths of both panels over their width.
+    pub depths: Option<[f64; 2]>,
+}
+
+/// Every way in which the fold may have been made and photographed.
+pub(super) fn hypotheses(told: &Told) -> Vec<Hypothesis> {
+    let k1 = Expected { unknown: K1, mean: 0.0, sd: if told.is_lens_known { K1_TOLD_SD } else { K1_SD } };
+    let focals = focals(told);
+    let with_focal = |(share, form): (f64, Form)| {
+        let [depth, ratio] = of_form(form);
+        let hypothesis = move |(of_form, focal): &(f64, Expected)| Hypothesis {
+            share: share * of_form,
+            expected: [*focal, k1, depth, ratio],
+            form,
+        };
+        focals.iter().map(hypothesis).collect::<Vec<_>>()
+    };
+    forms(told.depths).into_iter().flat_map(with_focal).collect()
+}
+
+/// Forms that the panels may have, and the share of each.
+fn forms(told: Option<[f64; 2]>) -> Vec<(f64, Form)> {
+    if let Some(depths) = told {
+        return vec![(1.0, Form::Usual(depths))];
+    }
+    let usual = FORMS.map(|(depth, share)| (share, Form::Usual([depth; 2])));
+    let others = 1.0 - FORMS.iter().map(|(_, share)| share).sum::<f64>();
+    usual.into_iter().chain([(others, Form::Other)]).collect()
+}
+
+/// What is expected of depths of this form.
+fn of_form(form: Form) -> [Expected; 2] {
+    let (mean, sd, ratio) = match form {
+        Form::Usual([depth0, depth1]) => (depth0.ln(), LN_DEPTH_SD, (depth1 / depth0).ln()),
+        Form::Other => (0.0, LN_ANY_DEPTH_SD, 0.0),
+    };
+    [
+        Expected { unknown: LN_DEPTH, mean, sd },
+        Expected { unknown: LN_DEPTH_RATIO, mean: ratio, sd: LN_DEPTH_SD },
+    ]
+}
+
+/// Focal lengths that the camera may have had, and the share of each.
+fn focals(told: &Told) -> Vec<(f64, Expected)> {
+    let expected = |focal: f64, sd: f64| Expected { unknown: LN_FOCAL, mean: focal.ln(), sd };
+    let usual = expected(told.usual_focal, LN_FOCAL_SD);
+    match told.focal {
+        Some(focal) => {
+            vec![(1.0 - CROPPED_SHARE, expected(focal, LN_STATED_FOCAL_SD)), (CROPPED_SHARE, usual)]
+        }
+        None => vec![(1.0, usual)],
+    }
+}
