@@ -30,7 +30,7 @@ pub use drawing::{
     write_preview, write_srgb_png,
 };
 pub use edges::{Marked, Refinement, refine};
-pub use finding::{FoundFold, NoFold, WeighedFold, find_fold, weighed_folds};
+pub use finding::{FoundChart, find_chart, weighed_chart, FoundFold, NoFold, WeighedFold, find_fold, weighed_folds};
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,
     measure_patches, open_sides, pixels_sharing_noise,

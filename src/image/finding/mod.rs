@@ -14,6 +14,7 @@
 
 mod candidates;
 mod chains;
+mod chart;
 mod evidence;
 mod light;
 mod outline;
@@ -33,6 +34,7 @@ mod weights;
 use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
 use super::placing::{Lens, Point};
+pub use chart::{FoundChart, find_chart, weighed_chart};
 use candidates::{Candidate, candidates};
 use outline::{Outline, Place};
 use reduced::Reduced;

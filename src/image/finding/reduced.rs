@@ -18,6 +18,7 @@ const DARK: f32 = 0.004;
 const BRIGHT: f32 = 4.0;
 
 /// A photograph's light in blocks of pixels.
+#[derive(Clone)]
 pub(super) struct Reduced {
     pub width: usize,
     pub height: usize,
@@ -40,6 +41,21 @@ impl Reduced {
         let one = [0, 1, 2].map(|channel| one(&light, channel));
         light.par_iter_mut().for_each(|light| *light = [0, 1, 2].map(|k| light[k] / one[k]));
         Self { width, height, scale, light }
+    }
+
+    /// A picture of half the size, the mean light of two by two pixels.
+    pub fn halved(&self) -> Self {
+        let [width, height] = [self.width, self.height].map(|side| (side / 2).max(1));
+        let pixel = |k: usize| {
+            let at = |x: usize, y: usize| {
+                self.light[(2 * (k / width) + y).min(self.height - 1) * self.width
+                    + (2 * (k % width) + x).min(self.width - 1)]
+            };
+            let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+            [0, 1, 2].map(|n| four.iter().map(|light| light[n]).sum::<f32>() / 4.0)
+        };
+        let light = (0..width * height).into_par_iter().map(pixel).collect();
+        Self { width, height, scale: 2 * self.scale, light }
     }
 
     /// The reduced picture as a photograph.

@@ -1,0 +1,65 @@
+//! Whether the colours of a lattice are those of a chart.
+
+use nalgebra::{Matrix3, OMatrix, U3, Const};
+
+/// Columns and rows of patches.
+pub(super) const COLUMNS: usize = 6;
+pub(super) const ROWS: usize = 4;
+pub(super) const PATCHES: usize = COLUMNS * ROWS;
+
+/// Colours of patches, row by row.
+pub(super) type Colours = [[f64; 3]; PATCHES];
+
+/// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through `share/canon-5d-mark-ii.csv` in D55, 400 to
+/// 700 nm. Other lights and cameras change them by hardly more than a linear map.
+#[rustfmt::skip]
+const REFERENCE: Colours = [
+    [0.1304, 0.0790, 0.0589], [0.4455, 0.3160, 0.2588],
+    [0.1598, 0.2198, 0.2995], [0.1156, 0.1241, 0.0707],
+    [0.2497, 0.2722, 0.3927], [0.3180, 0.4869, 0.4468],
+    [0.4482, 0.1881, 0.0670], [0.1004, 0.1536, 0.3050],
+    [0.3481, 0.1305, 0.1262], [0.0860, 0.0657, 0.1175],
+    [0.3967, 0.4009, 0.1529], [0.5605, 0.3120, 0.1040],
+    [0.0482, 0.0923, 0.2378], [0.1649, 0.2419, 0.1153],
+    [0.2686, 0.0647, 0.0526], [0.6909, 0.4815, 0.1508],
+    [0.3363, 0.1581, 0.2517], [0.1196, 0.2766, 0.3721],
+    [0.8864, 0.8861, 0.8789], [0.5838, 0.5825, 0.5820],
+    [0.3575, 0.3577, 0.3581], [0.2027, 0.2028, 0.2031],
+    [0.0918, 0.0929, 0.0937], [0.0332, 0.0338, 0.0348],
+];
+
+/// Light of this part of the brightest patch counts half: what is darker is noise and stray light.
+const DARK: f64 = 0.03;
+
+/// How colours that are seen depart from the chart's.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Departure {
+    /// Part of what tells patches apart that no linear map of the chart's colours explains, from 0.
+    pub unexplained: f64,
+    /// The patch that is most off, relative to its light.
+    pub worst: f64,
+}
+
+/// How patches depart from those of the chart in any light, before any camera.
+///
+/// The linear map from the chart's colours is fitted by least squares, each patch relative to its own light.
+pub(super) fn departure(seen: &Colours) -> Option<Departure> {
+    let light = |patch: &[f64; 3]| patch.iter().sum::<f64>() / 3.0;
+    let brightest = seen.iter().map(light).fold(0.0, f64::max);
+    if !(brightest > 0.0 && brightest.is_finite()) {
+        return None;
+    }
+    let weights = seen.map(|patch| 1.0 / (light(&patch).max(0.0) + DARK * brightest));
+    let weighed = |colours: &Colours| {
+        OMatrix::<f64, U3, Const<PATCHES>>::from_fn(|channel, k| weights[k] * colours[k][channel])
+    };
+    let mean = [0, 1, 2].map(|channel| seen.iter().map(|patch| patch[channel]).sum::<f64>() / PATCHES as f64);
+    let spread = weighed(&seen.map(|patch| [0, 1, 2].map(|k| patch[k] - mean[k]))).norm_squared();
+    let (reference, seen) = (weighed(&REFERENCE), weighed(seen));
+    let map: Matrix3<f64> =
+        seen * reference.transpose() * (reference * reference.transpose()).try_inverse()?;
+    let off = seen - map * reference;
+    let unexplained = off.norm_squared() / spread;
+    unexplained.is_finite().then(|| Departure { unexplained, worst: off.amax() })
+}
+
