@@ -24,7 +24,7 @@ NO_FOLDS = ["no table", "no wood", "no sheets", "no box", "no flat sheet", "no a
 # kinds on which nothing was fitted
 APART = ["tiles", "stripes", "no tiles", "no corner of a room"]
 # what makes charts hard, and what is no chart
-CHARTS = ["chart turned", "chart covered", "chart dim", "chart tinted", "no chart but greys"]
+CHARTS = ["chart turned", "chart covered", "chart dim", "chart tinted", "no chart but colours"]
 
 
 def read(path, folder):
@@ -325,27 +325,29 @@ class Picture:
         self.light = self.light * self.mask[..., None]
 
     def change_chart(self, kind):
-        """The chart turned by any angle, under a hand, in little light or in light of another colour, or all its patches grey."""
+        """The chart turned by any angle, under a finger, in little light or in light of another colour, or with other patches."""
         shape, white, noise = self.light.shape, self.white, self.rng.standard_normal(self.light.shape)
         if kind == "chart turned":
             self.moved(self.rng.uniform(0.5, 0.8), self.rng.uniform(0, 360))
             self.lay([wood, cloth, table][self.rng.integers(3)](shape, self.rng))
         elif kind == "chart covered":
-            first, last = self.chart[self.rng.permutation(4)[:2]]
-            tip = self.chart.mean(0) * self.rng.uniform(0.1, 0.5) + (first + self.rng.uniform(0, 1) * (last - first)) * 0.8
-            side = (self.chart[1] - self.chart[0]) / 6 * self.rng.uniform(0.6, 1.5)
-            out = tip - self.chart.mean(0) + 1e-9
-            finger = [tip - side / 2, tip + side / 2, tip + side / 2 + 9 * out, tip - side / 2 + 9 * out]
-            part = filled(shape, finger, 0.7)[..., None]
+            tip = self.rng.dirichlet(np.ones(4)) @ self.chart
+            out = tip - self.chart.mean(0)
+            out = out / np.hypot(*out) * self.size * 3
+            side = np.array([-out[1], out[0]]) * self.rng.uniform(0.03, 0.08)
+            part = filled(shape, [tip - side, tip + side, tip + side + out, tip - side + out], 0.7)[..., None]
             self.light = self.light * (1 - part) + part * np.array([0.45, 0.27, 0.19]) * white * self.uneven(0.3)
             self.chart = None
         elif kind == "chart dim":
             self.light = self.light * 0.15 + 0.006 * white.max() * noise
         elif kind == "chart tinted":
             self.light = self.light * self.rng.uniform(0.4, 1.6, 3) * self.uneven(0.5)
-        elif kind == "no chart but greys":
-            part = filled(shape, self.chart.mean(0) + 1.1 * (self.chart - self.chart.mean(0)))[..., None]
-            self.light = self.light * (1 - part) + part * self.light.mean(-1, keepdims=True) * self.rng.uniform(0.7, 1.3, 3)
+        elif kind == "no chart but colours":
+            square = lambda u, v: np.array([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v]) @ self.chart
+            for k in range(24):
+                cell = [square((k % 6 + u) / 6, (k // 6 + v) / 4) for u, v in [(0.08, 0.08), (0.92, 0.08), (0.92, 0.92), (0.08, 0.92)]]
+                part = filled(shape, cell)[..., None]
+                self.light = self.light * (1 - part) + part * self.rng.uniform(0.02, 0.9, 3) * white * 0.8
             self.chart = None
 
     def remove(self, kind):

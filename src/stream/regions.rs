@@ -13,6 +13,7 @@
 //! - `image`: the photograph's file name, with or without its ending and without its folder. A list of regions needs it; in a
 //!   single object it is a remark.
 //! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
+//! - `chart_confidence`: the same of a chart that it found; such a chart is used where it can be.
 //! - `found`: false of a photograph in which it found none, and `reason`, why.
 //! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same shape but
 //!   another size, such as the original of a preview, corners are scaled; one of another shape is refused.
@@ -30,7 +31,8 @@ use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
 /// Fields beside those of the panels.
-const FIELDS: [&str; 8] = ["chart", "white", "image", "width", "height", "confidence", "found", "reason"];
+const FIELDS: [&str; 9] =
+    ["chart", "white", "image", "width", "height", "confidence", "chart_confidence", "found", "reason"];
 
 /// Four corners, px of the upright picture.
 pub type Corners = [Point; 4];
@@ -50,6 +52,8 @@ pub struct Regions {
     pub size: Option<[usize; 2]>,
     /// Of panels that were found, the probability that their corners are right, 0 to 1.
     pub confidence: Option<f64>,
+    /// Of a chart that was found, the same.
+    pub chart_confidence: Option<f64>,
     /// Why none were found.
     pub missing: Option<String>,
 }
@@ -99,6 +103,7 @@ impl Regions {
             image: read(path, fields, "image", "give a file name")?,
             size,
             confidence: read(path, fields, "confidence", "give a number from 0 to 1")?,
+            chart_confidence: read(path, fields, "chart_confidence", "give a number from 0 to 1")?,
             missing: is_missing.then_some(reason),
         })
     }
@@ -125,6 +130,8 @@ impl Regions {
     /// The same regions, those of `others` where they have none.
     #[must_use]
     pub fn or(self, others: Self) -> Self {
+        let chart_confidence =
+            if self.chart.is_some() { self.chart_confidence } else { others.chart_confidence };
         Self {
             panels: others.panels.into_iter().chain(self.panels).collect(), // the last of a number stays
             chart: self.chart.or(others.chart),
@@ -132,6 +139,7 @@ impl Regions {
             image: self.image.or(others.image),
             size: self.size.or(others.size),
             confidence: self.confidence.or(others.confidence),
+            chart_confidence,
             missing: self.missing.or(others.missing),
         }
     }

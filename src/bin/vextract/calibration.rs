@@ -95,6 +95,13 @@ pub struct GivenCalibration {
 }
 
 impl GivenCalibration {
+    /// Leaves out a chart that was found where a white card or the exposure was told.
+    pub fn forget_spare(&self, regions: &mut Regions) {
+        if regions.chart_confidence.is_some() && (regions.white.is_some() || self.exposure.is_some()) {
+            (regions.chart, regions.chart_confidence) = (None, None);
+        }
+    }
+
     /// What is marked in a photograph to calibrate with, if anything is.
     fn marked(&self, regions: &Regions) -> Result<Option<(&Target, Corners)>> {
         match (regions.chart, regions.white, self.exposure) {

@@ -78,7 +78,7 @@ impl RegionArgs {
     }
 }
 
-/// Refuses panels that were not found, or not surely.
+/// Refuses panels of a file that were not found, or not surely.
 fn check_found(path: &Path, regions: &Regions) -> Result<()> {
     if let Some(reason) = &regions.missing {
         return Err(finding::not_found(path, reason));
@@ -102,21 +102,30 @@ pub struct GivenRegions {
 }
 
 impl GivenRegions {
+    /// Whether nothing was told at all.
+    pub fn are_none(&self) -> bool {
+        self.file.is_none() && self.flags == Regions::default()
+    }
+
     /// Those of one photograph.
     ///
     /// # Errors
-    /// As [`RegionsFile::of`].
+    /// As [`RegionsFile::of`]; [`Error::Picture`] if they are panels that were not found, or not surely.
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
-        let size = [photograph.width(), photograph.height()];
-        match &self.file {
-            Some(file) => {
-                let of_file = file.of(path, size)?;
-                if self.flags.panels.is_empty() {
-                    check_found(path, &of_file)?;
-                }
-                Ok(self.flags.clone().or(of_file))
-            }
-            None => Ok(self.flags.clone()),
+        let regions = self.of_any(path, photograph)?;
+        if self.flags.panels.is_empty() {
+            check_found(path, &regions)?;
         }
+        Ok(regions)
+    }
+
+    /// The same for whom needs no panels.
+    ///
+    /// # Errors
+    /// As [`RegionsFile::of`].
+    pub fn of_any(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
+        let size = [photograph.width(), photograph.height()];
+        let of_file = self.file.as_ref().map(|file| file.of(path, size)).transpose()?;
+        Ok(self.flags.clone().or(of_file.unwrap_or_default()))
     }
 }

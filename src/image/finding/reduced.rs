@@ -18,7 +18,6 @@ const DARK: f32 = 0.004;
 const BRIGHT: f32 = 4.0;
 
 /// A photograph's light in blocks of pixels.
-#[derive(Clone)]
 pub(super) struct Reduced {
     pub width: usize,
     pub height: usize,

@@ -136,7 +136,10 @@ mod tests {
 
     #[test]
     fn what_is_bent_slim_or_large_is_none() {
-        assert!(found(|x, y| (40.0..80.0).contains(&x) && (40.0..80.0).contains(&y) && (x < 50.0 || y < 50.0)).is_empty());
+        assert!(
+            found(|x, y| (40.0..80.0).contains(&x) && (40.0..80.0).contains(&y) && (x < 50.0 || y < 50.0))
+                .is_empty()
+        );
         assert!(found(|x, y| (40.0..90.0).contains(&x) && (40.0..46.0).contains(&y)).is_empty());
         assert!(found(|x, y| (40.0..90.0).contains(&x) && (40.0..90.0).contains(&y)).is_empty());
     }

@@ -1,6 +1,6 @@
 //! Whether the colours of a lattice are those of a chart.
 
-use nalgebra::{Matrix3, OMatrix, U3, Const};
+use nalgebra::{Matrix3, SMatrix};
 
 /// Columns and rows of patches.
 pub(super) const COLUMNS: usize = 6;
@@ -31,18 +31,17 @@ const REFERENCE: Colours = [
 /// Light of this part of the brightest patch counts half: what is darker is noise and stray light.
 const DARK: f64 = 0.03;
 
-/// How colours that are seen depart from the chart's.
+/// How far patches are off the chart's, each relative to its own light.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Departure {
-    /// Part of what tells patches apart that no linear map of the chart's colours explains, from 0.
-    pub unexplained: f64,
-    /// The patch that is most off, relative to its light.
+    /// Root of the mean square over patches and channels.
+    pub rms: f64,
+    /// The largest of a patch and channel.
     pub worst: f64,
 }
 
-/// How patches depart from those of the chart in any light, before any camera.
-///
-/// The linear map from the chart's colours is fitted by least squares, each patch relative to its own light.
+/// How far patches are off those of the chart in any light, before any camera: from the linear map of the chart's colours that is nearest.
+/// Nothing is said of a picture without light.
 pub(super) fn departure(seen: &Colours) -> Option<Departure> {
     let light = |patch: &[f64; 3]| patch.iter().sum::<f64>() / 3.0;
     let brightest = seen.iter().map(light).fold(0.0, f64::max);
@@ -51,15 +50,12 @@ pub(super) fn departure(seen: &Colours) -> Option<Departure> {
     }
     let weights = seen.map(|patch| 1.0 / (light(&patch).max(0.0) + DARK * brightest));
     let weighed = |colours: &Colours| {
-        OMatrix::<f64, U3, Const<PATCHES>>::from_fn(|channel, k| weights[k] * colours[k][channel])
+        SMatrix::<f64, 3, PATCHES>::from_fn(|channel, k| weights[k] * colours[k][channel])
     };
-    let mean = [0, 1, 2].map(|channel| seen.iter().map(|patch| patch[channel]).sum::<f64>() / PATCHES as f64);
-    let spread = weighed(&seen.map(|patch| [0, 1, 2].map(|k| patch[k] - mean[k]))).norm_squared();
     let (reference, seen) = (weighed(&REFERENCE), weighed(seen));
     let map: Matrix3<f64> =
         seen * reference.transpose() * (reference * reference.transpose()).try_inverse()?;
     let off = seen - map * reference;
-    let unexplained = off.norm_squared() / spread;
-    unexplained.is_finite().then(|| Departure { unexplained, worst: off.amax() })
+    let rms = (off.norm_squared() / off.len() as f64).sqrt();
+    rms.is_finite().then(|| Departure { rms, worst: off.amax() })
 }
-

@@ -25,17 +25,14 @@ pub(super) struct Exact {
     pub to_picture: Matrix3<f64>,
     /// Half of a patch's side, in cells.
     pub half: f64,
-    /// Patches all of whose edges are seen.
-    pub patches: usize,
-    /// How far their centres are off the fitted ones in the middle, in cells.
-    pub off: f64,
 }
 
 /// The chart's place by the middles between opposite edges of its patches.
 pub(super) fn exact(flat: &Flat, to_picture: &Matrix3<f64>) -> Option<Exact> {
     let white = flat.colours().iter().flatten().copied().fold(0.0, f64::max);
     let sides = |k: usize| {
-        let [left, right, top, bottom] = [(-1, 0), (1, 0), (0, -1), (0, 1)].map(|way| edge(flat, k, way, white));
+        let [left, right, top, bottom] =
+            [(-1, 0), (1, 0), (0, -1), (0, 1)].map(|way| edge(flat, k, way, white));
         Some((k, [left?, right?, top?, bottom?]))
     };
     let sides: Vec<(usize, [f64; 4])> = (0..PATCHES).filter_map(sides).collect();
@@ -46,18 +43,21 @@ pub(super) fn exact(flat: &Flat, to_picture: &Matrix3<f64>) -> Option<Exact> {
         .iter()
         .map(|(k, [left, right, top, bottom])| (*k, patch(*k) + Place::new(right - left, bottom - top) / 2.0))
         .collect();
-    let half = median(sides.iter().flat_map(|(_, [left, right, top, bottom])| [(left + right) / 2.0, (top + bottom) / 2.0]).collect());
+    let half = median(
+        sides
+            .iter()
+            .flat_map(|(_, [left, right, top, bottom])| [(left + right) / 2.0, (top + bottom) / 2.0])
+            .collect(),
+    );
     let pairs = |centres: &[(usize, Place)]| {
         centres.iter().map(|(k, centre)| (patch(*k), seen(to_picture, *centre))).collect::<Vec<_>>()
     };
     let first = projective(&pairs(&centres))?;
     let to_cells = to_picture.try_inverse()?;
-    let off = |map: &Matrix3<f64>, (k, centre): &(usize, Place)| (seen(&to_cells, seen(map, patch(*k))) - centre).norm();
-    let middle = |map: &Matrix3<f64>| median(centres.iter().map(|centre| off(map, centre)).collect());
-    let bound = OUTLYING * middle(&first);
-    let near: Vec<_> = centres.iter().copied().filter(|centre| off(&first, centre) <= bound).collect();
-    let to_picture = projective(&pairs(&near)).unwrap_or(first);
-    Some(Exact { to_picture, half, patches: near.len(), off: middle(&to_picture) })
+    let off = |(k, centre): &(usize, Place)| (seen(&to_cells, seen(&first, patch(*k))) - centre).norm();
+    let bound = OUTLYING * median(centres.iter().map(off).collect());
+    let near: Vec<_> = centres.iter().copied().filter(|centre| off(centre) <= bound).collect();
+    Some(Exact { to_picture: projective(&pairs(&near)).unwrap_or(first), half })
 }
 
 /// How far an edge of a patch is from its centre, in cells, along one of the four ways.

@@ -30,7 +30,8 @@ impl Flat {
             let ideal = seen(to_picture, Place::new(x, y));
             lens.distort(Point::new(ideal.x, ideal.y))
         };
-        let cell_px = at(2.0, 1.0).distance(at(3.0, 2.0));
+        let (a, b) = (at(2.0, 1.0), at(3.0, 2.0));
+        let cell_px = (a.x - b.x).hypot(a.y - b.y);
         let pixels = ((cell_px / PER_CELL as f64).round() as usize).clamp(1, MOST_PIXELS);
         let cells = |point: usize, n: usize| {
             (point as f64 - MARGIN as f64 + (n as f64 + 0.5) / pixels as f64) / PER_CELL as f64

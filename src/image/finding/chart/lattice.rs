@@ -97,13 +97,14 @@ fn pairs(blobs: &[Blob], seed: usize, neighbours: &[usize]) -> Vec<(Place, Place
 /// The lattice that goes on from a blob to those next to it.
 fn grow(blobs: &[Blob], seed: usize, right: Place, down: Place) -> Option<Lattice> {
     let first = &blobs[seed];
-    let mut to_picture =
-        Matrix3::from_columns(&[right.push(0.0), down.push(0.0), first.centre.push(1.0)]);
+    let mut to_picture = Matrix3::from_columns(&[right.push(0.0), down.push(0.0), first.centre.push(1.0)]);
     let mut nodes = BTreeMap::new();
     for reach in ROUNDS {
         nodes = taken_in(blobs, first, &to_picture, reach)?;
-        let pairs: Vec<_> =
-            nodes.iter().map(|([i, j], k)| (Place::new(f64::from(*i), f64::from(*j)), blobs[*k].centre)).collect();
+        let pairs: Vec<_> = nodes
+            .iter()
+            .map(|([i, j], k)| (Place::new(f64::from(*i), f64::from(*j)), blobs[*k].centre))
+            .collect();
         let fit = if pairs.len() < ENOUGH { affine } else { projective };
         to_picture = fit(&pairs)?;
     }
@@ -111,7 +112,12 @@ fn grow(blobs: &[Blob], seed: usize, right: Place, down: Place) -> Option<Lattic
 }
 
 /// The nearest blob of each node up to so many away from the first.
-fn taken_in(blobs: &[Blob], first: &Blob, to_picture: &Matrix3<f64>, reach: i32) -> Option<BTreeMap<Node, usize>> {
+fn taken_in(
+    blobs: &[Blob],
+    first: &Blob,
+    to_picture: &Matrix3<f64>,
+    reach: i32,
+) -> Option<BTreeMap<Node, usize>> {
     let to_nodes = to_picture.try_inverse()?;
     let mut nearest: BTreeMap<Node, (f64, usize)> = BTreeMap::new();
     for (k, blob) in blobs.iter().enumerate() {

@@ -18,7 +18,7 @@ const BEYOND: i32 = 2;
 const MIDDLE: f64 = 0.22;
 const PLACES: usize = 5;
 /// Colours that are further off are those of something else.
-const MOST_UNEXPLAINED: f64 = 0.3;
+const MOST_OFF: f64 = 0.4;
 
 /// A chart on a lattice.
 #[derive(Debug, Clone, Copy)]
@@ -61,10 +61,13 @@ pub(super) fn placed(lattice: &Lattice, light: &[Plane; 3]) -> Option<Placement>
                 if blobs < FEWEST || (blobs as f64) < LEAST_PART * lattice.nodes.len() as f64 {
                     continue;
                 }
-                let mut colour = |node: Node| *known.entry(node).or_insert_with(|| at_node(lattice, node, light));
+                let mut colour =
+                    |node: Node| *known.entry(node).or_insert_with(|| at_node(lattice, node, light));
                 let colours: Option<Vec<[f64; 3]>> = nodes.iter().map(|node| colour(*node)).collect();
-                let Some(departure) = colours.and_then(|all| departure(&Colours::try_from(all).ok()?)) else { continue };
-                if departure.unexplained < best.map_or(MOST_UNEXPLAINED, |best| best.departure.unexplained) {
+                let Some(departure) = colours.and_then(|all| departure(&Colours::try_from(all).ok()?)) else {
+                    continue;
+                };
+                if departure.rms < best.map_or(MOST_OFF, |best| best.departure.rms) {
                     let to_picture = on_chart(lattice, &nodes);
                     best = to_picture.map(|to_picture| Placement { to_picture, departure, blobs }).or(best);
                 }

@@ -71,7 +71,8 @@ mod tests {
     #[test]
     fn maps_are_found_again() {
         let places: Vec<Place> = (0..12).map(|k| Place::new(f64::from(k % 4), f64::from(k / 4))).collect();
-        let pairs = |map: &Matrix3<f64>| places.iter().map(|place| (*place, seen(map, *place))).collect::<Vec<_>>();
+        let pairs =
+            |map: &Matrix3<f64>| places.iter().map(|place| (*place, seen(map, *place))).collect::<Vec<_>>();
         let map = Matrix3::new(40.0, -9.0, 300.0, 7.0, 35.0, 200.0, 0.02, -0.03, 1.0);
         let found = projective(&pairs(&map)).unwrap();
         assert!((found / found[(2, 2)] - map).norm() < 1e-6, "{found}");
