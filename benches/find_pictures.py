@@ -456,7 +456,7 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--every", type=int, default=4)
     parser.add_argument("--apart", action="store_true", help="also kinds on which nothing was fitted")
-    parser.add_argument("--charts", action="store_true", help="photographs with a chart, in all kinds that it stays in, and as many without as they are")
+    parser.add_argument("--charts", action="store_true", help="also what makes charts hard")
     parser.add_argument("sidecars", nargs="+", type=Path)
     given = parser.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)

@@ -26,7 +26,7 @@ pub struct RegionArgs {
     /// Corners of panel N, counted from 0 as the scene has them; once for each
     #[arg(long, value_name = "N=x,y x,y x,y x,y", allow_hyphen_values = true, value_parser = numbered)]
     panel: Vec<(usize, String)>,
-    /// Corners of a colour chart's block of patches, to calibrate with
+    /// Corners of a colour chart's block of patches, to calibrate with [default: found, if no corners are given]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
     /// Corners of a white card in the picture, to calibrate with

@@ -121,13 +121,14 @@ impl Setup<'_> {
         let calibrated = self.calibration.calibrate(self.scene, regions, lens, path, photograph);
         let Some(confidence) = regions.chart_confidence else { return calibrated };
         if !self.args.common.quiet {
-            let found = format!("{}: chart found, to {:.1} % sure", path.display(), 100.0 * confidence);
+            let name = format!("{}: ", path.display());
+            let found = format!("{name}chart found, to {:.1} % sure", 100.0 * confidence);
             let line = match &calibrated {
-                Err(error) => format!("{found}, but not used: {error}"),
-                _ => format!(
-                    "{found}: its patches calibrate the photograph, cosine of the sun's angle {}",
-                    self.calibration.chart.cos()
-                ),
+                Err(error) => {
+                    let why = error.to_string();
+                    format!("{found}, but not used: {}", why.strip_prefix(&name).unwrap_or(&why))
+                }
+                Ok(_) => format!("{found}: the photograph is calibrated by it"),
             };
             cli::say("vextract", &line);
         }

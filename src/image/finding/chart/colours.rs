@@ -13,7 +13,7 @@ pub(super) type Colours = [[f64; 3]; PATCHES];
 /// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through `share/canon-5d-mark-ii.csv` in D55, 400 to
 /// 700 nm. Other lights and cameras change them by hardly more than a linear map.
 #[rustfmt::skip]
-const REFERENCE: Colours = [
+pub(super) const REFERENCE: Colours = [
     [0.1304, 0.0790, 0.0589], [0.4455, 0.3160, 0.2588],
     [0.1598, 0.2198, 0.2995], [0.1156, 0.1241, 0.0707],
     [0.2497, 0.2722, 0.3927], [0.3180, 0.4869, 0.4468],
@@ -58,4 +58,51 @@ pub(super) fn departure(seen: &Colours) -> Option<Departure> {
     let off = seen - map * reference;
     let rms = (off.norm_squared() / off.len() as f64).sqrt();
     rms.is_finite().then(|| Departure { rms, worst: off.amax() })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use super::*;
+    use crate::camera::CameraResponse;
+    use crate::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
+
+    /// The chart through a built-in camera, each channel of white 1.
+    fn seen(by: &str, light: &str) -> Colours {
+        let grid = WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap();
+        let curves: Vec<_> = camera(by)
+            .unwrap()
+            .channels
+            .iter()
+            .map(|curve| curve.on(&grid, Outside::Zero).unwrap())
+            .collect();
+        let power = illuminant(light).unwrap().on(&grid, Outside::Refuse).unwrap();
+        let response = CameraResponse::new(&grid, &curves, &power).unwrap();
+        let white = response.white();
+        let patches = reflectances("cc24").unwrap();
+        std::array::from_fn(|k| {
+            let rgb = response.of_flat(&patches[k].on(&grid, Outside::Refuse).unwrap());
+            [0, 1, 2].map(|channel| rgb[channel] / white[channel])
+        })
+    }
+
+    #[test]
+    fn the_reference_is_what_share_makes_of_it() {
+        let seen = seen("canon-5d-mark-ii", "D55");
+        for (seen, reference) in seen.iter().flatten().zip(REFERENCE.iter().flatten()) {
+            assert!((seen - reference).abs() < 1e-4, "{seen} {reference}");
+        }
+    }
+
+    #[test]
+    fn other_cameras_and_lights_change_little_and_other_orders_much() {
+        for (camera, light) in [("nikon-d5100", "A"), ("sigma-sd-merrill", "D75")] {
+            let mut seen = seen(camera, light).map(|[r, g, b]| [0.3 * r, 0.6 * g, 0.2 * b]);
+            let there = departure(&seen).unwrap();
+            assert!(there.rms < 0.07 && there.worst < 0.25, "{camera} {light}: {there:?}");
+            seen.reverse();
+            assert!(departure(&seen).unwrap().rms > 0.4);
+        }
+    }
 }

@@ -16,6 +16,8 @@ mod flat;
 mod lattice;
 mod placement;
 mod plane_map;
+#[cfg(test)]
+mod synthetic;
 
 use nalgebra::Matrix3;
 
@@ -161,4 +163,74 @@ fn corners(lens: &Lens, map: &Matrix3<f64>, half: f64) -> [Point; 4] {
         let ideal = seen(map, Place::new(x, y));
         lens.distort(Point::new(ideal.x, ideal.y))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::synthetic::{outline, picture};
+    use super::synthetic::{WIDTH, drawn, photograph, tilted};
+    use super::*;
+
+    fn found(photograph: &Photograph) -> Option<FoundChart> {
+        find_chart(photograph, &Lens::STRAIGHT).filter(FoundChart::is_sure)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Turned by any angle, upside down among them, leaning away to any side.
+        #[test]
+        fn charts_are_found_where_they_are(turn_deg in 0.0..360.0, lean in prop::array::uniform2(-0.5..0.5), width in 0.35..0.7) {
+            let corners = tilted(turn_deg, lean, width);
+            let found = found(&drawn(corners, |_, colour| colour));
+            prop_assert!(found.is_some(), "none at {corners:?}");
+            let off = found.map(|found| [0, 1, 2, 3].map(|k| found.corners[k].distance(corners[k])));
+            let patch_px = width * WIDTH as f64 / 6.0;
+            prop_assert!(off.iter().flatten().all(|off| *off < 0.06 * patch_px), "{off:?}");
+        }
+    }
+
+    #[test]
+    fn a_covered_chart_is_not_claimed() {
+        let corners = tilted(10.0, [0.1, 0.2], 0.6);
+        for hidden in 0..PATCHES {
+            let hand = |k: usize, colour| if k == hidden { [0.4, 0.25, 0.2] } else { colour };
+            // a hand may look like light skin, which is patch 1
+            assert!(hidden == 1 || found(&drawn(corners, hand)).is_none(), "{hidden}");
+        }
+    }
+
+    #[test]
+    fn patches_of_other_colours_or_greys_are_no_chart() {
+        let corners = tilted(0.0, [0.0, 0.0], 0.6);
+        let grey = |k: usize, _| [0.05 + 0.2 * (k * 7 % 5) as f64; 3];
+        assert_eq!(found(&drawn(corners, grey)), None);
+        let turned_colours = |_: usize, [r, g, b]: [f64; 3]| [g * g, b.sqrt(), (r - 0.5).abs()];
+        assert_eq!(found(&drawn(corners, turned_colours)), None);
+    }
+
+    #[test]
+    fn a_chart_cut_by_the_edge_is_none() {
+        let cut =
+            tilted(0.0, [0.0, 0.0], 0.6).map(|corner| Point::new(corner.x + 0.25 * WIDTH as f64, corner.y));
+        assert_eq!(found(&drawn(cut, |_, colour| colour)), None);
+    }
+
+    #[test]
+    fn tiles_and_folds_are_no_charts() {
+        let tile = |x: f64, y: f64| {
+            let is_joint = (x / 40.0).fract().min((y / 40.0).fract()) < 0.1;
+            if is_joint {
+                [0.1; 3]
+            } else {
+                [0.5, 0.45, 0.4].map(|light| light + 0.05 * (x * y / 1600.0).floor().sin())
+            }
+        };
+        assert_eq!(found(&photograph(tile)), None);
+        let checkers = |x: f64, y: f64| [[0.1, 0.7][((x / 30.0) as usize + (y / 30.0) as usize) % 2]; 3];
+        assert_eq!(found(&photograph(checkers)), None);
+        assert_eq!(found(&picture(&outline(), 1)), None);
+    }
 }
