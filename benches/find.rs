@@ -25,11 +25,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn chart(path: &str, photograph: &Photograph) -> Value {
-    let start = std::time::Instant::now();
     let chart = weighed_chart(photograph, &Lens::STRAIGHT);
-    let seconds = start.elapsed().as_secs_f64();
     let corners = chart.map(|(chart, _)| chart.corners.map(|corner| [corner.x, corner.y]));
-    json!({ "image": path, "seconds": seconds, "chart": corners, "weighed": chart.map(|(_, weighed)| weighed) })
+    json!({ "image": path, "chart": corners, "weighed": chart.map(|(_, weighed)| weighed) })
 }
 
 fn record(fold: &WeighedFold) -> Value {

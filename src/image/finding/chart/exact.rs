@@ -11,8 +11,9 @@ use super::plane_map::{projective, seen};
 /// Where a patch's edge is looked for, in points from its centre, and half of the part of the edge that is looked at.
 const EDGE: [usize; 2] = [PER_CELL / 4, PER_CELL / 2];
 const ALONG: isize = PER_CELL as isize / 4;
-/// An edge is at least this step of the root of light from point to point, all channels together, over that of white.
-const LEAST_STEP: f64 = 0.015;
+/// An edge is at least this step of light from point to point, all channels together, relative to the patch's light and this part of white.
+const LEAST_STEP: f64 = 0.03;
+const DARK: f64 = 0.03;
 /// Fewest patches by whose edges a chart is placed.
 const FEWEST: usize = 10;
 /// Patches so many times as far off as the middle one are not counted.
@@ -71,10 +72,12 @@ fn edge(flat: &Flat, k: usize, (right, down): (isize, isize), white: f64) -> Opt
             _ => flat.beside(k, place(right), along),
         });
         let sum = points.fold([0.0; 3], |sum, point| [0, 1, 2].map(|n| sum[n] + point[n]));
-        sum.map(|sum| (sum.max(0.0) / (2.0 * ALONG as f64 * white)).sqrt())
+        sum.map(|sum| sum / (2.0 * ALONG as f64))
     };
     let profile: Vec<[f64; 3]> = (EDGE[0] - 1..=EDGE[1] + 1).map(light).collect();
-    let step = |pair: &[[f64; 3]]| (0..3).map(|n| (pair[1][n] - pair[0][n]).powi(2)).sum::<f64>().sqrt();
+    let own = profile[0].iter().copied().fold(0.0, f64::max) + DARK * white;
+    let step =
+        |pair: &[[f64; 3]]| (0..3).map(|n| (pair[1][n] - pair[0][n]).powi(2)).sum::<f64>().sqrt() / own;
     let steps: Vec<f64> = profile.windows(2).map(step).collect();
     let inner = &steps[1..steps.len() - 1];
     let (at, most) = inner.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;

@@ -4,10 +4,10 @@
 //!
 //! 1. [`blobs`]: places of even light;
 //! 2. [`lattice`], [`plane_map`]: those of them that lie in rows and columns, in any perspective;
-//! 3. [`placement`], [`colours`]: the four rows of six, turned any way, whose colours a linear map makes of the chart's, whatever light and camera are;
+//! 3. [`placement`], [`colours`], [`search`]: the four rows of six, turned any way, whose colours a linear map makes of the chart's, whatever light and camera are;
 //! 4. [`flat`], [`exact`]: exactly where its patches end, in the whole picture.
 //!
-//! Blobs are looked for in a picture of half the size too: noise breaks them up, and blur hides them.
+//! What a hand, a shadow or the edge of the picture takes of a chart shows in the colours, which make the confidence.
 
 mod blobs;
 mod colours;
@@ -16,24 +16,22 @@ mod flat;
 mod lattice;
 mod placement;
 mod plane_map;
+mod search;
 #[cfg(test)]
 mod synthetic;
 
 use nalgebra::Matrix3;
 
-use super::evidence::steps;
 use super::outline::Place;
-use super::plane::Plane;
 use super::reduced::Reduced;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Homography, Lens, Point, is_inside};
-use blobs::blobs;
 use colours::{COLUMNS, PATCHES, ROWS, departure};
 use exact::exact;
 use flat::Flat;
-use lattice::lattices;
-use placement::{Placement, patch, placed};
+use placement::patch;
 use plane_map::{projective, seen};
+use search::searched;
 
 /// A chart of four rows of six patches.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,18 +42,13 @@ pub struct FoundChart {
     pub confidence: f64,
 }
 
-/// Blur before changes of light are looked at, px.
-const BLUR_PX: f32 = 0.8;
-/// A chart of which so many patches are seen, and whose colours are so near, is not looked for further.
-const SEEN: usize = 16;
-const NEAR: f64 = 0.08;
 /// Rounds in which patches' edges are looked for.
 const ROUNDS: usize = 2;
 /// What the confidence is made of.
 pub const CLUES: usize = 2;
 /// Its weights, by `benches/find_fit.py`.
-const OFFSET: f64 = -13.571;
-const WEIGHTS: [f64; CLUES] = [-1.43, -8.156];
+const OFFSET: f64 = -13.88;
+const WEIGHTS: [f64; CLUES] = [-1.516, -8.188];
 /// Half of a patch's side in cells, if its edges do not say: that of a Classic.
 const HALF: f64 = 0.44;
 
@@ -112,38 +105,6 @@ pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(FoundChart
     let clues = [departure.rms.ln(), departure.worst.ln()];
     let log_odds = OFFSET + WEIGHTS.iter().zip(&clues).map(|(weight, clue)| weight * clue).sum::<f64>();
     Some((FoundChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
-}
-
-/// The map of the chart in a reduced picture, or in half of it, and how many pixels of the photograph a pixel there is.
-fn searched(reduced: &Reduced) -> Option<(f64, Matrix3<f64>)> {
-    let half = reduced.halved();
-    let in_half = search(&half);
-    let in_whole = if in_half.is_some_and(|found| is_good(&found)) { None } else { search(reduced) };
-    let found = [(&half, in_half), (reduced, in_whole)].map(|(picture, found)| Some((picture.scale, found?)));
-    let best =
-        found.into_iter().flatten().min_by(|(_, a), (_, b)| a.departure.rms.total_cmp(&b.departure.rms));
-    best.map(|(scale, found)| (scale as f64, found.to_picture))
-}
-
-fn is_good(placement: &Placement) -> bool {
-    placement.blobs >= SEEN && placement.departure.rms < NEAR
-}
-
-/// The chart of a reduced picture that departs least from one.
-fn search(picture: &Reduced) -> Option<Placement> {
-    let [xx, yy, _] = steps(&picture.even(), BLUR_PX);
-    let values = xx.values.iter().zip(&yy.values).map(|(xx, yy)| (xx + yy).sqrt()).collect();
-    let blobs = blobs(&Plane { width: picture.width, values });
-    let light = picture.planes(|light| light);
-    let mut best: Option<Placement> = None;
-    lattices(&blobs, |lattice| {
-        let least = best.map_or(f64::INFINITY, |best| best.departure.rms);
-        if let Some(found) = placed(lattice, &light).filter(|found| found.departure.rms < least) {
-            best = Some(found);
-        }
-        best.is_some_and(|best| is_good(&best))
-    });
-    best
 }
 
 /// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels are a pixel of.
