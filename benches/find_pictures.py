@@ -298,6 +298,8 @@ class Picture:
         palm = tip + out * self.size * 1.3
         around = [palm + self.size * (0.5 * np.cos(t) * side + 0.4 * np.sin(t) * out) for t in np.linspace(0, 6.1, 24)]
         mask = np.maximum(mask, filled(shape, around, 0.7))[..., None]
+        if self.chart is not None and (filled(shape, self.chart) * mask[..., 0]).max() > 0.5:
+            self.chart = None
         skin = np.array([0.45, 0.27, 0.19]) * self.rng.uniform(0.5, 1.3) * self.white * 0.75
         self.light = self.light * (1 - mask) + mask * skin * self.uneven(0.3)
 
@@ -378,6 +380,7 @@ class Picture:
                 self.light = self.light * (1 - part) + part * (self.white * 0.6 * (page * np.where(lines, 0.35, 1))[..., None])
             things = [(a, 1), (b, 1)]
         if kind == "corner of a room":
+            self.chart = None
             middle = self.fold.mean(0)
             ends = [middle + 3000 * np.array([np.cos(t), np.sin(t)]) for t in self.rng.uniform(0, 2 * np.pi) + np.array([0, 2.1, 4.2])]
             for k in range(3):

@@ -10,7 +10,7 @@
 //! 4. [`light`], [`score`], [`search`]: the likeliest of these against "no fold", a logit over what is seen of each;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is likeliest to be right is then refined in the whole picture.
+//! The fold that is likeliest to be right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
 
 mod candidates;
 mod chains;

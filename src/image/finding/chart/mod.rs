@@ -128,10 +128,12 @@ fn corners(lens: &Lens, map: &Matrix3<f64>, half: f64) -> [Point; 4] {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
     use proptest::prelude::*;
 
     use super::super::synthetic::{outline, picture};
-    use super::synthetic::{WIDTH, drawn, photograph, tilted};
+    use super::synthetic::{HEIGHT, WIDTH, drawn, drawn_through, photograph, tilted};
     use super::*;
 
     fn found(photograph: &Photograph) -> Option<FoundChart> {
@@ -151,6 +153,15 @@ mod tests {
             let patch_px = width * WIDTH as f64 / 6.0;
             prop_assert!(off.iter().flatten().all(|off| *off < 0.06 * patch_px), "{off:?}");
         }
+    }
+
+    #[test]
+    fn what_the_lens_bends_is_undone() {
+        let lens = Lens::new([-0.08, 0.0], WIDTH, HEIGHT).unwrap();
+        let corners = tilted(20.0, [0.2, 0.1], 0.8);
+        let found = find_chart(&drawn_through(lens, corners, |_, colour| colour), &lens).unwrap();
+        let off = [0, 1, 2, 3].map(|k| found.corners[k].distance(corners[k]));
+        assert!(found.is_sure() && off.iter().all(|off| *off < 1.5), "{off:?}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use super::colours::{COLUMNS, REFERENCE, ROWS};
 use crate::image::photograph::Photograph;
-use crate::image::placing::{Homography, Point};
+use crate::image::placing::{Homography, Lens, Point};
 
 pub(super) const WIDTH: usize = 480;
 pub(super) const HEIGHT: usize = 360;
@@ -34,7 +34,16 @@ pub(super) fn tilted(turn_deg: f64, lean: [f64; 2], width: f64) -> [Point; 4] {
 
 /// A photograph of a chart in coloured light by another camera, with noise. `patch` may change the colour of a patch.
 pub(super) fn drawn(corners: [Point; 4], patch: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> Photograph {
-    let chart = Homography::from_unit_square(corners).unwrap();
+    drawn_through(Lens::STRAIGHT, corners, patch)
+}
+
+/// The same through a lens.
+pub(super) fn drawn_through(
+    lens: Lens,
+    corners: [Point; 4],
+    patch: impl Fn(usize, [f64; 3]) -> [f64; 3],
+) -> Photograph {
+    let chart = Homography::through(lens, corners).unwrap();
     let cells = [COLUMNS, ROWS].map(|count| count as f64 - 1.0 + FILLED);
     photograph(|x, y| {
         let (u, v) = chart.to_panel(Point::new(x, y));
