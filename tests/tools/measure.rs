@@ -29,7 +29,10 @@ fn what_is_found_is_not_asked() {
     assert_eq!(run.status, 0, "{run:?}");
     assert!(run.stdout.starts_with("./vfold-photo/report.html: good: "), "{run:?}");
     let files = folder.sh("ls vfold-photo; wc -l < vfold-photo/spectrum.csv").stdout;
-    assert_eq!(files, "overlay.png\nregions.json\nreport.html\nresult.ndjson\nscene.json\nspectrum.csv\n62\n");
+    assert_eq!(
+        files,
+        "overlay.png\nregions.json\nreport.html\nresult.ndjson\nscene.json\nspectrum.csv\n62\n"
+    );
     assert!(rmse(&folder, "vfold-photo/result.ndjson") < 0.03);
 }
 
@@ -55,7 +58,11 @@ fn several_photographs_have_one_page() {
 
 #[test]
 fn a_wrong_call_is_refused() {
-    for (call, why) in [("", "usage: vfold-measure"), ("--lens x", "there is no such option"), ("--camera", "a value is missing")] {
+    for (call, why) in [
+        ("", "usage: vfold-measure"),
+        ("--lens x", "there is no such option"),
+        ("--camera", "a value is missing"),
+    ] {
         let (_, run) = run(&[], &format!("measure {call}"));
         assert!(run.status == 2 && run.stderr.contains(why), "{call}: {run:?}");
     }

@@ -5,6 +5,7 @@ mod batch;
 mod calibration;
 mod camera;
 mod chart_camera;
+mod facing;
 mod finding;
 mod light;
 mod list;
@@ -44,7 +45,8 @@ Examples:
     --regions corners.json --resume measured.ndjson
 
 Without corners the fold is found: it is measured where that is sure, and else said what to do.
---find says where it is, with the probability that all corners are right:
+A chart of 4 x 6 patches that is found surely calibrates it, if it faces the sun. --find says
+where both are, with the probability that all corners are right:
   vextract --find photo.tif > found.json
   vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
@@ -90,7 +92,7 @@ struct Args {
     camera: Option<String>,
     #[command(flatten)]
     optics: OpticsArgs,
-    /// Print where the fold is in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
+    /// Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
     #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
     /// Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is

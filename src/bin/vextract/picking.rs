@@ -7,10 +7,10 @@ use std::time::Duration;
 
 use vfold::cli::{self, Reply, ServedFile};
 use vfold::image::{Lens, Photograph, Point, find_fold, find_fold_around, write_preview};
-use vfold::stream::{Output, found_line, not_found_line, picked_line};
+use vfold::stream::{Output, picked_line};
 use vfold::{Error, Result};
 
-use super::{Args, balance, reading::Reading};
+use super::{Args, balance, finding, reading::Reading};
 
 const PAGE: &str = include_str!("../../../share/picker.html");
 /// Who has left the page open for longer has forgotten it.
@@ -39,13 +39,13 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         ServedFile {
             name: "regions.json",
             media_type: "application/json",
-            bytes: found(path, &photograph, lens, None)?.into(),
+            bytes: found(args, path, &photograph, lens, None)?.into(),
         },
     ];
     let reply = |name: &str, text: &str| match name {
         "done" => picked_line("the page", text)
             .map_or_else(|problem| Reply::Refused(problem.to_string()), Reply::Answered),
-        "find" => match clicks(text).map(|clicks| found(path, &photograph, lens, Some(clicks))) {
+        "find" => match clicks(text).map(|clicks| found(args, path, &photograph, lens, Some(clicks))) {
             Some(Ok(line)) => Reply::Text(line),
             Some(Err(problem)) => Reply::Refused(problem.to_string()),
             None => Reply::Refused("write two places as x,y x,y".to_owned()),
@@ -65,16 +65,20 @@ fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>>
     std::fs::read(&file).map_err(unwritten)
 }
 
-/// The fold in a photograph, or the one whose panels are at two places.
-fn found(path: &Path, photograph: &Photograph, lens: Lens, panels: Option<[Point; 2]>) -> Result<String> {
-    let found = match panels {
+/// The fold in a photograph, or the one whose panels are at two places, and the chart.
+fn found(
+    args: &Args,
+    path: &Path,
+    photograph: &Photograph,
+    lens: Lens,
+    panels: Option<[Point; 2]>,
+) -> Result<String> {
+    let fold = match panels {
         Some(panels) => find_fold_around(photograph, &lens, panels),
         None => find_fold(photograph, &lens),
     };
-    match found {
-        Ok(found) => found_line(path, photograph, &found),
-        Err(none) => not_found_line(path, &none.to_string()),
-    }
+    let chart = finding::sure_chart(photograph, lens);
+    finding::line(args, path, photograph, lens, (&fold, chart.as_ref()))
 }
 
 /// Two places of the photograph, px, as `x,y x,y`.

@@ -10,10 +10,11 @@
 //! 4. [`light`], [`score`], [`search`]: the likeliest of these against "no fold", a logit over what is seen of each;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is likeliest to be right is then refined in the whole picture.
+//! The fold that is likeliest to be right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
 
 mod candidates;
 mod chains;
+mod chart;
 mod evidence;
 mod light;
 mod outline;
@@ -34,6 +35,7 @@ use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
 use super::placing::{Lens, Point};
 use candidates::{Candidate, candidates};
+pub use chart::{FoundChart, find_chart, weighed_chart};
 use outline::{Outline, Place};
 use reduced::Reduced;
 use trust::confidence;
