@@ -4,7 +4,7 @@ complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null [default: found, if no panel has any]' -r
 complete -c vextract -l panel1 -d 'Corners of panel 1' -r
 complete -c vextract -l panel -d 'Corners of panel N, counted from 0 as the scene has them; once for each' -r
-complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, to calibrate with' -r
+complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, to calibrate with [default: found, if no corners are given]' -r
 complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
 complete -c vextract -l regions -d 'JSON file of corners, see below, - for standard input; the flags above win over it' -r -F
 complete -c vextract -l margin -d 'Stay this far from the panels\' edges' -r
@@ -194,7 +194,7 @@ complete -c vextract -l white-reflectance -d 'Reflectance of the white card' -r 
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vextract -l find -d 'Print where the fold is in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene'
+complete -c vextract -l find -d 'Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene'
 complete -c vextract -s q -l quiet -d 'Say nothing but errors'
 complete -c vextract -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'

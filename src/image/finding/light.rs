@@ -165,7 +165,7 @@ fn robust_fit(samples: &[(usize, f64)]) -> Option<SVector<f64, TERMS>> {
 }
 
 /// The middle one of some numbers; 0 of none.
-fn median(mut numbers: Vec<f64>) -> f64 {
+pub(super) fn median(mut numbers: Vec<f64>) -> f64 {
     if numbers.is_empty() {
         return 0.0;
     }

@@ -101,7 +101,7 @@ fn add_blocks(photograph: &Photograph, y: usize, scale: usize, row: &mut [[f32; 
 }
 
 /// What a clipped pixel has, and more, is 1.
-fn of_pixel(pixel: Pixel) -> [f32; 3] {
+pub(super) fn of_pixel(pixel: Pixel) -> [f32; 3] {
     match pixel {
         Pixel::Light(light) => light.map(|light| light as f32),
         Pixel::Clipped => [1.0; 3],

@@ -65,6 +65,15 @@ vextract black.tif cut.tif matrix.tif --scene finer.ndjson --regions marked.json
     -o levels.ndjson 2>said || [ $? = 3 ]
 # a photograph in which the fold is found
 vextract "$data/photos/a_ideal_magenta_50.exr" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o found.ndjson
+# one beside which a chart is found
+vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance cc24 --camera canon-5d-mark-ii --illuminant D65 -q -o patches.ndjson
+fills=$(sed 1d patches.ndjson | python3 -c '
+import json, sys
+for k, line in enumerate(sys.stdin):
+    rgb = json.loads(line)["facet_rgb"][0]
+    print("--fill:color=%.6f,%.6f,%.6f 18x18+%d+%d" % (*rgb, 508 + 21 * (k % 6), 200 + 21 * (k // 6)))')
+oiiotool "$data/photos/a_ideal_magenta_50.exr" $fills -o beside.exr
+vextract beside.exr --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o beside.ndjson
 # in the light of a sky, of which nobody says anything: an ideal fold, and one of another angle than is told, in haze
 under_sky() { # sky, angle, exposure
     vkernel --angle-deg $2 --sky $1 | vforward --reflectance cc24:foliage --exposure $3 --photon-noise 0.01 --render dull.tif -q -o dull.ndjson

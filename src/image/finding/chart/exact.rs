@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 
+use super::super::light::median;
 use super::super::outline::Place;
 use super::colours::PATCHES;
 use super::flat::{Flat, PER_CELL};
@@ -89,9 +90,4 @@ fn edge(flat: &Flat, k: usize, (right, down): (isize, isize), white: f64) -> Opt
     let offset = 0.5 * (before - after) / bend;
     // the step from one point's middle to the next one's
     Some(((EDGE[0] + at) as f64 + 1.0 + offset) / PER_CELL as f64)
-}
-
-fn median(mut numbers: Vec<f64>) -> f64 {
-    let middle = numbers.len() / 2;
-    *numbers.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -3,10 +3,11 @@
 use nalgebra::Matrix3;
 
 use super::super::outline::Place;
+use super::super::reduced::of_pixel;
 use super::colours::{COLUMNS, Colours, ROWS};
 use super::placement::patch;
 use super::plane_map::seen;
-use crate::image::photograph::{Photograph, Pixel};
+use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, Point};
 
 /// Points across a cell.
@@ -81,15 +82,6 @@ fn light(photograph: &Photograph, at: Point) -> [f64; 3] {
     corners.into_iter().fold([0.0; 3], |sum, (i, j)| {
         let weight = (if i > 0.0 { right } else { 1.0 - right }) * (if j > 0.0 { down } else { 1.0 - down });
         let light = of_pixel(photograph.pixel(column(x.floor() + i), row(y.floor() + j)));
-        added(sum, light.map(|light| light * weight))
+        added(sum, light.map(|light| f64::from(light) * weight))
     })
-}
-
-/// What a clipped pixel has is at least 1.
-fn of_pixel(pixel: Pixel) -> [f64; 3] {
-    match pixel {
-        Pixel::Light(light) => light,
-        Pixel::Clipped => [1.0; 3],
-        Pixel::NotFinite => [0.0; 3],
-    }
 }
