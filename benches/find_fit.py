@@ -2,6 +2,7 @@
 """Weights of the search for folds, fitted to pictures whose corners are known, as src/image/finding/weights.rs.
 
     find_fit.py TRUTH.json WEIGHED.ndjson > weights.rs      what find_pictures.py and `cargo bench --bench find -- FOLDER/*.tif` wrote
+    find_fit.py TRUTH.json WEIGHED.ndjson charts            the same of `cargo bench --bench find -- charts FOLDER/*.tif`: offset and weights of charts
 
 Two fits: a conditional logit over the hypotheses of each picture and "no fold", and boosted trees for the probability that all corners of a
 refined candidate are within 3 % of a panel's side. The trees' numbers are calibrated on what each picture's best candidate gets from trees
@@ -17,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 RIGHT, NEAR = 0.03, 0.05  # a candidate is right, a hypothesis worth refining, of a panel's side
+CHART_RIGHT, CHART_RIDGE = 0.35, 0.03  # of the distance from patch to patch
 GROUPS = 5
 TREES, DEPTH, RATE, BINS, LEAF, RIDGE = 120, 3, 0.06, 32, 15, 4.0
 NAMINGS = [[0, 1, 2, 3, 4, 5], [1, 0, 3, 2, 5, 4], [0, 1, 4, 5, 2, 3], [1, 0, 5, 4, 3, 2]]
@@ -36,6 +38,26 @@ def error(found, true):
     """The furthest corner's distance, over the side of a panel."""
     size = np.sqrt((area(true[[0, 1, 2, 3]]) + area(true[[0, 1, 4, 5]])) / 2)
     return min(np.hypot(*(found[naming] - true).T).max() for naming in NAMINGS) / size
+
+
+def of_charts(truth, weighed):
+    """Offset and weights of what makes a chart's confidence: a logistic regression by Newton's method, hardly any weight being as likely as much."""
+    truth, clues, right = json.loads(Path(truth).read_text()), [], []
+    for line in Path(weighed).read_text().splitlines():
+        seen = json.loads(line)
+        if seen["chart"] is None:
+            continue
+        true = truth[Path(seen["image"]).name]["chart"]
+        off = np.inf if true is None else np.hypot(*(np.array(seen["chart"]) - true).T).max() / np.sqrt(area(np.array(true)) / 24)
+        clues.append([1, *seen["weighed"]])
+        right.append(off <= CHART_RIGHT)
+    clues, right = np.array(clues), np.array(right, float)
+    weights, ridge = np.zeros(clues.shape[1]), CHART_RIDGE * np.array([0.01, *[1] * (clues.shape[1] - 1)])
+    for _ in range(100):
+        said = 1 / (1 + np.exp(-clues @ weights))
+        curvature = clues.T @ (clues * (said * (1 - said))[:, None]) + np.diag(ridge)
+        weights += np.linalg.solve(curvature, clues.T @ (right - said) - ridge * weights)
+    return weights
 
 
 def pictures(truth, weighed):
@@ -131,6 +153,9 @@ def calibration(said, right):
 
 
 def main():
+    if sys.argv[3:] == ["charts"]:
+        print(", ".join(f"{weight:.4g}" for weight in of_charts(*sys.argv[1:3])))
+        return
     shown = list(pictures(*sys.argv[1:]))
     # what a cut picture shows of a fold is neither one nor none
     ranked = [one["sets"][0] for one in shown if one["fold"] or one["kind"].startswith("no ")]

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Photographs with a fold made harder, and photographs without one, from photographs whose corners are known.
 
-    find_pictures.py FOLDER [--every N] SIDECAR.json...
+    find_pictures.py FOLDER [--every N] [--apart] [--charts] SIDECAR.json...
 
 Of each sidecar's photograph FOLDER gets one picture as it is and one of every N-th kind (default 4), in turn, as 16-bit linear TIFF, and
-`truth.json`: by file name the kind, the set, and the six corners, or null where there is no fold. Backgrounds, clutter, shadows, hands,
-low contrast, blur, noise and turns are drawn at random from a seed that the file's name gives.
+`truth.json`: by file name the kind, the set, the six corners, or null where there is no fold, and the four of a whole chart, or null.
+Backgrounds, clutter, shadows, hands, low contrast, blur, noise and turns are drawn at random from a seed that the file's name gives.
 """
 
 import argparse
@@ -23,6 +23,8 @@ FOLDS = ["wood", "cloth", "grass", "sheets", "hand", "shadow", "lowcontrast", "s
 NO_FOLDS = ["no table", "no wood", "no sheets", "no box", "no flat sheet", "no all", "no book"]
 # kinds on which nothing was fitted
 APART = ["tiles", "stripes", "no tiles", "no corner of a room"]
+# what makes charts hard, and what is no chart
+CHARTS = ["chart turned", "chart covered", "chart dim", "chart tinted", "no chart but colours"]
 
 
 def read(path, folder):
@@ -57,6 +59,41 @@ def corners(sidecar):
         return np.array([a["crease_0"], a["crease_1"], a["outer_1"], a["outer_0"], b["outer_1"], b["outer_0"]])
     a, b = sidecar["panel0"], sidecar["panel1"]
     return np.array([a[0], a[1], a[2], a[3], b[2], b[3]], float)
+
+
+def chart(sidecar):
+    """Outer corners of a chart's block of patches, clockwise from the first, px: as they were rendered, as those that are told are clicks."""
+    if "chart_px" in sidecar:
+        patches = [patch["corners_TL_TR_BR_BL"] for patch in sidecar["chart_px"]]
+        return np.array([patches[0][0], patches[5][1], patches[23][2], patches[18][3]], float)
+    told = sidecar.get("told", {}).get("chart")
+    if told is None:
+        return None
+    place, side = sidecar["rendered"]["chart"], sidecar["panel_side_mm"]
+    unit = lambda way: np.array(way, float) / np.linalg.norm(way)
+    origin, right, down = np.array(place["origin_L"]) * side, unit(place["right"]), unit(place["down"])
+    width, height = (n * place["pitch_L"] * side + place["patch_L"] * side for n in (5, 3))
+    corners = np.array([origin, origin + right * width, origin + right * width + down * height, origin + down * height])
+    off = lambda roll: np.hypot(*(projected(corners, sidecar, roll) - told).T).sum()
+    roll = 0.0  # of the camera, which no sidecar tells
+    for step in (0.1, 1e-2, 1e-3, 1e-4):
+        roll = min((roll + step * n for n in range(-32, 33)), key=off)
+    return projected(corners, sidecar, roll)
+
+
+def projected(points, sidecar, roll):
+    """Where the camera that rendered a photograph sees points of space, px."""
+    pose, effects = sidecar["camera_pose"], sidecar["rendered"].get("camera_effects") or {}
+    eye = np.array(pose["position_mm"])
+    ahead = np.array(pose["target_mm"]) - eye
+    ahead = ahead / np.linalg.norm(ahead)
+    right = np.cross(ahead, [np.sin(roll), np.cos(roll), 0])
+    right = right / np.linalg.norm(right)
+    x, y, depth = ((points - eye) @ np.stack([right, np.cross(right, ahead), ahead]).T).T
+    size = np.array([sidecar["width"], sidecar["height"]])
+    focal = size[0] / 2 / np.tan(np.radians(pose["horizontal_fov_deg"]) / 2)
+    away = focal * np.stack([x, -y], 1) / depth[:, None] / (size.min() / 2)
+    return size / 2 + away * (1 + (effects.get("k1") or 0) * (away**2).sum(1, keepdims=True)) * size.min() / 2
 
 
 def others(sidecar):
@@ -169,8 +206,8 @@ GROUNDS = {"wood": wood, "cloth": cloth, "grass": grass, "tiles": tiles, "stripe
 class Picture:
     """A photograph whose ground and what lies on it can be drawn anew around the fold."""
 
-    def __init__(self, light, fold, kept, rng):
-        self.light, self.fold, self.kept, self.rng = light, fold, kept, rng
+    def __init__(self, light, fold, chart, kept, rng):
+        self.light, self.fold, self.chart, self.kept, self.rng = light, fold, chart, kept, rng
         self.panels = [fold[[0, 1, 2, 3]], fold[[0, 1, 4, 5]]]
         self.look()
 
@@ -261,6 +298,8 @@ class Picture:
         palm = tip + out * self.size * 1.3
         around = [palm + self.size * (0.5 * np.cos(t) * side + 0.4 * np.sin(t) * out) for t in np.linspace(0, 6.1, 24)]
         mask = np.maximum(mask, filled(shape, around, 0.7))[..., None]
+        if self.chart is not None and (filled(shape, self.chart) * mask[..., 0]).max() > 0.5:
+            self.chart = None
         skin = np.array([0.45, 0.27, 0.19]) * self.rng.uniform(0.5, 1.3) * self.white * 0.75
         self.light = self.light * (1 - mask) + mask * skin * self.uneven(0.3)
 
@@ -279,12 +318,39 @@ class Picture:
         self.light = np.stack([np.asarray(channel) for channel in channels], -1)
         place = lambda points: (points - middle) @ matrix.T + middle + shift
         self.fold, self.kept = place(self.fold), [place(other) for other in self.kept]
+        self.chart = None if self.chart is None else place(self.chart)
         self.panels = [place(panel) for panel in self.panels]
         white = self.white
         self.look()
         self.is_black, self.white = True, white
         # nothing but what is kept goes with it
         self.light = self.light * self.mask[..., None]
+
+    def change_chart(self, kind):
+        """The chart turned by any angle, under a finger, in little light or in light of another colour, or with other patches."""
+        shape, white, noise = self.light.shape, self.white, self.rng.standard_normal(self.light.shape)
+        if kind == "chart turned":
+            self.moved(self.rng.uniform(0.5, 0.8), self.rng.uniform(0, 360))
+            self.lay([wood, cloth, table][self.rng.integers(3)](shape, self.rng))
+        elif kind == "chart covered":
+            tip = self.rng.dirichlet(np.ones(4)) @ self.chart
+            out = tip - self.chart.mean(0)
+            out = out / np.hypot(*out) * self.size * 3
+            side = np.array([-out[1], out[0]]) * self.rng.uniform(0.03, 0.08)
+            part = filled(shape, [tip - side, tip + side, tip + side + out, tip - side + out], 0.7)[..., None]
+            self.light = self.light * (1 - part) + part * np.array([0.45, 0.27, 0.19]) * white * self.uneven(0.3)
+            self.chart = None
+        elif kind == "chart dim":
+            self.light = self.light * 0.15 + 0.006 * white.max() * noise
+        elif kind == "chart tinted":
+            self.light = self.light * self.rng.uniform(0.4, 1.6, 3) * self.uneven(0.5)
+        elif kind == "no chart but colours":
+            square = lambda u, v: np.array([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v]) @ self.chart
+            for k in range(24):
+                cell = [square((k % 6 + u) / 6, (k // 6 + v) / 4) for u, v in [(0.08, 0.08), (0.92, 0.08), (0.92, 0.92), (0.08, 0.92)]]
+                part = filled(shape, cell)[..., None]
+                self.light = self.light * (1 - part) + part * self.rng.uniform(0.02, 0.9, 3) * white * 0.8
+            self.chart = None
 
     def remove(self, kind):
         """Ground where the fold was, or something that is none."""
@@ -314,6 +380,7 @@ class Picture:
                 self.light = self.light * (1 - part) + part * (self.white * 0.6 * (page * np.where(lines, 0.35, 1))[..., None])
             things = [(a, 1), (b, 1)]
         if kind == "corner of a room":
+            self.chart = None
             middle = self.fold.mean(0)
             ends = [middle + 3000 * np.array([np.cos(t), np.sin(t)]) for t in self.rng.uniform(0, 2 * np.pi) + np.array([0, 2.1, 4.2])]
             for k in range(3):
@@ -338,11 +405,14 @@ def across(panel, shape):
     return np.stack([v / w, u / w])
 
 
-def compose(kind, light, fold, kept, seed):
-    """A picture of a kind, and its corners."""
+def compose(kind, light, fold, chart, kept, seed):
+    """A picture of a kind, and the corners of its fold and its chart."""
     rng = np.random.default_rng(seed)
-    picture = Picture(light.copy(), fold, kept, rng)
+    picture = Picture(light.copy(), fold, chart, kept, rng)
     shape = light.shape
+    if kind in CHARTS:
+        picture.change_chart(kind)
+        return np.maximum(picture.light, 0), picture.fold, picture.chart
     without = kind.startswith("no ")
     kind = kind.removeprefix("no ")
     if without:
@@ -373,6 +443,7 @@ def compose(kind, light, fold, kept, seed):
         size = (int(shape[0] * factor), int(shape[1] * factor))
         picture.light = np.stack([resized(light[..., k], size) for k in range(3)], -1)
         picture.fold = fold * [size[1] / shape[1], size[0] / shape[0]]
+        picture.chart = None if chart is None else chart * [size[1] / shape[1], size[0] / shape[0]]
         picture.light += 0.01 * np.quantile(light, 0.99) * rng.standard_normal(picture.light.shape)
     elif kind == "all":
         picture.lay([wood, cloth, grass][rng.integers(3)](shape, rng))
@@ -380,7 +451,7 @@ def compose(kind, light, fold, kept, seed):
         picture.shadows()
         if not without:
             picture.hand()
-    return np.maximum(picture.light, 0), None if without else picture.fold
+    return np.maximum(picture.light, 0), None if without else picture.fold, picture.chart
 
 
 def main():
@@ -388,26 +459,31 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--every", type=int, default=4)
     parser.add_argument("--apart", action="store_true", help="also kinds on which nothing was fitted")
+    parser.add_argument("--charts", action="store_true", help="also what makes charts hard")
     parser.add_argument("sidecars", nargs="+", type=Path)
     given = parser.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
     truth = {}
-    kinds = FOLDS + NO_FOLDS + (APART if given.apart else [])
+    kinds = FOLDS + NO_FOLDS + (APART if given.apart else []) + (CHARTS if given.charts else [])
     for n, path in enumerate(given.sidecars):
         sidecar = json.loads(path.read_text())
         picture = path.parent / sidecar.get("file", "") if isinstance(sidecar, dict) else Path()
         if not picture.is_file() or picture.suffix == ".dng" or not {"panels_px", "panel0"} & set(sidecar):
             continue
-        light, fold, kept = read(picture, given.folder), corners(sidecar), others(sidecar)
+        light, fold, block, kept = read(picture, given.folder), corners(sidecar), chart(sidecar), others(sidecar)
         whole = fold.min() >= 0 and (fold.max(0) <= light.shape[1::-1]).all()
         chosen = ["as it is"] + [kind for k, kind in enumerate(kinds) if (k + n) % given.every == 0]
         for kind in chosen:
-            if not whole and kind in ("turn", "small"):
+            if not whole and kind in ("turn", "small") or block is None and kind in CHARTS:
                 continue
             name = f"{path.parent.name}-{path.stem}-{kind.replace(' ', '_')}.tif"
-            made, at = (light, fold) if kind == "as it is" else compose(kind, light, fold, kept, zlib.crc32(name.encode()))
+            made, at, block_at = (light, fold, block) if kind == "as it is" else compose(kind, light, fold, block, kept, zlib.crc32(name.encode()))
             write(given.folder / name, made)
-            truth[name] = {"set": path.parent.name, "kind": kind, "corners": None if at is None else at.tolist(), "whole": bool(whole)}
+            is_seen = block_at is not None and block_at.min() >= 0 and (block_at.max(0) <= made.shape[1::-1]).all()
+            truth[name] = {
+                "set": path.parent.name, "kind": kind, "corners": None if at is None else at.tolist(), "whole": bool(whole),
+                "chart": block_at.tolist() if is_seen else None,
+            }
     (given.folder / "truth.json").write_text(json.dumps(truth, indent=0))
     print(f"{len(truth)} pictures", file=sys.stderr)
 

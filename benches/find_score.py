@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""How well `vextract --find` finds folds, as tables of Markdown.
+"""How well `vextract --find` finds folds and charts, as tables of Markdown.
 
-    find_score.py VEXTRACT FOLDER       pictures and truth.json of find_pictures.py
+    find_score.py VEXTRACT FOLDER [charts]      pictures and truth.json of find_pictures.py; charts alone
 
 A corner's error is its distance from the true one, over the side of a panel; a picture's is that of its worst corner. A claim is a fold said
-with the confidence from which on vextract measures without asking, and wrong if a corner is off by more than 3 %.
+with the confidence from which on vextract measures without asking, and wrong if a corner is off by more than 3 %. A chart is printed if it is
+claimed, and wrong if a corner is off by more than 0.35 of the distance from patch to patch.
 """
 
 import json
@@ -14,9 +15,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-from find_fit import corners, error
+from find_fit import area, corners, error
 
 CLAIMED, RIGHT = 0.97, 0.03  # FoundFold::SURE
+CHART_RIGHT = 0.35
 
 
 def found(vextract, folder, names):
@@ -45,6 +47,29 @@ def table(title, groups, has_fold=True):
     for name, pictures in groups:
         if pictures:
             print(f"| {name} | " + " | ".join(Row(pictures).cells(has_fold)) + " |")
+    print()
+
+
+def chart_off(known, answer):
+    """Distance of the furthest corner of a chart, in distances from patch to patch; none if no chart is claimed, infinite if there is none."""
+    if "chart" not in answer:
+        return None
+    if known["chart"] is None:
+        return np.inf
+    true = np.array(known["chart"])
+    return np.hypot(*(np.array(answer["chart"]) - true).T).max() / np.sqrt(area(true) / 24)
+
+
+def charts(groups):
+    print("| charts | pictures with one | claimed | of them wrong | middle corner error | most | pictures without | false claims |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, pictures in groups:
+        there = [p["chart_off"] for p in pictures if p["chart"] is not None]
+        claimed = np.array([off for off in there if off is not None])
+        errors = [f"{np.median(claimed):.3f}", f"{claimed.max():.3f}"] if len(claimed) else ["", ""]
+        none = [p["chart_off"] for p in pictures if p["chart"] is None]
+        false = sum(off is not None for off in none)
+        print(f"| {name} | {len(there)} | {len(claimed)} | {(claimed > CHART_RIGHT).sum()} | {errors[0]} | {errors[1]} | {len(none)} | {false} |")
     print()
 
 
@@ -77,13 +102,16 @@ def main():
         answer = answers[name]
         is_found = "panel0" in answer and known["corners"] is not None
         off = error(corners([answer["panel0"], answer["panel1"]]), np.array(known["corners"])) if is_found else 9.0
-        pictures.append({**known, "off": off, "said": answer.get("confidence", 0.0), "reason": answer.get("reason")})
+        pictures.append({**known, "chart_off": chart_off(known, answer), "off": off, "said": answer.get("confidence", 0.0), "reason": answer.get("reason")})
+    by = lambda group, key: [(value, [p for p in group if p[key] == value]) for value in dict.fromkeys(p[key] for p in group)]
+    if sys.argv[3:] == ["charts"]:
+        charts([*by(pictures, "kind"), ("all", pictures)])
+        return
     whole = [p for p in pictures if p["corners"] is not None and p["whole"]]
     cut = [p for p in pictures if p["corners"] is not None and not p["whole"]]
     none = [p for p in pictures if p["corners"] is None]
     plain = [p for p in whole if p["kind"] == "as it is"]
     hard = [p for p in whole if p["kind"] != "as it is"]
-    by = lambda group, key: [(value, [p for p in group if p[key] == value]) for value in dict.fromkeys(p[key] for p in group)]
     table("photographs as they are", [*by(plain, "set"), ("all", plain)])
     table("made harder", [*by(hard, "kind"), ("all", hard)])
     table("cut by the edge of the picture", [("all", cut)])
@@ -91,6 +119,8 @@ def main():
     print(f"Of {len(cut)} cut folds {said_so} are said to be cut.\n")
     table("without a fold", [*by(none, "kind"), ("all", none)], has_fold=False)
     reliability(pictures)
+    as_they_are, harder = ([p for p in pictures if (p["kind"] == "as it is") == plain] for plain in (True, False))
+    charts([("as they are", as_they_are), ("made harder", harder)])
     few = [name for name, known in truth.items() if known["kind"] == "as it is"][:8]
     print(f"A photograph of 0.2 to 0.4 megapixels takes {seconds(vextract, folder, few):.2f} s, decoding included.")
 

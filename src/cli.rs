@@ -4,6 +4,7 @@ mod generate;
 mod kernel;
 mod materials;
 mod outcome;
+mod served;
 mod spectra;
 mod stream_page;
 mod surplus;
@@ -16,6 +17,7 @@ use clap::{Args, Parser, ValueEnum};
 
 pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
+pub use served::{Reply, ServedFile, ask_on_page};
 pub use surplus::refuse;
 
 use crate::error::{Error, Result};

@@ -2,7 +2,8 @@
 //!
 //! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
 //! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`find_fold`] finds the panels of a
-//! fold, [`FoldSeen`] the angle between them, [`refine`] where exactly panels are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the other way.
+//! fold, [`find_chart`] a chart, [`FoldSeen`] the angle between panels, [`refine`] where exactly they are, and [`write_overlay`] shows it.
+//! [`write_linear`] and [`write_srgb_png`] go the other way.
 //! Nothing here knows about reflectance, cameras or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y down;
@@ -32,7 +33,10 @@ pub use drawing::{
     write_preview, write_srgb_png,
 };
 pub use edges::{Marked, Refinement, refine};
-pub use finding::{FoundFold, NoFold, WeighedFold, find_fold, weighed_folds};
+pub use finding::{
+    FoundChart, FoundFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_around, weighed_chart,
+    weighed_folds,
+};
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,
     measure_patches, open_sides, pixels_sharing_noise,

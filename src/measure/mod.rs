@@ -147,6 +147,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         }),
         exposure: setup.exposure,
         by_chart: false,
+        white_per_klx: photograph.info().white_per_klx(),
     };
     let taken = Photographed {
         making: Making::of(photograph.info(), processing, open_sides(photograph, &panels)),

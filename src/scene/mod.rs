@@ -11,6 +11,7 @@ mod fold;
 mod folded_sheet;
 mod given_kernel;
 mod marked;
+mod metered;
 mod photograph;
 mod residuals;
 mod sample;

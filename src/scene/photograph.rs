@@ -12,7 +12,7 @@ use framing::Pose;
 use nalgebra::Vector3;
 use ndarray::Array2;
 
-use super::FoldSetting;
+use super::{FoldSetting, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
@@ -47,6 +47,8 @@ pub struct Picture<'a> {
     pub exposure: Option<f64>,
     /// Whether a chart or a card in it calibrated its numbers.
     pub by_chart: bool,
+    /// Value of a perfect white diffuser under 1000 lx in it, by the camera's settings, if they are known.
+    pub white_per_klx: Option<f64>,
 }
 
 impl<'a> Picture<'a> {
@@ -56,7 +58,8 @@ impl<'a> Picture<'a> {
     /// [`crate::Error::Field`] if the record of the photograph is not one.
     pub fn of(sample: &Sample, measured: &'a Measured<'a>, exposure: Option<f64>) -> Result<Self> {
         let by_chart = sample.fields.has("calibration");
-        Ok(Self { measured, framing: sample.framing()?, exposure, by_chart })
+        let white_per_klx = sample.white_per_klx()?;
+        Ok(Self { measured, framing: sample.framing()?, exposure, by_chart, white_per_klx })
     }
 }
 
@@ -115,12 +118,12 @@ impl<'a> PhotographedFold<'a> {
             panels[panel] = Some(corners);
         }
         let framing = Some(Framing { panels, size: SIZE.map(|px| px as f64) });
-        self.parts(&Picture { measured, framing, exposure, by_chart: false })
+        self.parts(&Picture { measured, framing, exposure, by_chart: false, white_per_klx: None })
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
         let FoldSetting { fold, angle_sd_deg, light, is_daylight_assumed, .. } = self.setting;
-        let Picture { measured, exposure, by_chart, .. } = *picture;
+        let Picture { measured, exposure, by_chart, white_per_klx, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
         let (optics, facets) = (self.setting.optics()?, fold.facets());
@@ -134,6 +137,9 @@ impl<'a> PhotographedFold<'a> {
         let told = Told {
             beliefs: self.beliefs,
             exposure,
+            metered: white_per_klx
+                .zip(optics.illuminants.first())
+                .and_then(|(white, light)| metered::in_the_sun(white, &light.name, self.beliefs)),
             by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),

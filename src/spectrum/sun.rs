@@ -110,7 +110,8 @@ impl Sun {
     }
 
     /// How many times as much air as overhead; Kasten and Young, *Applied Optics* 28 (1989), p. 4735.
-    pub(super) fn air_mass(&self) -> f64 {
+    #[must_use]
+    pub fn air_mass(&self) -> f64 {
         1.0 / (self.cos() + 0.50572 * (96.07995 - self.zenith_deg).powf(-1.6364))
     }
 

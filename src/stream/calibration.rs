@@ -22,6 +22,10 @@ pub struct CalibrationRecord {
     cos: f64,
     /// Its corners, [x, y] each, px of the upright picture.
     corners: [[f64; 2]; 4],
+    /// Of a chart that was found, the probability that its corners are right.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0, max = 1)))]
+    found_confidence: Option<f64>,
     /// The exposure that it gives.
     #[schemars(extend("exclusiveMinimum" = 0))]
     exposure: f64,
@@ -72,6 +76,7 @@ impl CalibrationRecord {
             grid,
             cos,
             corners: corners.map(|corner| [corner.x, corner.y]),
+            found_confidence: None,
             exposure: calibration.exposure(),
             exposure_sd: calibration.exposure_sd(),
             coefficients: (0..residual_rms.len()).map(|channel| calibration.coefficients(channel)).collect(),
@@ -82,6 +87,13 @@ impl CalibrationRecord {
 }
 
 impl CalibrationRecord {
+    /// The record with the probability that a chart which was found is right; none of one that was told.
+    #[must_use]
+    pub fn with_confidence(mut self, confidence: Option<f64>) -> Self {
+        self.found_confidence = confidence;
+        self
+    }
+
     /// Root mean square of the patches' residuals in the channel where it is largest.
     #[must_use]
     pub fn residual(&self) -> f64 {

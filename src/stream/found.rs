@@ -1,4 +1,4 @@
-//! What `vextract --find` prints: where the fold is in a photograph, in the form of regions.
+//! What `vextract --find` prints: where fold and chart are in a photograph, in the form of regions.
 
 use std::path::Path;
 
@@ -6,21 +6,19 @@ use serde::Serialize;
 
 use super::named::Named;
 use crate::error::{Error, Result};
-use crate::image::{FoldAngle, FoundFold, Photograph};
+use crate::image::{FoldAngle, FoundChart, FoundFold, NoFold, Photograph, Point};
 
-/// A fold, as a file of regions has it.
+/// A fold and a chart, as a file of regions has them; or that there is no fold, and why.
 #[derive(Serialize)]
 struct FoundRecord {
     /// Name of the picture's file.
     image: String,
-    /// Size of the upright picture, px.
-    width: usize,
-    height: usize,
     #[serde(flatten)]
-    panels: Named<[[f64; 2]; 4]>,
-    confidence: f64,
+    size: Option<Size>,
     #[serde(flatten)]
-    angle: Option<AngleRecord>,
+    fold: FoldRecord,
+    #[serde(flatten)]
+    chart: Option<ChartRecord>,
 }
 
 /// The angle that the corners tell.
@@ -45,12 +43,33 @@ impl From<&FoldAngle> for AngleRecord {
     }
 }
 
-/// A photograph in which there is none.
+/// Size of the upright picture, px.
 #[derive(Serialize)]
-struct NotFoundRecord {
-    image: String,
-    found: bool,
-    reason: String,
+struct Size {
+    width: usize,
+    height: usize,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum FoldRecord {
+    Found {
+        #[serde(flatten)]
+        panels: Named<[[f64; 2]; 4]>,
+        confidence: f64,
+        #[serde(flatten)]
+        angle: Option<AngleRecord>,
+    },
+    Missing {
+        found: bool,
+        reason: String,
+    },
+}
+
+#[derive(Serialize)]
+struct ChartRecord {
+    chart: [[f64; 2]; 4],
+    chart_confidence: f64,
 }
 
 /// Corners in so many parts of a pixel are as exact as any.
@@ -59,40 +78,55 @@ const PARTS_OF_CONFIDENCE: f64 = 1e4;
 const PARTS_OF_DEGREE: f64 = 1e2;
 const PARTS_OF_DEPTH: f64 = 1e3;
 
-fn rounded(value: f64, parts: f64) -> f64 {
-    (value * parts).round() / parts
-}
-
-/// A line that says where a fold is, and how far it is open if its corners tell, which `--regions` reads.
+/// A line that says where a fold is and how far it is open, or why there is none, and where a chart is, which `--regions` reads.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
 pub fn found_line(
     image: &Path,
     photograph: &Photograph,
-    found: &FoundFold,
+    fold: &std::result::Result<FoundFold, NoFold>,
     angle: Option<&FoldAngle>,
+    chart: Option<&FoundChart>,
 ) -> Result<String> {
-    let corners = found
-        .panels
-        .map(|panel| panel.map(|corner| [corner.x, corner.y].map(|place| rounded(place, PARTS_OF_A_PIXEL))));
-    let panels = corners.into_iter().enumerate().map(|(number, corners)| (format!("panel{number}"), corners));
-    line(&FoundRecord {
-        image: name(image),
-        width: photograph.width(),
-        height: photograph.height(),
-        panels: Named(panels.collect()),
-        confidence: rounded(found.confidence, PARTS_OF_CONFIDENCE),
-        angle: angle.map(AngleRecord::from),
-    })
+    let fold = match fold {
+        Ok(found) => {
+            let panel = |(number, panel)| (format!("panel{number}"), corners(panel));
+            FoldRecord::Found {
+                panels: Named(found.panels.into_iter().enumerate().map(panel).collect()),
+                confidence: rounded(found.confidence, PARTS_OF_CONFIDENCE),
+                angle: angle.map(AngleRecord::from),
+            }
+        }
+        Err(none) => missing(none.to_string()),
+    };
+    let chart = chart.map(|chart| ChartRecord {
+        chart: corners(chart.corners),
+        chart_confidence: rounded(chart.confidence, PARTS_OF_CONFIDENCE),
+    });
+    let has_corners = matches!(fold, FoldRecord::Found { .. }) || chart.is_some();
+    let size = has_corners.then(|| Size { width: photograph.width(), height: photograph.height() });
+    line(&FoundRecord { image: name(image), size, fold, chart })
 }
 
-/// A line that says why there is no fold.
+/// A line that says why nothing is found in a photograph that cannot be read.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
 pub fn not_found_line(image: &Path, reason: &str) -> Result<String> {
-    line(&NotFoundRecord { image: name(image), found: false, reason: reason.to_owned() })
+    line(&FoundRecord { image: name(image), size: None, fold: missing(reason.to_owned()), chart: None })
+}
+
+fn missing(reason: String) -> FoldRecord {
+    FoldRecord::Missing { found: false, reason }
+}
+
+fn corners(of: [Point; 4]) -> [[f64; 2]; 4] {
+    of.map(|corner| [corner.x, corner.y].map(|place| rounded(place, PARTS_OF_A_PIXEL)))
+}
+
+fn rounded(value: f64, parts: f64) -> f64 {
+    (value * parts).round() / parts
 }
 
 fn name(image: &Path) -> String {

@@ -71,6 +71,10 @@ pub struct ImageRecord {
     /// ISO sensitivity.
     #[serde(skip_serializing_if = "Option::is_none")]
     iso: Option<u32>,
+    /// By these three, value of a perfect white diffuser under 1000 lx; absent where the numbers are not as the sensor counted them.
+    #[schemars(range(min = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    white_per_klx: Option<f64>,
     /// How the picture was stored, as EXIF counts it: 1 is upright.
     #[schemars(range(min = 1, max = 8))]
     orientation: u32,
@@ -212,6 +216,7 @@ impl ImageRecord {
             exposure_s: info.camera.exposure_s,
             f_number: info.camera.f_number,
             iso: info.camera.iso,
+            white_per_klx: info.white_per_klx(),
             orientation: info.camera.orientation.exif(),
             panels: (0..count).map(corners).collect(),
             open_sides: Vec::new(),
@@ -268,6 +273,12 @@ struct FramingRecord {
     panels: Vec<Option<[[f64; 2]; 4]>>,
 }
 
+/// What is read of the camera's settings.
+#[derive(Deserialize)]
+struct SettingsRecord {
+    white_per_klx: Option<f64>,
+}
+
 /// What is read of how a photograph was made.
 #[derive(Deserialize)]
 struct MakingRecord {
@@ -320,6 +331,15 @@ impl Sample {
     pub fn making(&self) -> Result<Making> {
         let record: Option<MakingRecord> = self.fields.get("image")?;
         Ok(record.map(Making::from).unwrap_or_default())
+    }
+
+    /// Value of a perfect white diffuser under 1000 lx in the photograph, by the camera's settings; none if they are not known.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    pub fn white_per_klx(&self) -> Result<Option<f64>> {
+        let record: Option<SettingsRecord> = self.fields.get("image")?;
+        Ok(record.and_then(|settings| settings.white_per_klx).filter(|white| *white > 0.0))
     }
 
     /// Where the panels are in the photograph; none if the sample is not one of two panels.

@@ -13,6 +13,7 @@
 //! - `image`: the photograph's file name, with or without its ending and without its folder. A list of regions needs it; in a
 //!   single object it is a remark.
 //! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
+//! - `chart_confidence`: the same of a chart that it found; such a chart is used where it can be.
 //! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as `vextract --find` found them by its corners;
 //!   `panel`: width of its panels along the crease and their depth, in any unit, if they are not square. `vkernel` reads these.
 //! - `found`: false of a photograph in which it found none, and `reason`, why.
@@ -32,13 +33,14 @@ use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
 /// Fields beside those of the panels.
-const FIELDS: [&str; 11] = [
+const FIELDS: [&str; 12] = [
     "chart",
     "white",
     "image",
     "width",
     "height",
     "confidence",
+    "chart_confidence",
     "angle_deg",
     "angle_sd_deg",
     "panel",
@@ -64,6 +66,8 @@ pub struct Regions {
     pub size: Option<[usize; 2]>,
     /// Of panels that were found, the probability that their corners are right, 0 to 1.
     pub confidence: Option<f64>,
+    /// Of a chart that was found, the same.
+    pub chart_confidence: Option<f64>,
     /// Angle between the panels, degrees, and its standard deviation.
     pub angle_deg: Option<f64>,
     /// See `angle_deg`.
@@ -126,6 +130,7 @@ impl Regions {
             image: read(path, fields, "image", "give a file name")?,
             size,
             confidence: read(path, fields, "confidence", "give a number from 0 to 1")?,
+            chart_confidence: read(path, fields, "chart_confidence", "give a number from 0 to 1")?,
             angle_deg: above_0("angle_deg")?,
             angle_sd_deg: above_0("angle_sd_deg")?,
             panel: read(
@@ -160,6 +165,8 @@ impl Regions {
     /// The same regions, those of `others` where they have none.
     #[must_use]
     pub fn or(self, others: Self) -> Self {
+        let chart_confidence =
+            if self.chart.is_some() { self.chart_confidence } else { others.chart_confidence };
         Self {
             panels: others.panels.into_iter().chain(self.panels).collect(), // the last of a number stays
             chart: self.chart.or(others.chart),
@@ -167,6 +174,7 @@ impl Regions {
             image: self.image.or(others.image),
             size: self.size.or(others.size),
             confidence: self.confidence.or(others.confidence),
+            chart_confidence,
             angle_deg: self.angle_deg.or(others.angle_deg),
             angle_sd_deg: self.angle_sd_deg.or(others.angle_sd_deg),
             panel: self.panel.or(others.panel),

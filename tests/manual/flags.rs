@@ -9,8 +9,8 @@ use crate::common::Workdir;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
-/// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO` and GNU parallel.
-const OTHERS: [&str; 13] = [
+/// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and vfold-measure.
+const OTHERS: [&str; 14] = [
     "--bench",
     "--features",
     "--nocapture",
@@ -24,6 +24,7 @@ const OTHERS: [&str; 13] = [
     "--sshlogin",
     "--subimage",
     "--will-cite",
+    "--yes",
 ];
 
 /// What `--help` of each tool lists.
@@ -86,7 +87,7 @@ fn every_flag_that_is_named_exists() {
     pages.extend(files("docs", "md"));
     pages.extend(files("man", "1|5|7"));
     pages.extend(
-        ["README.md", "share/picker.html", "examples/measure"].map(|page| Path::new(ROOT).join(page)),
+        ["README.md", "share/picker.html", "share/vfold-measure"].map(|page| Path::new(ROOT).join(page)),
     );
     let (mut unknown, mut met) = (Vec::new(), BTreeSet::new());
     for page in pages {

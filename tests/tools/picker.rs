@@ -65,6 +65,47 @@ fn clicks_in_a_preview_measure_the_photograph() {
     names_its_files(&folder, &said["odd"]);
 }
 
+/// The page of `--pick` begins with the fold that is found, and what it sends is what `--regions` reads.
+#[test]
+fn a_person_puts_right_what_was_found() {
+    let Ok(modules) = std::env::var("PICKER_NODE_MODULES") else {
+        left_out("the page of vextract --pick in a browser, which tests/run installs");
+        return;
+    };
+    let folder = Workdir::new();
+    let panel = |k: usize| [CREASE, OUTER[k]].concat();
+    let truth = json!({"width": 640, "height": 480, "panel0": panel(0), "panel1": panel(1)});
+    let run = folder.sh(&format!(
+        "echo '{truth}' > corners.json
+        cp {ROOT}/tests/data/photos/a_ideal_magenta_50.exr photo.exr
+        vextract --pick photo.exr > picked.json 2> said &
+        until grep -q http said; do sleep 0.1; done
+        PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/served.mjs \"$(grep -o 'http://[^ ]*' said)\" \
+            \"${{PICKED_SCREENSHOT:-shot.png}}\" corners.json
+        wait $!"
+    ));
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    let said: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(said["problems"], json!([]));
+    assert!(said["greeting"].as_str().unwrap().contains("% sure"), "{said}");
+    let panels = ["panel0", "panel1"];
+    let [found, again] = [&said["found"], &said["again"]];
+    are_near(found, &truth, &panels, 1.0);
+    are_near(again, found, &panels, 0.02);
+    let moved = |axis: usize| {
+        let at = |of: &Value| of["panel0"][2][axis].as_f64().unwrap();
+        at(&said["dragged"]) - at(found)
+    };
+    assert!(moved(0) > 5.0 && moved(1) > 5.0, "{said}");
+    let picked: Value = serde_json::from_str(&folder.sh("cat picked.json").stdout).unwrap();
+    assert_eq!(picked, *again);
+    assert_eq!(picked["image"], "photo.exr");
+    let run = folder.sh(
+        "vkernel --angle-deg 50 | vextract photo.exr --regions picked.json --camera canon-5d-mark-ii --illuminant D65",
+    );
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+}
+
 /// Corners within so many px.
 fn are_near(found: &Value, truth: &Value, regions: &[&str], px: f64) {
     for region in regions {

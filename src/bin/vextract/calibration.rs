@@ -11,6 +11,7 @@ use vfold::spectrum::WavelengthGrid;
 use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
 use vfold::{Error, Result, cli};
 
+use super::facing;
 use super::target::{Target, View};
 
 #[derive(Args)]
@@ -95,6 +96,13 @@ pub struct GivenCalibration {
 }
 
 impl GivenCalibration {
+    /// Leaves out a chart that was found where a white card or the exposure was told.
+    pub fn forget_spare(&self, regions: &mut Regions) {
+        if regions.chart_confidence.is_some() && (regions.white.is_some() || self.exposure.is_some()) {
+            (regions.chart, regions.chart_confidence) = (None, None);
+        }
+    }
+
     /// What is marked in a photograph to calibrate with, if anything is.
     fn marked(&self, regions: &Regions) -> Result<Option<(&Target, Corners)>> {
         match (regions.chart, regions.white, self.exposure) {
@@ -134,7 +142,15 @@ impl GivenCalibration {
             let problem = "a chart or card is worth what its light is, which is unknown";
             return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
         }
-        let view = View { path, photograph, light: &Setting::of(scene)?.open_light()?, lens };
+        let setting = Setting::of(scene)?;
+        if regions.chart_confidence.is_some()
+            && let Some(turned_deg) = facing::turned_deg(&setting, regions, lens, target.cos())?
+        {
+            let problem = format!("the chart is turned from the sun by {turned_deg:.0}° or more");
+            let remedy = "give what --find prints as --regions, and --chart-cos";
+            return Err(Error::picture(path, problem, remedy));
+        }
+        let view = View { path, photograph, light: &setting.open_light()?, lens };
         target.calibrate(&view, corners).map(Some)
     }
 }

@@ -48,7 +48,7 @@ pub fn save(
     let grid = &optics.wavelengths_nm;
     let power = illuminant.on(grid, Outside::Refuse)?;
     let lens = args.placing.lens(&photograph)?;
-    let corners = regions.of(path, &photograph)?.chart;
+    let corners = regions.of_any(path, &photograph)?.chart;
     let corners = corners
         .ok_or_else(|| Error::usage(FLAG, "no chart is marked", "give --chart, or 'chart' in --regions"))?;
     let camera = calibration.chart.camera((path, &photograph), lens, corners, (grid, &power))?;

@@ -1,17 +1,20 @@
-//! Panels that are found, not told.
+//! Panels and charts that are found, not told.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use vfold::cli;
 use vfold::estimate::photograph::beliefs::Beliefs;
-use vfold::image::{CornersBy, FoldSeen, FoundFold, Grid, Homography, Lens, Photograph, find_fold};
+use vfold::image::{
+    CornersBy, FoldSeen, FoundChart, FoundFold, Grid, Homography, Lens, NoFold, Photograph, find_chart,
+    find_fold,
+};
 use vfold::stream::{Output, Regions, Scene, found_line, not_found_line};
 use vfold::{Error, Result};
 
 use super::{Args, balance, reading::Reading};
 
-/// Prints where the fold is in each photograph, and draws it if `--overlay` is given.
+/// Prints where fold and chart are in each photograph, and draws them if `--overlay` is given.
 ///
 /// # Errors
 /// As [`Reading::open`] for a single photograph; of several, one that cannot be read is said in its line.
@@ -26,16 +29,29 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
             opened => opened?,
         };
         let lens = args.placing.lens(&photograph)?;
-        match find_fold(&photograph, &lens) {
-            Ok(found) => {
-                draw(args, path, &photograph, &found, lens)?;
-                let angle = seen(args, &photograph, lens).angle(&found.panels);
-                out.text(&found_line(path, &photograph, &found, angle.as_ref())?)?;
-            }
-            Err(none) => out.text(&not_found_line(path, &none.to_string())?)?,
+        let fold = find_fold(&photograph, &lens);
+        let chart = sure_chart(&photograph, lens);
+        if fold.is_ok() || chart.is_some() {
+            draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref()), lens)?;
         }
+        out.text(&line(args, path, &photograph, lens, (&fold, chart.as_ref()))?)?;
     }
     Ok(())
+}
+
+/// The line of a photograph in which this was found.
+///
+/// # Errors
+/// As [`found_line`].
+pub fn line(
+    args: &Args,
+    path: &Path,
+    photograph: &Photograph,
+    lens: Lens,
+    (fold, chart): (&std::result::Result<FoundFold, NoFold>, Option<&FoundChart>),
+) -> Result<String> {
+    let angle = fold.as_ref().ok().and_then(|found| seen(args, photograph, lens).angle(&found.panels));
+    found_line(path, photograph, fold, angle.as_ref(), chart)
 }
 
 /// What tells the angle of a fold in a photograph beside its corners.
@@ -62,7 +78,7 @@ pub fn find(
 ) -> Result<f64> {
     let found = find_fold(photograph, &lens).map_err(|none| not_found(path, &none))?;
     if !found.is_sure() {
-        draw(args, path, photograph, &found, lens)?;
+        draw(args, path, photograph, (Some(&found), None), lens)?;
         return Err(unsure(path, found.confidence));
     }
     if !args.common.quiet {
@@ -91,8 +107,21 @@ pub fn other_angle(path: &Path, scene: &Scene, regions: &Regions) -> Result<Opti
     }))
 }
 
+/// Finds a chart and puts it into `regions`, if it is found surely.
+pub fn find_calibration(photograph: &Photograph, lens: Lens, regions: &mut Regions) {
+    if let Some(found) = sure_chart(photograph, lens) {
+        regions.chart = Some(found.corners);
+        regions.chart_confidence = Some(found.confidence);
+    }
+}
+
+/// The chart in a photograph, if it is found surely.
+pub fn sure_chart(photograph: &Photograph, lens: Lens) -> Option<FoundChart> {
+    find_chart(photograph, &lens).filter(FoundChart::is_sure)
+}
+
 /// What to do where finding does not.
-const REMEDY: &str = "mark the corners with share/picker.html in what --preview FILE.png writes, or give --panel0 and --panel1";
+const REMEDY: &str = "mark the corners with --pick, or give --panel0 and --panel1";
 
 /// A photograph in which there is no fold, for that reason.
 pub fn not_found(path: &Path, reason: &impl Display) -> Error {
@@ -105,12 +134,21 @@ pub fn unsure(path: &Path, confidence: f64) -> Error {
     Error::picture(path, problem, format!("look at what --find --overlay FILE.png draws, {REMEDY}"))
 }
 
-/// Draws a fold over its photograph, if that is asked for.
-fn draw(args: &Args, path: &Path, photograph: &Photograph, found: &FoundFold, lens: Lens) -> Result<()> {
-    let grid = |(number, corners)| {
+/// Draws fold and chart over their photograph, if that is asked for.
+fn draw(
+    args: &Args,
+    path: &Path,
+    photograph: &Photograph,
+    (fold, chart): (Option<&FoundFold>, Option<&FoundChart>),
+    lens: Lens,
+) -> Result<()> {
+    let panel = |(number, corners)| {
         let outline = Homography::through(lens, corners)?;
         Ok(Grid::of_panel(number, outline, &[0.0, 1.0], &[0.0, 1.0]))
     };
-    let grids = found.panels.into_iter().enumerate().map(grid).collect::<Result<Vec<_>>>()?;
+    let panels = fold.into_iter().flat_map(|fold| fold.panels.into_iter().enumerate()).map(panel);
+    let patches =
+        |chart: &FoundChart| Ok(Grid::even(Homography::through(lens, chart.corners)?, FoundChart::GRID));
+    let grids = panels.chain(chart.map(patches)).collect::<Result<Vec<_>>>()?;
     args.pictures.overlay(path, photograph, &grids, &[], &balance::of_photograph(args, photograph))
 }

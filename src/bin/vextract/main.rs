@@ -5,10 +5,12 @@ mod batch;
 mod calibration;
 mod camera;
 mod chart_camera;
+mod facing;
 mod finding;
 mod light;
 mod list;
 mod numbers;
+mod picking;
 mod pictures;
 mod placing;
 mod reading;
@@ -43,7 +45,8 @@ Examples:
     --regions corners.json --resume measured.ndjson
 
 Without corners the fold is found: it is measured where that is sure, and else said what to do.
---find says where it is, with the probability that all corners are right:
+A chart of 4 x 6 patches that is found surely calibrates it, if it faces the sun. --find says
+where both are, with the probability that all corners are right:
   vextract --find photo.tif > found.json
   vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
@@ -89,9 +92,13 @@ struct Args {
     camera: Option<String>,
     #[command(flatten)]
     optics: OpticsArgs,
-    /// Print where the fold is in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
+    /// Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
     #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
+    /// Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is
+    /// seen on this machine alone
+    #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region", "preview", "overlay"])]
+    pick: bool,
     #[command(flatten)]
     regions: RegionArgs,
     #[command(flatten)]
@@ -127,6 +134,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.placing.check()?;
     if args.find {
         return finding::print(args, &images, &reading, out);
+    }
+    if args.pick {
+        return picking::print(args, &images, &reading, out);
     }
     let takes_scene = args.calibration.save_camera.is_none() && args.scene == "-";
     cli::refuse(

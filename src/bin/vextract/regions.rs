@@ -26,7 +26,7 @@ pub struct RegionArgs {
     /// Corners of panel N, counted from 0 as the scene has them; once for each
     #[arg(long, value_name = "N=x,y x,y x,y x,y", allow_hyphen_values = true, value_parser = numbered)]
     panel: Vec<(usize, String)>,
-    /// Corners of a colour chart's block of patches, to calibrate with
+    /// Corners of a colour chart's block of patches, to calibrate with [default: found, if no corners are given]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
     /// Corners of a white card in the picture, to calibrate with
@@ -83,7 +83,7 @@ impl RegionArgs {
     }
 }
 
-/// Refuses panels that were not found, or not surely.
+/// Refuses panels of a file that were not found, or not surely.
 fn check_found(path: &Path, regions: &Regions) -> Result<()> {
     if let Some(reason) = &regions.missing {
         return Err(finding::not_found(path, reason));
@@ -107,21 +107,30 @@ pub struct GivenRegions {
 }
 
 impl GivenRegions {
+    /// Whether nothing was told at all.
+    pub fn are_none(&self) -> bool {
+        self.file.is_none() && self.flags == Regions::default()
+    }
+
     /// Those of one photograph.
     ///
     /// # Errors
-    /// As [`RegionsFile::of`].
+    /// As [`RegionsFile::of`]; [`Error::Picture`] if they are panels that were not found, or not surely.
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
-        let size = [photograph.width(), photograph.height()];
-        match &self.file {
-            Some(file) => {
-                let of_file = file.of(path, size)?;
-                if self.flags.panels.is_empty() {
-                    check_found(path, &of_file)?;
-                }
-                Ok(self.flags.clone().or(of_file))
-            }
-            None => Ok(self.flags.clone()),
+        let regions = self.of_any(path, photograph)?;
+        if self.flags.panels.is_empty() {
+            check_found(path, &regions)?;
         }
+        Ok(regions)
+    }
+
+    /// The same for whom needs no panels.
+    ///
+    /// # Errors
+    /// As [`RegionsFile::of`].
+    pub fn of_any(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
+        let size = [photograph.width(), photograph.height()];
+        let of_file = self.file.as_ref().map(|file| file.of(path, size)).transpose()?;
+        Ok(self.flags.clone().or(of_file.unwrap_or_default()))
     }
 }

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use vfold::calibrate::Calibration;
 use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
-    FacetMeasurement, FlatField, Grid, MeasuredPanels, Photograph, measure_panels, open_sides,
+    FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels, open_sides,
 };
 use vfold::scene::MarkedPanels;
-use vfold::stream::{CalibrationRecord, ImageRecord, Sample, Scene};
+use vfold::stream::{CalibrationRecord, ImageRecord, Regions, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::calibration::{GivenCalibration, apply};
@@ -50,8 +51,13 @@ impl Setup<'_> {
             regions.confidence
         } else {
             let lens = args.placing.lens(&photograph)?;
-            Some(finding::find(args, path, &photograph, lens, &mut regions)?)
+            let confidence = finding::find(args, path, &photograph, lens, &mut regions)?;
+            if self.regions.are_none() {
+                finding::find_calibration(&photograph, lens, &mut regions);
+            }
+            Some(confidence)
         };
+        self.calibration.forget_spare(&mut regions);
         let other_angle = finding::other_angle(path, self.scene, &regions)?;
         if let Some(line) = other_angle.filter(|_| !args.common.quiet) {
             cli::say("vextract", &line);
@@ -74,7 +80,7 @@ impl Setup<'_> {
         if facets.iter().all(|facet| facet.mean.is_none()) {
             return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
-        let calibrated = self.calibration.calibrate(self.scene, &regions, placed.lens, path, &photograph)?;
+        let calibrated = self.calibrated(&regions, placed.lens, path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
             sample.fields.set("exposure", exposure)?;
@@ -106,6 +112,34 @@ impl Setup<'_> {
         }
         self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
         Ok(sample)
+    }
+
+    /// The calibration by what is marked. A chart that was found is left out, and that is said, where one that was told would be an error.
+    fn calibrated(
+        &self,
+        regions: &Regions,
+        lens: Lens,
+        path: &Path,
+        photograph: &Photograph,
+    ) -> Result<Option<(Calibration, CalibrationRecord)>> {
+        let calibrated = self.calibration.calibrate(self.scene, regions, lens, path, photograph);
+        let Some(confidence) = regions.chart_confidence else { return calibrated };
+        if !self.args.common.quiet {
+            let name = format!("{}: ", path.display());
+            let found = format!("{name}chart found, to {:.1} % sure", 100.0 * confidence);
+            let line = match &calibrated {
+                Err(error) => {
+                    let why = error.to_string();
+                    format!("{found}, but not used: {}", why.strip_prefix(&name).unwrap_or(&why))
+                }
+                Ok(_) => format!("{found}: the photograph is calibrated by it"),
+            };
+            cli::say("vextract", &line);
+        }
+        Ok(calibrated
+            .ok()
+            .flatten()
+            .map(|(calibration, record)| (calibration, record.with_confidence(Some(confidence)))))
     }
 
     /// Sides along which no edge of the sheet lies; of other surfaces than a fold, panels go on at more sides than one.

@@ -54,6 +54,11 @@ impl Target {
         Ok(Self { name, flag, rows, cols, cos, patches })
     }
 
+    /// Cosine of the angle at which the sun meets it.
+    pub fn cos(&self) -> f64 {
+        self.cos
+    }
+
     /// Its patches between `corners`.
     pub fn grid(&self, lens: Lens, corners: Corners) -> Result<Grid> {
         Ok(Grid::even(Homography::through(lens, corners)?, [self.rows, self.cols]))

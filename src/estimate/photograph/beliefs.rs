@@ -44,6 +44,9 @@ beliefs! {
     /// Of one that nobody states: people expose so that white that faces the sun lies within a third and three times the white level of the
     /// picture in nineteen cases of twenty.
     exposure_sd: 0.55,
+    /// Of one that the camera's settings and the height of the sun tell: sensors are more sensitive than makers say by up to a stop, apertures and
+    /// lenses pass a tenth more or less.
+    exposure_metered_sd: 0.3,
     /// How heavy the tails are of what was stated, now and then by mistake; 0: those of a normal number.
     stated_tail: 0.5,
 
@@ -72,24 +75,21 @@ beliefs! {
     sky_sd: 0.5,
     /// How far one is off that was stated, likewise.
     sky_stated_sd: 0.25,
-    /// How many photographs are taken in haze or under thin cloud.
-    hazy_share: 0.1,
-    /// How many on an overcast day.
-    overcast_share: 0.1,
-    /// How many in the shade.
-    shade_share: 0.05,
+    /// How many photographs are taken in haze or under thin cloud; as many on an overcast day, and half as many in the shade.
+    dull_share: 0.1,
+    /// Light on a sheet that faces the open sky where the sun is hidden, that of the sun on one that faces it being 1: 0.1 to 0.3.
+    hidden_light: 0.17,
+    /// Logarithm of that.
+    hidden_light_sd: 0.5,
     /// Reciprocal colour temperature of a blue sky, 1e-6/K: 9500 K, two of three between 8000 K and 11800 K.
     sky_mired: 105.0,
     /// See `sky_mired`.
     sky_mired_sd: 20.0,
-    /// Reciprocal colour temperature of a hazy sky, 1e-6/K: thin cloud has the sun's colour, haze is bluer, 5600 K to
-    /// 7700 K. Widened with a picture of `../shared/faults` in view.
-    hazy_mired: 155.0,
-    /// See `hazy_mired`.
+    /// Reciprocal colour temperature of a sky that is not clear, 1e-6/K.
+    cloud_mired: 156.0,
+    /// In haze: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K. Widened with a picture of `../shared/faults` in view.
     hazy_mired_sd: 25.0,
-    /// Reciprocal colour temperature of an overcast sky, 1e-6/K: 5800 K to 7000 K.
-    overcast_mired: 157.0,
-    /// See `overcast_mired`.
+    /// On an overcast day: 5800 K to 7000 K.
     overcast_mired_sd: 9.0,
     /// Share of a hazy sky's light that is an overcast sky's, and the standard deviation of it.
     hazy_cloud: 0.3,

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beliefs::Beliefs;
 use super::day::Day;
+use crate::estimate::unknowns::Normal;
 use crate::spectrum::daylight_weights;
 
 /// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
@@ -64,6 +65,8 @@ pub struct Told {
     pub beliefs: &'static Beliefs,
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
+    /// Logarithm of what it is in an unclouded sun by the camera's settings, if they are known.
+    pub metered: Option<Normal>,
     /// Whether a chart or a card in the light of sun and sky told the exposure and balanced the channels.
     pub by_chart: bool,
     /// Number of channels.
@@ -93,6 +96,14 @@ impl Told {
     #[must_use]
     pub fn even_sky(&self) -> f64 {
         self.sky.unwrap_or(0.0)
+    }
+
+    /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
+    #[must_use]
+    pub fn metered_exposure(&self) -> Option<Normal> {
+        self.metered
+            .filter(|_| self.daylight.is_some())
+            .map(|in_the_sun| self.day.metered(self.beliefs, in_the_sun))
     }
 
     /// Whether somebody stated the exposure, rather than that a chart or a card shows it.

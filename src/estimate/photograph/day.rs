@@ -49,10 +49,9 @@ impl Day {
 
     fn usual_share(self, beliefs: &Beliefs) -> f64 {
         match self {
-            Self::Clear => 1.0 - beliefs.hazy_share - beliefs.overcast_share - beliefs.shade_share,
-            Self::Hazy => beliefs.hazy_share,
-            Self::Overcast => beliefs.overcast_share,
-            Self::Shade => beliefs.shade_share,
+            Self::Clear => 1.0 - 2.5 * beliefs.dull_share,
+            Self::Hazy | Self::Overcast => beliefs.dull_share,
+            Self::Shade => 0.5 * beliefs.dull_share,
         }
     }
 
@@ -83,8 +82,8 @@ impl Day {
     pub fn sky_mired(self, beliefs: &Beliefs) -> Normal {
         match self {
             Self::Clear | Self::Shade => Normal { mean: beliefs.sky_mired, sd: beliefs.sky_mired_sd },
-            Self::Hazy => Normal { mean: beliefs.hazy_mired, sd: beliefs.hazy_mired_sd },
-            Self::Overcast => Normal { mean: beliefs.overcast_mired, sd: beliefs.overcast_mired_sd },
+            Self::Hazy => Normal { mean: beliefs.cloud_mired, sd: beliefs.hazy_mired_sd },
+            Self::Overcast => Normal { mean: beliefs.cloud_mired, sd: beliefs.overcast_mired_sd },
         }
     }
 
@@ -93,6 +92,19 @@ impl Day {
     pub fn cloud(self, beliefs: &Beliefs) -> Option<Normal> {
         let hazy = Normal { mean: beliefs.hazy_cloud, sd: beliefs.hazy_cloud };
         (self == Self::Hazy).then_some(hazy)
+    }
+
+    /// Logarithm of the exposure, if that of an unclouded sun is `in_the_sun`: what haze takes from the sun it adds to the sky.
+    #[must_use]
+    pub fn metered(self, beliefs: &Beliefs, in_the_sun: Normal) -> Normal {
+        let Normal { mean, sd } = in_the_sun;
+        match self {
+            Self::Clear => in_the_sun,
+            Self::Hazy => Normal { mean: mean - (1.0 + beliefs.hazy_sky).ln(), sd },
+            Self::Overcast | Self::Shade => {
+                Normal { mean: mean + beliefs.hidden_light.ln(), sd: sd.hypot(beliefs.hidden_light_sd) }
+            }
+        }
     }
 
     /// Share of the light on an open horizontal plane that is the sky's, as a rule.

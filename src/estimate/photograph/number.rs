@@ -32,14 +32,14 @@ impl Number {
             // of an ideal fold nothing is open but what is mistaken
             let matters = own.is_some()
                 && match mistake {
-                    _ if known == Known::Usual => true,
+                    _ if matches!(known, Known::Usual | Known::Metered) => true,
                     _ if !imperfection.is_ideal() => **unknown != EVEN_SKY,
                     Some(Mistake::Angle) => **unknown == ANGLE,
                     Some(Mistake::Sky) => **unknown == EVEN_SKY || **unknown == SKY_COLOUR,
                     Some(Mistake::Exposure | Mistake::NoFold) | None => false,
                 };
             let tail = match known {
-                Known::Stated => told.beliefs.stated_tail,
+                Known::Stated | Known::Metered => told.beliefs.stated_tail,
                 Known::Imperfection => told.beliefs.amount_tail,
                 Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
             };

@@ -16,6 +16,7 @@ pub static EXPOSURE: Unknown = Unknown {
         known: |told| match told.exposure {
             Some(_) if told.by_chart => Known::Shown,
             Some(_) => Known::Stated,
+            None if told.metered_exposure().is_some() => Known::Metered,
             None => Known::Usual,
         },
         prior: of_photograph,
@@ -28,5 +29,7 @@ fn of_photograph(told: &Told) -> Option<Expectation> {
     let beliefs = told.beliefs;
     let sd = if told.by_chart { beliefs.exposure_shown_sd } else { beliefs.exposure_stated_sd };
     let known = told.exposure.map(|exposure| Normal { mean: exposure.ln(), sd });
-    Some(known.unwrap_or(beliefs.exposure()).into())
+    let usual = beliefs.exposure();
+    let untold = || told.metered_exposure().map_or(usual, |metered| usual.and(metered));
+    Some(known.unwrap_or_else(untold).into())
 }

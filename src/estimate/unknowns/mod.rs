@@ -159,6 +159,8 @@ pub enum Known {
     Usual,
     /// Somebody measured it: near to that as a rule, now and then a blunder.
     Stated,
+    /// The camera's settings and the day tell it, if nothing was put before the lens.
+    Metered,
     /// A chart or a card showed it, which is no blunder.
     Shown,
     /// Camera and light were told: they are as two of a kind differ.
@@ -213,6 +215,16 @@ pub struct Normal {
     pub mean: f64,
     /// Standard deviation; zero for a number that is known after all.
     pub sd: f64,
+}
+
+impl Normal {
+    /// The same number, of which something else, independent of what is known so far, says this.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        let [own, others] = [self, other].map(|one| one.sd.powi(-2));
+        let information = own + others;
+        Self { mean: (own * self.mean + others * other.mean) / information, sd: information.sqrt().recip() }
+    }
 }
 
 /// What is known of an unknown of a photograph before that is looked at.

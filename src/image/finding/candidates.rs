@@ -34,9 +34,13 @@ pub(super) struct Candidate {
     pub clues: [f64; CLUES],
 }
 
-/// The folds that a reduced picture may show, and the likeliest of them refined.
-pub(super) fn candidates(reduced: &Reduced) -> (Vec<Hypothesis>, Vec<Candidate>) {
-    let (views, hypotheses) = search(reduced);
+/// The folds that a reduced picture may show, of those that `may_be` it, and the likeliest of them refined.
+pub(super) fn candidates(
+    reduced: &Reduced,
+    may_be: impl Fn(&Outline) -> bool,
+) -> (Vec<Hypothesis>, Vec<Candidate>) {
+    let (views, mut hypotheses) = search(reduced);
+    hypotheses.retain(|hypothesis| may_be(&hypothesis.outline));
     let Ok(picture) = reduced.photograph() else { return (hypotheses, Vec::new()) };
     let refine =
         |hypothesis: &Hypothesis, blur: Option<usize>| Refined::of(hypothesis, &views, &picture, blur);

@@ -10,10 +10,11 @@
 //! 4. [`light`], [`score`], [`search`]: the likeliest of these against "no fold", a logit over what is seen of each;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is likeliest to be right is then refined in the whole picture.
+//! The fold that is likeliest to be right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
 
 mod candidates;
 mod chains;
+mod chart;
 mod evidence;
 mod light;
 mod outline;
@@ -34,6 +35,7 @@ use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
 use super::placing::{Lens, Point};
 use candidates::{Candidate, candidates};
+pub use chart::{FoundChart, find_chart, weighed_chart};
 use outline::{Outline, Place};
 use reduced::Reduced;
 use trust::confidence;
@@ -105,8 +107,39 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<FoundFold, NoFold> {
+    likeliest(photograph, lens, LEAST_CONFIDENCE, |_| true)
+}
+
+/// The fold of which two places, px, are on the two panels, in either order; somebody looks at it, however unsure it is.
+///
+/// # Errors
+/// As [`find_fold`].
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, NoFold, Photograph, Point, find_fold_around};
+/// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
+/// let clicks = [Point::new(60.0, 40.0), Point::new(120.0, 90.0)];
+/// assert_eq!(find_fold_around(&empty, &Lens::STRAIGHT, clicks), Err(NoFold::Nothing));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn find_fold_around(
+    photograph: &Photograph,
+    lens: &Lens,
+    panels: [Point; 2],
+) -> Result<FoundFold, NoFold> {
+    likeliest(photograph, lens, 0.0, |outline| outline.has_panels_at(panels))
+}
+
+/// The likeliest fold among some.
+fn likeliest(
+    photograph: &Photograph,
+    lens: &Lens,
+    least_confidence: f64,
+    may_be: impl Fn(&Outline) -> bool,
+) -> Result<FoundFold, NoFold> {
     let reduced = Reduced::of(photograph);
-    let (_, candidates) = candidates(&reduced);
+    let (_, candidates) = candidates(&reduced, |outline| may_be(&outline.scaled(reduced.scale as f64)));
     let trusted = candidates.iter().map(|candidate| (confidence(&candidate.clues), candidate));
     let best = trusted.max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(NoFold::Nothing)?;
     let (confidence, Candidate { outline, .. }) = best;
@@ -114,7 +147,7 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<FoundFold, NoFo
     if nearest < -BEYOND_PX || (confidence < FoundFold::SURE && nearest < AT_EDGE_PX) {
         return Err(NoFold::Cut);
     }
-    if confidence < LEAST_CONFIDENCE {
+    if confidence < least_confidence {
         return Err(NoFold::Nothing);
     }
     let scale = reduced.scale as f64;
@@ -146,7 +179,7 @@ pub struct WeighedFold {
 #[must_use]
 pub fn weighed_folds(photograph: &Photograph) -> [Vec<WeighedFold>; 2] {
     let reduced = Reduced::of(photograph);
-    let (hypotheses, candidates) = candidates(&reduced);
+    let (hypotheses, candidates) = candidates(&reduced, |_| true);
     let fold = |outline: &Outline, weighed: &[f64]| WeighedFold {
         panels: outline.scaled(reduced.scale as f64).named().points(),
         weighed: weighed.to_vec(),
@@ -175,6 +208,18 @@ mod tests {
             let off = Outline::of_panels(found.panels).distance_px(&outline().scaled(scale as f64));
             assert!(off < 0.5 * scale as f64 && found.is_sure(), "{scale}: {off} {found:?}");
         }
+    }
+
+    #[test]
+    fn a_fold_is_found_around_places_on_its_panels_alone() {
+        let photograph = picture(&outline(), 2);
+        let [a, b] = outline().scaled(2.0).points().map(|panel| {
+            let mean = |of: fn(&Point) -> f64| panel.iter().map(of).sum::<f64>() / 4.0;
+            Point::new(mean(|p| p.x), mean(|p| p.y))
+        });
+        let around = |panels| find_fold_around(&photograph, &Lens::STRAIGHT, panels);
+        assert_eq!(around([b, a]).unwrap().panels, found(&outline(), 2).panels);
+        assert!(around([a, a]).is_err());
     }
 
     #[test]

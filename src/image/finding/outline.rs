@@ -43,6 +43,13 @@ pub(super) fn area(quad: &Quad) -> f64 {
     0.5 * cross(quad[0] - quad[2], quad[1] - quad[3])
 }
 
+/// Whether a place is within a convex one, whichever way its corners go round.
+fn is_inside(quad: &Quad, place: Place) -> bool {
+    let side = |k: usize| cross(quad[(k + 1) % 4] - quad[k], place - quad[k]);
+    let sides = [0, 1, 2, 3].map(side);
+    sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0)
+}
+
 /// The middle of a quadrilateral's corners.
 pub(super) fn centre(quad: &Quad) -> Place {
     quad.iter().sum::<Place>() / 4.0
@@ -120,6 +127,13 @@ impl Outline {
     /// The same in a picture `scale` times as large.
     pub fn scaled(&self, scale: f64) -> Self {
         Self(self.0.map(|corner| corner * scale))
+    }
+
+    /// Whether two places are on the two panels, in either order.
+    pub fn has_panels_at(&self, places: [Point; 2]) -> bool {
+        let [a, b] = places.map(|p| Place::new(p.x, p.y));
+        let [first, second] = self.panels();
+        (is_inside(&first, a) && is_inside(&second, b)) || (is_inside(&first, b) && is_inside(&second, a))
     }
 
     /// The corners of either panel as points.

@@ -42,6 +42,21 @@ impl Reduced {
         Self { width, height, scale, light }
     }
 
+    /// A picture of half the size, the mean light of two by two pixels.
+    pub fn halved(&self) -> Self {
+        let [width, height] = [self.width, self.height].map(|side| (side / 2).max(1));
+        let pixel = |k: usize| {
+            let at = |x: usize, y: usize| {
+                self.light[(2 * (k / width) + y).min(self.height - 1) * self.width
+                    + (2 * (k % width) + x).min(self.width - 1)]
+            };
+            let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+            [0, 1, 2].map(|n| four.iter().map(|light| light[n]).sum::<f32>() / 4.0)
+        };
+        let light = (0..width * height).into_par_iter().map(pixel).collect();
+        Self { width, height, scale: 2 * self.scale, light }
+    }
+
     /// The reduced picture as a photograph.
     ///
     /// # Errors

@@ -28,10 +28,47 @@ pub struct CameraNotes {
     pub notes: Vec<String>,
 }
 
+/// Share of the light from a surface that reaches the middle of the sensor behind a usual lens; ISO 12232, annex on exposure.
+const LENS: f64 = 0.65;
+/// Exposure that fills a sensor of sensitivity 1, lx s; ISO 12232, saturation-based speed.
+const SATURATION_LX_S: f64 = 78.0;
+
 impl CameraNotes {
+    /// Value of a perfect white diffuser under 1000 lx, that of a full sensor being 1, by exposure time, aperture and sensitivity; none if not all
+    /// three are said. Makers may understate the sensitivity of a sensor by a third of a stop and more.
+    ///
+    /// # Source
+    /// ISO 12232:2019, saturation-based speed; a diffuser under E lx has a luminance of E / π.
+    #[must_use]
+    pub fn white_per_klx(&self) -> Option<f64> {
+        let (exposure_s, f_number, iso) = (self.exposure_s?, self.f_number?, f64::from(self.iso?));
+        let exposure_lx_s = LENS * 1000.0 / std::f64::consts::PI * exposure_s / (f_number * f_number);
+        Some(exposure_lx_s * iso / SATURATION_LX_S).filter(|white| *white > 0.0)
+    }
+
     /// Maker and model, empty where they are not said.
     #[must_use]
     pub fn called(&self) -> (String, String) {
         (self.make.clone().unwrap_or_default(), self.model.clone().unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In bright sun, about 100 klx, f/16 and the reciprocal of the sensitivity just do not clip white.
+    #[test]
+    fn the_rule_of_sunny_sixteen_exposes_white_to_about_one() {
+        let notes = |iso| CameraNotes {
+            exposure_s: Some(1.0 / 400.0),
+            f_number: Some(16.0),
+            iso,
+            ..CameraNotes::default()
+        };
+        let white = notes(Some(400)).white_per_klx().map(|white| 100.0 * white);
+        assert!(white.is_some_and(|white| (0.9..1.2).contains(&white)), "{white:?}");
+        assert_eq!(notes(None).white_per_klx(), None);
+        assert_eq!(notes(Some(0)).white_per_klx(), None);
     }
 }

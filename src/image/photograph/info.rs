@@ -54,6 +54,13 @@ impl PhotographInfo {
         self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_given)
     }
 
+    /// As [`CameraNotes::white_per_klx`], of numbers that are as the sensor counted them: cameras brighten what they develop.
+    #[must_use]
+    pub fn white_per_klx(&self) -> Option<f64> {
+        let is_as_counted = self.transfer_used == Transfer::Linear && self.undone.is_none();
+        self.camera.white_per_klx().filter(|_| is_as_counted)
+    }
+
     /// Of a linear picture of `stored_size` from 0 to 1, with what the camera wrote.
     pub(in crate::image) fn new(camera: CameraNotes, stored_size: (usize, usize), format: String) -> Self {
         let (width, height) = camera.orientation.upright_size(stored_size);

@@ -4,7 +4,7 @@
 //! that picture ([`super::distortion`]).
 //! Closed form: P. Heckbert, *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::distortion::Lens;
 use super::point::{Point, cross};
@@ -91,6 +91,27 @@ impl Homography {
     #[must_use]
     pub fn rectangle(&self, u: [f64; 2], v: [f64; 2]) -> [Point; 4] {
         [(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])].map(|(u, v)| self.to_image(u, v))
+    }
+
+    /// The angle at which a panel of these sides is seen at its middle, degrees: 0 straight on. The camera is taken to be far away.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::{Homography, Point};
+    /// // a square that is half as high as wide is seen at 60 degrees
+    /// let corners = [(0., 0.), (40., 0.), (40., 20.), (0., 20.)].map(|(x, y)| Point::new(x, y));
+    /// assert!((Homography::from_unit_square(corners)?.view_angle_deg([1.0, 1.0]) - 60.0).abs() < 1e-9);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn view_angle_deg(&self, sides: [f64; 2]) -> f64 {
+        let middle = self.to_image * Vector3::new(0.5, 0.5, 1.0);
+        let way = |k: usize| {
+            let way = self.to_image.column(k) * middle.z - middle * self.to_image[(2, k)];
+            way.xy() / (middle.z * middle.z * sides[k])
+        };
+        let stretch = Matrix2::from_columns(&[way(0), way(1)]).singular_values();
+        (stretch.min() / stretch.max()).acos().to_degrees()
     }
 
     /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its corners.

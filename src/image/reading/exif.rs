@@ -105,7 +105,29 @@ fn gamma(exif: &Exif) -> Option<Statement> {
     Some(Statement { by: "EXIF Gamma", says })
 }
 
-fn parse(block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
+/// Calls what points to directories of tags LONG where it is called IFD, as by libtiff: both are 4 bytes long, and the parser knows one of them.
+fn directories_as_long(block: &mut [u8]) {
+    const ENTRY_BYTES: usize = 12;
+    const IFD: u16 = 13;
+    const LONG: u16 = 4;
+    let is_little = block.starts_with(b"II");
+    let of_two =
+        |bytes: [u8; 2]| if is_little { u16::from_le_bytes(bytes) } else { u16::from_be_bytes(bytes) };
+    let of_four =
+        |bytes: [u8; 4]| if is_little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) };
+    let Some(&[a, b, c, d]) = block.get(4..8) else { return };
+    let first = of_four([a, b, c, d]) as usize;
+    let Some(&[a, b]) = block.get(first..first.saturating_add(2)) else { return };
+    let entries = block[first + 2..].chunks_exact_mut(ENTRY_BYTES).take(of_two([a, b]).into());
+    for kind in entries.filter_map(|entry| entry.get_mut(2..4)) {
+        if of_two([kind[0], kind[1]]) == IFD {
+            kind.copy_from_slice(&if is_little { LONG.to_le_bytes() } else { LONG.to_be_bytes() });
+        }
+    }
+}
+
+fn parse(mut block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
+    directories_as_long(&mut block);
     Reader::new()
         .continue_on_error(true)
         .read_raw(block)
@@ -194,6 +216,17 @@ mod tests {
         large[directory..directory + small.len() - 8].copy_from_slice(&small[8..]);
         let camera = read(Some(tiff_tags(&mut io::Cursor::new(large)).unwrap()), 0).camera;
         assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
+    }
+
+    /// Libtiff writes the place of EXIF's directory as one of type IFD.
+    #[test]
+    fn directories_are_found_by_either_type() {
+        for kind in [4, 13] {
+            let mut both = block(&[(0x8769, kind, 1, 26)]);
+            both.extend(&block(&[(0x8827, 3, 1, 400)])[8..]);
+            let camera = read(Some(both), 0).camera;
+            assert_eq!((camera.iso, camera.notes), (Some(400), vec![]));
+        }
     }
 
     #[test]

@@ -1,0 +1,104 @@
+//! Corners that a person marks, on a page that this machine serves to itself.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use vfold::cli::{self, Reply, ServedFile};
+use vfold::image::{Lens, Photograph, Point, find_fold, find_fold_around, write_preview};
+use vfold::stream::{Output, picked_line};
+use vfold::{Error, Result};
+
+use super::{Args, balance, finding, reading::Reading};
+
+const PAGE: &str = include_str!("../../../share/picker.html");
+/// Who has left the page open for longer has forgotten it.
+const WAIT: Duration = Duration::from_secs(600);
+/// What shows a page in a browser, by system.
+const OPENERS: [&str; 2] = ["xdg-open", "open"];
+
+/// Prints what a person marks in the photograph, beginning with the fold that is found in it.
+///
+/// # Errors
+/// [`Error::Usage`] for several photographs, as [`Reading::open`], [`write_preview`] and [`cli::ask_on_page`].
+pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
+    let [path] = images else {
+        let problem = format!("{} photographs do not go on one page", images.len());
+        return Err(Error::usage("--pick", problem, "give one, or open their previews in share/picker.html"));
+    };
+    let photograph = reading.open(path)?;
+    let lens = args.placing.lens(&photograph)?;
+    let files = [
+        ServedFile { name: "", media_type: "text/html; charset=utf-8", bytes: PAGE.into() },
+        ServedFile {
+            name: "photograph.png",
+            media_type: "image/png",
+            bytes: preview(args, path, &photograph)?,
+        },
+        ServedFile {
+            name: "regions.json",
+            media_type: "application/json",
+            bytes: found(args, path, &photograph, lens, None)?.into(),
+        },
+    ];
+    let reply = |name: &str, text: &str| match name {
+        "done" => picked_line("the page", text)
+            .map_or_else(|problem| Reply::Refused(problem.to_string()), Reply::Answered),
+        "find" => match clicks(text).map(|clicks| found(args, path, &photograph, lens, Some(clicks))) {
+            Some(Ok(line)) => Reply::Text(line),
+            Some(Err(problem)) => Reply::Refused(problem.to_string()),
+            None => Reply::Refused("write two places as x,y x,y".to_owned()),
+        },
+        _ => Reply::Refused("there is nothing of this name".to_owned()),
+    };
+    let line = cli::ask_on_page(&files, WAIT, |address| show(path, address), reply)?;
+    out.text(&line)
+}
+
+/// The photograph as a browser shows it.
+fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>> {
+    let unwritten = |source| Error::File { path: "the page's picture".to_owned(), source };
+    let folder = tempfile::tempdir().map_err(unwritten)?;
+    let file = folder.path().join("photograph.png");
+    write_preview(&file, photograph, path, &balance::of_photograph(args, photograph))?;
+    std::fs::read(&file).map_err(unwritten)
+}
+
+/// The fold in a photograph, or the one whose panels are at two places, and the chart.
+fn found(
+    args: &Args,
+    path: &Path,
+    photograph: &Photograph,
+    lens: Lens,
+    panels: Option<[Point; 2]>,
+) -> Result<String> {
+    let fold = match panels {
+        Some(panels) => find_fold_around(photograph, &lens, panels),
+        None => find_fold(photograph, &lens),
+    };
+    let chart = finding::sure_chart(photograph, lens);
+    finding::line(args, path, photograph, lens, (&fold, chart.as_ref()))
+}
+
+/// Two places of the photograph, px, as `x,y x,y`.
+fn clicks(text: &str) -> Option<[Point; 2]> {
+    let place = |pair: &str| {
+        let (x, y) = pair.split_once(',')?;
+        Some(Point::new(x.parse().ok()?, y.parse().ok()?))
+    };
+    let [first, second] = text.split_whitespace().map(place).collect::<Option<Vec<_>>>()?.try_into().ok()?;
+    Some([first, second])
+}
+
+/// Opens the page for somebody who sits at a terminal, and says where it is.
+fn show(path: &Path, address: &str) {
+    cli::say("vextract", &format!("{}: mark the panels on {address}", path.display()));
+    let open = |opener: &&str| {
+        let quiet = Command::new(opener).arg(address).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+        quiet.is_ok()
+    };
+    if std::io::stderr().is_terminal() {
+        OPENERS.iter().any(open);
+    }
+}

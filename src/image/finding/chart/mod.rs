@@ -1,0 +1,208 @@
+//! Where a colour chart of 24 patches is in a photograph, and how sure that is.
+//!
+//! Four rows of six patches, as ColorChecker Classic, Passport and Nano have them:
+//!
+//! 1. [`blobs`]: places of even light;
+//! 2. [`lattice`], [`plane_map`]: those of them that lie in rows and columns, in any perspective;
+//! 3. [`placement`], [`colours`], [`search`]: the four rows of six, turned any way, whose colours a linear map makes of the chart's, whatever light and camera are;
+//! 4. [`flat`], [`exact`]: exactly where its patches end, in the whole picture.
+//!
+//! What a hand, a shadow or the edge of the picture takes of a chart shows in the colours, which make the confidence.
+
+mod blobs;
+mod colours;
+mod exact;
+mod flat;
+mod lattice;
+mod placement;
+mod plane_map;
+mod search;
+#[cfg(test)]
+mod synthetic;
+
+use nalgebra::Matrix3;
+
+use super::outline::Place;
+use super::reduced::Reduced;
+use crate::image::photograph::Photograph;
+use crate::image::placing::{Homography, Lens, Point, is_inside};
+use colours::{COLUMNS, PATCHES, ROWS, departure};
+use exact::exact;
+use flat::Flat;
+use placement::patch;
+use plane_map::{projective, seen};
+use search::searched;
+
+/// A chart of four rows of six patches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundChart {
+    /// Outer corners of the block of patches, px of the upright picture, in the order of [`CHART_CORNERS`](crate::image::CHART_CORNERS).
+    pub corners: [Point; 4],
+    /// Probability that all of them are within a third of a patch of where they should be.
+    pub confidence: f64,
+}
+
+/// Rounds in which patches' edges are looked for.
+const ROUNDS: usize = 2;
+/// What the confidence is made of.
+pub const CLUES: usize = 2;
+/// Its weights, by `benches/find_fit.py`.
+const OFFSET: f64 = -13.88;
+const WEIGHTS: [f64; CLUES] = [-1.516, -8.188];
+/// Half of a patch's side in cells, if its edges do not say: that of a Classic.
+const HALF: f64 = 0.44;
+
+impl FoundChart {
+    /// Rows and columns of its patches.
+    pub const GRID: [usize; 2] = [ROWS, COLUMNS];
+    /// From this confidence on a chart is used without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
+    pub const SURE: f64 = 0.97;
+
+    /// Whether it may be used without a look at it.
+    #[must_use]
+    pub fn is_sure(&self) -> bool {
+        self.confidence >= Self::SURE
+    }
+}
+
+/// Finds the colour chart in a photograph.
+///
+/// # Arguments
+/// - `lens`: what bends the picture; its sides are straight without it.
+///
+/// # Returns
+/// The chart, or what is most like one; none if nothing is, or if it is not all in the picture.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, Photograph, find_chart};
+/// let grey = Photograph::from_light(240, 200, vec![0.2; 240 * 200])?;
+/// assert_eq!(find_chart(&grey, &Lens::STRAIGHT), None);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+#[must_use]
+pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<FoundChart> {
+    weighed_chart(photograph, lens).map(|(found, _)| found)
+}
+
+/// The same, and what its confidence is made of, to fit that: logarithms of how far off its patches' colours are, in the mean and at most.
+#[must_use]
+pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(FoundChart, [f64; CLUES])> {
+    let reduced = Reduced::of(photograph);
+    let (scale, to_picture) = searched(&reduced)?;
+    let mut map = ideal(lens, &to_picture, scale)?;
+    let mut half = HALF;
+    for _ in 0..ROUNDS {
+        let Some(found) = exact(&Flat::of(photograph, lens, &map), &map) else { break };
+        (map, half) = (found.to_picture, found.half);
+    }
+    let corners = corners(lens, &map, half);
+    let is_whole = corners.iter().all(|corner| is_inside(*corner, photograph.width(), photograph.height()));
+    if !is_whole || Homography::through(*lens, corners).is_err() {
+        return None;
+    }
+    let departure = departure(&Flat::of(photograph, lens, &map).colours())?;
+    let clues = [departure.rms.ln(), departure.worst.ln()];
+    let log_odds = OFFSET + WEIGHTS.iter().zip(&clues).map(|(weight, clue)| weight * clue).sum::<f64>();
+    Some((FoundChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
+}
+
+/// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels are a pixel of.
+fn ideal(lens: &Lens, to_picture: &Matrix3<f64>, scale: f64) -> Option<Matrix3<f64>> {
+    let pair = |k: usize| {
+        let at = seen(to_picture, patch(k)) * scale;
+        let ideal = lens.undistort(Point::new(at.x, at.y));
+        (patch(k), Place::new(ideal.x, ideal.y))
+    };
+    projective(&(0..PATCHES).map(pair).collect::<Vec<_>>())
+}
+
+/// The outer corners of the block of patches.
+fn corners(lens: &Lens, map: &Matrix3<f64>, half: f64) -> [Point; 4] {
+    let [right, bottom] = [COLUMNS, ROWS].map(|count| count as f64 - 1.0 + half);
+    [(-half, -half), (right, -half), (right, bottom), (-half, bottom)].map(|(x, y)| {
+        let ideal = seen(map, Place::new(x, y));
+        lens.distort(Point::new(ideal.x, ideal.y))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use proptest::prelude::*;
+
+    use super::super::synthetic::{outline, picture};
+    use super::synthetic::{HEIGHT, WIDTH, drawn, drawn_through, photograph, tilted};
+    use super::*;
+
+    fn found(photograph: &Photograph) -> Option<FoundChart> {
+        find_chart(photograph, &Lens::STRAIGHT).filter(FoundChart::is_sure)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Turned by any angle, upside down among them, leaning away to any side.
+        #[test]
+        fn charts_are_found_where_they_are(turn_deg in 0.0..360.0, lean in prop::array::uniform2(-0.5..0.5), width in 0.35..0.7) {
+            let corners = tilted(turn_deg, lean, width);
+            let found = found(&drawn(corners, |_, colour| colour));
+            prop_assert!(found.is_some(), "none at {corners:?}");
+            let off = found.map(|found| [0, 1, 2, 3].map(|k| found.corners[k].distance(corners[k])));
+            let patch_px = width * WIDTH as f64 / 6.0;
+            prop_assert!(off.iter().flatten().all(|off| *off < 0.06 * patch_px), "{off:?}");
+        }
+    }
+
+    #[test]
+    fn what_the_lens_bends_is_undone() {
+        let lens = Lens::new([-0.05, 0.0], WIDTH, HEIGHT).unwrap();
+        let corners = tilted(20.0, [0.2, 0.1], 0.8);
+        let found = find_chart(&drawn_through(lens, corners, |_, colour| colour), &lens).unwrap();
+        let off = [0, 1, 2, 3].map(|k| found.corners[k].distance(corners[k]));
+        assert!(found.is_sure() && off.iter().all(|off| *off < 1.5), "{off:?}");
+    }
+
+    #[test]
+    fn a_covered_chart_is_not_claimed() {
+        let corners = tilted(10.0, [0.1, 0.2], 0.6);
+        for hidden in 0..PATCHES {
+            let hand = |k: usize, colour| if k == hidden { [0.4, 0.25, 0.2] } else { colour };
+            // a hand may look like light skin, which is patch 1
+            assert!(hidden == 1 || found(&drawn(corners, hand)).is_none(), "{hidden}");
+        }
+    }
+
+    #[test]
+    fn patches_of_other_colours_or_greys_are_no_chart() {
+        let corners = tilted(0.0, [0.0, 0.0], 0.6);
+        let grey = |k: usize, _| [0.05 + 0.2 * (k * 7 % 5) as f64; 3];
+        assert_eq!(found(&drawn(corners, grey)), None);
+        let turned_colours = |_: usize, [r, g, b]: [f64; 3]| [g * g, b.sqrt(), (r - 0.5).abs()];
+        assert_eq!(found(&drawn(corners, turned_colours)), None);
+    }
+
+    #[test]
+    fn a_chart_cut_by_the_edge_is_none() {
+        let cut =
+            tilted(0.0, [0.0, 0.0], 0.6).map(|corner| Point::new(corner.x + 0.4 * WIDTH as f64, corner.y));
+        assert_eq!(found(&drawn(cut, |_, colour| colour)), None);
+    }
+
+    #[test]
+    fn tiles_and_folds_are_no_charts() {
+        let tile = |x: f64, y: f64| {
+            let is_joint = (x / 40.0).fract().min((y / 40.0).fract()) < 0.1;
+            if is_joint {
+                [0.1; 3]
+            } else {
+                [0.5, 0.45, 0.4].map(|light| light + 0.05 * (x * y / 1600.0).floor().sin())
+            }
+        };
+        assert_eq!(found(&photograph(tile)), None);
+        let checkers = |x: f64, y: f64| [[0.1, 0.7][((x / 30.0) as usize + (y / 30.0) as usize) % 2]; 3];
+        assert_eq!(found(&photograph(checkers)), None);
+        assert_eq!(found(&picture(&outline(), 1)), None);
+    }
+}

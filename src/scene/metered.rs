@@ -1,0 +1,48 @@
+//! What the camera's settings say of the exposure of a photograph in the sun.
+
+use crate::estimate::photograph::beliefs::Beliefs;
+use crate::estimate::unknowns::Normal;
+use crate::spectrum::Sun;
+
+/// Illuminance by the sun beyond the atmosphere, klx, and what a clear one takes of its logarithm for each air mass.
+const BEYOND_KLX: f64 = 127.5;
+const EXTINCTION: f64 = 0.21;
+/// What a clear atmosphere takes varies by as much for each air mass.
+const EXTINCTION_SD: f64 = 0.1;
+/// Where the sun stands if nobody says it, degrees from the zenith.
+const ZENITH_DEG: f64 = 45.0;
+
+/// Logarithm of the value of a perfect white diffuser that faces an unclouded sun, if the camera makes it `white_per_klx` under 1000 lx, in the light of
+/// this `illuminant`. A low sun says less, as its way through the air is long.
+///
+/// # Source
+/// Illuminating Engineering Society of North America, *Lighting Handbook*, 9th ed. (2000), chapter 8: direct illuminance under a clear sky.
+#[must_use]
+pub fn in_the_sun(white_per_klx: f64, illuminant: &str, beliefs: &Beliefs) -> Option<Normal> {
+    let stated = illuminant.strip_prefix("sun:").and_then(|words| Sun::parse(words).ok());
+    let air_mass = stated.or_else(|| Sun::at_zenith_deg(ZENITH_DEG).ok())?.air_mass();
+    let ln_klx = BEYOND_KLX.ln() - EXTINCTION * air_mass;
+    let sd = beliefs.exposure_metered_sd.hypot(EXTINCTION_SD * air_mass);
+    Some(Normal { mean: white_per_klx.ln() + ln_klx, sd })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
+    use super::*;
+
+    fn klx(illuminant: &str) -> Normal {
+        let Normal { mean, sd } = in_the_sun(1.0, illuminant, &Beliefs::USUAL).unwrap();
+        Normal { mean: mean.exp(), sd }
+    }
+
+    /// The sun on a plane that faces it, from tables of clear days: 100 klx at 60° above the horizon, about 60 klx at 15°.
+    #[test]
+    fn a_high_sun_gives_a_hundred_thousand_lux() {
+        assert!((klx("sun:30deg").mean - 100.0).abs() < 3.0, "{:?}", klx("sun:30deg"));
+        assert!((klx("sun:75deg").mean - 60.0).abs() < 5.0, "{:?}", klx("sun:75deg"));
+        assert!(klx("sun:75deg").sd > 1.3 * klx("sun:30deg").sd);
+        assert_eq!(klx("D65"), klx("sun:45deg"));
+    }
+}

@@ -1,0 +1,29 @@
+//! What `vextract --pick` prints: what a person marked in a photograph, in the form of regions.
+
+use serde_json::Value;
+
+use super::{Fields, Regions};
+use crate::error::{Error, Result};
+
+/// The line of a regions file that a page sent; `page` is what it is called in errors.
+///
+/// # Errors
+/// [`Error::Regions`] if the text is no object of regions, or one without a panel.
+///
+/// # Example
+/// ```
+/// use vfold::stream::picked_line;
+/// let line = picked_line("the page", "{\"panel0\": [[0, 0], [9, 0],\n [9, 9], [0, 9]]}")?;
+/// assert_eq!(line, r#"{"panel0":[[0,0],[9,0],[9,9],[0,9]]}"#);
+/// assert!(picked_line("the page", "{}").is_err());
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn picked_line(page: &str, text: &str) -> Result<String> {
+    let remedy = "mark all four corners of a panel";
+    let object: Value = serde_json::from_str(text)
+        .map_err(|e| Error::regions(page, format!("this is no JSON ({e})"), remedy))?;
+    if Regions::from_fields(page, &Fields::of(&object)?)?.panels.is_empty() {
+        return Err(Error::regions(page, "no panel is marked", remedy));
+    }
+    Ok(object.to_string())
+}
