@@ -81,6 +81,11 @@ fn streams() {
             ),
             case("sed 's/\"residues\":/\"rest\":/' good.ndjson | vestimate", 1, &["residues"]),
             case(
+                "sed 's/\"angle_deg\":50.0/&,\"angle_sd_deg\":0/' good.ndjson | vestimate",
+                1,
+                &["geometry.angle_sd_deg", "above 0"],
+            ),
+            case(
                 "sed 's/\"angle_deg\":50/\"angle_deg\":0/' good.ndjson | vestimate",
                 1,
                 &["geometry", "180"],

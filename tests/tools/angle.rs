@@ -74,6 +74,21 @@ fn an_angle_that_is_told_wins_and_is_compared() {
     assert!((number(&of_square["angle_deg"]) - 50.0).abs() < 0.3, "{of_square}");
 }
 
+/// Who forgets the angle, or measures another sheet's, hears of it.
+#[test]
+fn a_scene_of_another_angle_is_named() {
+    let said = |angle_deg: u32| {
+        let run = with_photo().sh(&format!(
+            "vkernel --angle-deg {angle_deg} --facets 2x2 | vextract photo.exr --camera canon-5d-mark-ii --illuminant D65 > sample.ndjson"
+        ));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        run.stderr.contains(&format!(
+            "photo.exr: the corners say 50.0 ± 0.3°, the scene {angle_deg}°; give vkernel"
+        ))
+    };
+    assert!(said(45) && !said(51));
+}
+
 /// Corners that somebody marked tell the angle, too, of panels whose form is known.
 #[test]
 fn corners_of_the_picker_tell_the_angle() {

@@ -4,11 +4,12 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use vfold::cli;
+use vfold::estimate::photograph::beliefs::Beliefs;
 use vfold::image::{
     CornersBy, FoldSeen, FoundChart, FoundFold, Grid, Homography, Lens, NoFold, Photograph, find_chart,
     find_fold,
 };
-use vfold::stream::{Output, Regions, found_line, not_found_line};
+use vfold::stream::{Output, Regions, Scene, found_line, not_found_line};
 use vfold::{Error, Result};
 
 use super::{Args, balance, reading::Reading};
@@ -84,8 +85,26 @@ pub fn find(
         let line = format!("{}: corners found, to {:.1} % sure", path.display(), 100.0 * found.confidence);
         cli::say("vextract", &line);
     }
+    let angle = seen(args, photograph, lens).angle(&found.panels);
+    regions.angle_deg = angle.map(|angle| angle.angle_deg);
+    regions.angle_sd_deg = angle.map(|angle| angle.angle_sd_deg);
     regions.panels.extend(found.panels.into_iter().enumerate());
     Ok(found.confidence)
+}
+
+/// Angles further apart than this, in standard deviations, are not those of one fold.
+const APART: f64 = 3.0;
+
+/// What to say where the fold of the scene, whose angle somebody measured, is open by another angle than found corners tell.
+pub fn other_angle(path: &Path, scene: &Scene, regions: &Regions) -> Result<Option<String>> {
+    let Some((corners_deg, sd_deg)) = regions.angle_deg.zip(regions.angle_sd_deg) else { return Ok(None) };
+    let Some(scene_deg) = scene.fold_if_one()?.map(|fold| fold.angle_deg()) else { return Ok(None) };
+    let usual_deg = Beliefs::USUAL.angle_sd_deg.hypot(sd_deg);
+    let is_apart = scene.angle_sd_deg()?.is_none() && (corners_deg - scene_deg).abs() > APART * usual_deg;
+    Ok(is_apart.then(|| {
+        let path = path.display();
+        format!("{path}: the corners say {corners_deg:.1} ± {sd_deg:.1}°, the scene {scene_deg}°; give vkernel what --find prints, as --regions")
+    }))
 }
 
 /// Finds a chart and puts it into `regions`, if it is found surely.

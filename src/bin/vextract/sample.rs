@@ -58,6 +58,10 @@ impl Setup<'_> {
             Some(confidence)
         };
         self.calibration.forget_spare(&mut regions);
+        let other_angle = finding::other_angle(path, self.scene, &regions)?;
+        if let Some(line) = other_angle.filter(|_| !args.common.quiet) {
+            cli::say("vextract", &line);
+        }
         let panels = MarkedPanels::new(&self.panels, &regions.panels)?;
         let placed = args.placing.place(&photograph, &panels)?;
         let margin = args.regions.margin;
