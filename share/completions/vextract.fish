@@ -195,6 +195,7 @@ cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
 complete -c vextract -l find -d 'Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene'
+complete -c vextract -l pick -d 'Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is seen on this machine alone'
 complete -c vextract -s q -l quiet -d 'Say nothing but errors'
 complete -c vextract -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'

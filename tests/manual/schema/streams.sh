@@ -65,6 +65,8 @@ vextract black.tif cut.tif matrix.tif --scene finer.ndjson --regions marked.json
     -o levels.ndjson 2>said || [ $? = 3 ]
 # a photograph in which the fold is found
 vextract "$data/photos/a_ideal_magenta_50.exr" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o found.ndjson
+# one whose camera says how it was set
+vextract "$data/photos/h_raw_magenta_50.dng" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o set.ndjson
 # one beside which a chart is found
 vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance cc24 --camera canon-5d-mark-ii --illuminant D65 -q -o patches.ndjson
 fills=$(sed 1d patches.ndjson | python3 -c '
