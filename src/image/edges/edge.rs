@@ -83,18 +83,18 @@ impl Side {
             Vector2::new(inner.x - self.from.x, inner.y - self.from.y).dot(&self.across()).signum()
         });
         let of_blur = |blur: &usize| {
-            let gains = |piece: &Piece| {
+            let of_piece = |piece: &Piece| {
                 let gains = piece.gains(&self.across(), *blur, reach_px, reach_px + FLANK_PX);
-                let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, *blur));
                 let most = gains.iter().copied().fold(0.0, f64::max);
-                let says = |place: usize| {
-                    gains[place].max(most - most_of_piece) - breaks[place].min(2.0 * most_of_piece)
-                };
-                (piece.place, std::array::from_fn(says))
+                let gains = gains.map(|gain| gain.max(most - most_of_piece));
+                let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, *blur));
+                let whole = |place: usize| gains[place] - breaks[place].min(2.0 * most_of_piece);
+                ((piece.place, gains), (piece.place, std::array::from_fn(whole)))
             };
-            let gains: Vec<_> = pieces.iter().map(gains).collect();
-            let likelihoods: Vec<f64> = lines().map(|line| log_likelihood(&gains, line)).collect();
-            Blurred { blur: *blur, gain: likelihoods.iter().copied().fold(0.0, f64::max), likelihoods }
+            let (steps, whole): (Vec<_>, Vec<_>) = pieces.iter().map(of_piece).unzip();
+            let likelihoods = |gains: &[_]| lines().map(|line| log_likelihood(gains, line)).collect();
+            let of_steps: Vec<f64> = likelihoods(&steps);
+            Blurred { blur: *blur, says: greatest(&of_steps), likelihoods: likelihoods(&whole) }
         };
         Look { reach_px, ends_here: inner.is_some(), blurred: blurs.iter().map(of_blur).collect() }
     }
@@ -148,9 +148,9 @@ pub(super) struct Look {
 /// What they say under one blur.
 struct Blurred {
     blur: usize,
-    /// By how much the best line explains all pieces better than smooth light, in log likelihood; 0 if none does.
-    gain: f64,
-    /// The same for each of [`lines`].
+    /// What speaks for the best line, in log likelihood, whatever the sheet is like inside of it: 0 if there is none.
+    says: f64,
+    /// By how much each of [`lines`] explains all pieces better than smooth light, in log likelihood.
     likelihoods: Vec<f64>,
 }
 
@@ -159,9 +159,9 @@ pub(super) fn common_blur(looks: &[Look]) -> usize {
     let outer = || looks.iter().filter(|look| look.ends_here);
     let vote = |blur: &usize| {
         let of_side = |look: &Look| {
-            let most = look.blurred.iter().map(|blurred| blurred.gain).fold(1.0, f64::max);
+            let most = look.blurred.iter().map(|blurred| blurred.says).fold(1.0, f64::max);
             let says =
-                look.blurred.iter().find(|blurred| blurred.blur == *blur).map_or(0.0, |blurred| blurred.gain);
+                look.blurred.iter().find(|blurred| blurred.blur == *blur).map_or(0.0, |blurred| blurred.says);
             ((says - most) / most).max(-MOST_AGAINST)
         };
         outer().map(of_side).sum::<f64>()
@@ -173,8 +173,8 @@ impl Look {
     /// The edge, if there is one; under a blur, if the sheet ends there, else under the likeliest.
     pub fn edge(&self, blur: usize) -> Option<Edge> {
         let usable = self.blurred.iter().filter(|blurred| !self.ends_here || blurred.blur == blur);
-        let Blurred { gain, likelihoods, .. } = usable.max_by(|a, b| a.gain.total_cmp(&b.gain))?;
-        let gain = *gain;
+        let with_gain = usable.map(|blurred| (greatest(&blurred.likelihoods), &blurred.likelihoods));
+        let (gain, likelihoods) = with_gain.max_by(|a, b| a.0.total_cmp(&b.0))?;
         if gain < LEAST_GAIN {
             return None;
         }
@@ -186,6 +186,11 @@ impl Look {
         let lead = gain - elsewhere(likelihoods, gain, self.reach_px);
         Some(Edge { gain, lead, ..Edge::of(weighted, self.reach_px, model_sd_px) })
     }
+}
+
+/// The greatest likelihood, 0 if all are less.
+fn greatest(likelihoods: &[f64]) -> f64 {
+    likelihoods.iter().copied().fold(0.0, f64::max)
 }
 
 /// Lines past a side's ends, by the places that they pass there.
