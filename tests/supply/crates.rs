@@ -50,12 +50,17 @@ fn nothing_talks_to_a_network() {
             "{name} is among the crates, those of `raw` included"
         );
     }
+    // one file serves a page to this machine alone; what asks for it in an example is no part of the tools
+    let page = path("src/cli/served.rs");
     for file in sources(&path("src")) {
         let source = std::fs::read_to_string(&file).unwrap();
+        let code = source.lines().filter(|line| file != page || !line.trim_start().starts_with("///"));
         for word in ["std::net", "TcpStream", "UdpSocket", "rustix::net"] {
-            assert!(!source.contains(word), "{}: {word}", file.display());
+            assert!(code.clone().all(|line| !line.contains(word)), "{}: {word}", file.display());
         }
+        assert!(!source.contains("tiny_http") || file == page, "{}", file.display());
     }
+    assert!(text("src/cli/served.rs").contains(r#"Server::http(("127.0.0.1", 0))"#));
 }
 
 #[test]
