@@ -50,7 +50,7 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
 
 /// Refuses regions of a photograph in which no fold was found, or not surely.
 fn check_found(name: &str, regions: &Regions) -> Result<()> {
-    let remedy = "mark its corners with share/picker.html";
+    let remedy = "mark its corners with vextract --pick";
     if let Some(reason) = &regions.missing {
         return Err(Error::regions(name, reason, remedy));
     }
