@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""What it costs that nothing is typed but camera and light: photographs with fold, angle and chart told and found, as rows of a table.
+
+    find_told.py TOOLS SIDECAR...        TOOLS: folder of the tools
+
+Told: corners, angle and tilt as a careful user has them, and the chart. Found: what `vextract --find` prints. Photographs that are not surely found
+are left out of both.
+"""
+
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from photographs import Tools, of_real, table
+from sheets import errors, estimated, within
+
+
+def found_records(tools, sidecar, work):
+    """Records of a photograph of which camera and light are told; none if its fold is not surely found."""
+    said = json.loads(sidecar.read_text(encoding="utf-8"))
+    told, nm, photo = said["told"], said["wavelengths_nm"], sidecar.with_suffix(".tif")
+    regions = work / "regions.json"
+    regions.write_text(tools.run("vextract", "-q", "--find", photo)[0], encoding="utf-8")
+    camera = table(work / "camera.csv", nm, told["camera_sensitivities_rgb"])
+    light = table(work / "light.csv", nm, [told["illuminant_spd"]])
+    try:
+        scene, _ = tools.run("vkernel", "-q", "--regions", regions)
+        return tools.run("vextract", "-q", photo, "--regions", regions, "--camera", camera, "--illuminant", light, "--refine", given=scene)[0]
+    except subprocess.CalledProcessError:
+        return None
+
+
+def measured(tools, sidecar):
+    """RMSE and errors over their standard deviations, told and found; none of a photograph that is not found."""
+    with tempfile.TemporaryDirectory() as work:
+        records, truth = of_real(tools, sidecar, Path(work))
+        found = found_records(tools, sidecar, Path(work))
+        if not found:
+            return None
+        scores = []
+        for each in (records, found):
+            nm, estimate, _ = estimated(tools, each, [])
+            scores.append(errors(nm, estimate, truth))
+        return scores
+
+
+def main(folder, *sidecars):
+    tools, sets = Tools(folder), defaultdict(list)
+    with ThreadPoolExecutor() as several:
+        for sidecar, scores in zip(sidecars, several.map(lambda sidecar: measured(tools, Path(sidecar)), sidecars), strict=True):
+            sets[Path(sidecar).parent.name].append(scores)
+    print("| set | pictures | surely found | RMSE told | found | median told | found | worst told | found | within 1, 2 sd told, % | found |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for name, all_scores in sets.items():
+        claimed = [scores for scores in all_scores if scores]
+        cells = []
+        for score in (statistics.fmean, statistics.median, max):
+            cells += [f"{score([scores[way][0] for scores in claimed]):.4f}" for way in (0, 1)]
+        cells += [within([z for scores in claimed for z in scores[way][1]]) for way in (0, 1)]
+        print(f"| {name} | {len(all_scores)} | {len(claimed)} | {' | '.join(cells)} |", flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
