@@ -43,8 +43,8 @@ pub use measuring::{
 };
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{
-    CameraNotes, FileStamp, FlatField, Mosaic, Orientation, Photograph, PhotographInfo, Pixel, SensorInfo,
-    Taken,
+    CameraNotes, FileStamp, FlatField, Mosaic, Orientation, OtherLight, Photograph, PhotographInfo, Pixel,
+    SensorInfo, Taken,
 };
 pub use placing::{
     CHART_CORNERS, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,

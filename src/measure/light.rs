@@ -3,26 +3,41 @@
 use crate::image::Taken;
 use crate::spectrum::Sun;
 
-/// The sun as SPEC, by what the camera wrote. A hundredth of a degree is near enough, and tells nobody's address.
-///
-/// # Errors
-/// Why it does not tell, in words.
-pub fn sun_of(taken: &Taken) -> Result<(String, Sun), String> {
+/// The light of a photograph by what its camera wrote, or why that does not tell it, in words.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LightTaken {
+    /// The sun, as SPEC. A hundredth of a degree is near enough, and tells nobody's address.
+    Sun(String, Sun),
+    /// Daylight, for all that is known.
+    Daylight(String),
+    /// Not daylight: a flash, lamps, or whatever there was at night.
+    OtherThanDaylight(String),
+}
+
+/// What the camera wrote of the light.
+#[must_use]
+pub fn light_of(taken: &Taken) -> LightTaken {
     let Taken { place_deg, time, other_light } = taken;
     if let Some(light) = other_light {
-        return Err(format!("the photograph says {light}"));
+        let said = format!("the photograph says {}", light.name());
+        let is_daylight = light.is_daylight();
+        return if is_daylight { LightTaken::Daylight(said) } else { LightTaken::OtherThanDaylight(said) };
     }
-    match (place_deg, time) {
+    let missing = match (place_deg, time) {
         (Some([latitude, longitude]), Some(time)) => {
             let place = format!("{latitude:.2},{longitude:.2},{time}");
-            let sun = Sun::parse(&place)
-                .map_err(|_| "by the photograph's place and time it was night".to_owned())?;
-            Ok((format!("sun:{place}"), sun))
+            return Sun::parse(&place).map_or_else(
+                |_| {
+                    LightTaken::OtherThanDaylight(
+                        "by the photograph's place and time it was night".to_owned(),
+                    )
+                },
+                |sun| LightTaken::Sun(format!("sun:{place}"), sun),
+            );
         }
-        (None, None) => Err("the photograph does not say where and when it was taken".to_owned()),
-        (None, _) => Err("the photograph does not say where it was taken".to_owned()),
-        (_, None) => {
-            Err("the photograph does not say when it was taken, with its difference from UTC".to_owned())
-        }
-    }
+        (None, None) => "where and when it was taken",
+        (None, _) => "where it was taken",
+        (_, None) => "when it was taken, with its difference from UTC",
+    };
+    LightTaken::Daylight(format!("the photograph does not say {missing}"))
 }

@@ -6,10 +6,11 @@ mod light;
 use std::collections::BTreeMap;
 
 pub use camera::{Camera, camera_of};
-pub use light::sun_of;
+pub use light::{LightTaken, light_of};
 
 use crate::error::{Error, Result};
 use crate::estimate::Exposure;
+use crate::estimate::light::Candidate;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
 use crate::estimate::noise::{Noise, NoiseSource};
@@ -23,7 +24,7 @@ use crate::image::{
 };
 use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
 use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, stated};
-use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid};
+use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, likely_lights};
 use crate::stream::{self, Optics};
 
 /// A photographed fold, and what is known of it.
@@ -40,7 +41,7 @@ pub struct Setup<'a> {
     /// Built-in name or file of the camera; none: the one that the photograph names, or one that stands in for it.
     pub camera: Option<&'a str>,
     /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; none: the sun of the photograph's place and time if it says
-    /// them, else daylight that is assumed.
+    /// them, else daylight that is assumed, or, by a flash, a lamp or at night, a light that is found.
     pub illuminant: Option<&'a str>,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, if it is known.
     pub exposure: Option<f64>,
@@ -72,7 +73,10 @@ impl Setup<'_> {
             Some(named) => Camera { spec: named.to_owned(), stands_in: None, said: None },
             None => camera_of(info)?,
         };
-        let sun = || sun_of(&info.camera.taken).ok().map(|(spec, _)| spec);
+        let sun = || match light_of(&info.camera.taken) {
+            LightTaken::Sun(spec, _) => Some(spec),
+            LightTaken::Daylight(_) | LightTaken::OtherThanDaylight(_) => None,
+        };
         let light = self.illuminant.map(str::to_owned).or_else(sun);
         let illuminant = stream::illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
         let curves = stream::camera(&camera.spec)?;
@@ -88,6 +92,16 @@ impl Setup<'_> {
             card: None,
             tolerance: Some(TOLERANCE),
         })
+    }
+
+    /// What the light may be where nobody states it and the camera wrote that it was not daylight; empty otherwise.
+    fn lights(&self, photograph: &Photograph, optics: &Optics) -> Result<Vec<Candidate>> {
+        match (self.illuminant, light_of(&photograph.info().camera.taken)) {
+            (None, LightTaken::OtherThanDaylight(_)) => {
+                Candidate::all(&likely_lights()?, &self.wavelengths, &optics.camera.sensitivities)
+            }
+            _ => Ok(Vec::new()),
+        }
     }
 }
 
@@ -154,14 +168,16 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         by_chart: false,
         parts: Some(PhotographedFold::of(&fold).parts(&picture)?),
     };
+    let lights = setup.lights(photograph, fold.optics()?)?;
+    let stated = stated(fold.optics()?, fold.is_daylight_assumed);
     let inference = Inference {
         model: &model,
         wavelengths_nm: setup.wavelengths.wavelengths_nm(),
         prior: &Prior::built_in(setup.wavelengths.wavelengths_nm())?,
         start: None,
         is_auto: true,
-        stated: &stated(fold.optics()?, fold.is_daylight_assumed),
-        lights: &[],
+        stated: &if lights.is_empty() { stated } else { stated.but_light() },
+        lights: &lights,
         panel: Some(fold.fold.facets()),
     };
     let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);

@@ -14,6 +14,12 @@ use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const TOLD_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
+/// Fields of how sure things are that were found, and what these are.
+const FOUND: [(&str, &str); 2] = [
+    ("image.found_confidence", "corners of the panels"),
+    ("calibration.found_confidence", "corners of the colour chart"),
+];
+
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
@@ -23,6 +29,7 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     let sheet = estimate.as_ref().map(|estimate| shown.sheet(estimate, view)).transpose()?;
     parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
     parts.extend(overlay::figure(&sample.id(), gallery, view)?);
+    parts.extend(found(sample)?);
     parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(findings));
     parts.extend(estimate.as_ref().and_then(light));
@@ -37,6 +44,17 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     }
     let id = format!("sample-{number}");
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
+}
+
+/// What vextract found in the photograph and nobody told it, with how sure that is.
+fn found(sample: &Sample) -> Result<Option<Html>> {
+    let mut rows = Vec::new();
+    for (field, what) in FOUND {
+        let confidence = sample.fields.text_at(field)?.and_then(|text| text.parse::<f64>().ok());
+        rows.extend(confidence.map(|sure| vec![what.into(), format!("{:.1} %", 100.0 * sure).into()]));
+    }
+    let headings = ["what", "how sure"];
+    Ok((!rows.is_empty()).then(|| Html::table("Found in the picture, not told", &headings, rows)))
 }
 
 /// The verdict; of a record without one what speaks against it.

@@ -59,14 +59,33 @@ fn daylight_is_assumed_aloud() {
         ("sh picture".to_owned(), "does not say where and when"),
         (MUNICH.to_owned(), "does not say when"),
         (format!("sh picture {NOON}"), "does not say where"),
-        (format!("{MUNICH} {MIDNIGHT}"), "it was night"),
-        (format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:Flash 1"), "the photograph says flash"),
         (format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:LightSource 10"), "the photograph says clouds"),
     ] {
         let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
         assert_eq!(illuminant(&run), "D65", "{picture}");
         assert!(of_light(&run).starts_with("vextract: daylight assumed, D65: "), "{}", run.stderr);
         assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
+    }
+}
+
+/// A flash, lamps, the night: which of them it was, vestimate finds.
+#[test]
+fn what_is_no_daylight_is_to_be_found() {
+    let folder = Workdir::new();
+    for (picture, why) in [
+        (format!("{MUNICH} {MIDNIGHT}"), "it was night"),
+        (format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:Flash 1"), "the photograph says flash"),
+        (
+            format!("{MUNICH} {NOON} --attrib:type=uint16 Exif:LightSource 3"),
+            "the photograph says light bulbs",
+        ),
+    ] {
+        let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
+        assert!(run.stdout.contains("\"illuminant_unknown\":true"), "{picture}: {run:?}");
+        assert!(of_light(&run).starts_with("vextract: which light it was is to be found"), "{}", run.stderr);
+        assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
+        let told = folder.sh(&format!("{SETUP}\n{picture}; sh extract --illuminant A"));
+        assert_eq!(illuminant(&told), "A", "{picture}");
     }
 }
 

@@ -72,6 +72,22 @@ fn a_page_asks_for_nothing_and_is_described() {
 }
 
 #[test]
+fn what_was_found_is_said_with_how_sure_it_is() {
+    let folder = Workdir::new();
+    let photo = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
+    let page = report(
+        &folder,
+        &format!(
+            "vkernel --angle-deg 50 | vextract '{photo}' -q --camera canon-5d-mark-ii --illuminant D65 | vestimate -q | vscore"
+        ),
+    );
+    let page = Document::parse(body(&page)).unwrap();
+    let sure = 100.0 * records(&folder)[1]["image"]["found_confidence"].as_f64().unwrap();
+    let found = &table(&page, "Found in the picture, not told")[1..];
+    assert_eq!(found, [["corners of the panels".to_owned(), format!("{sure:.1} %")]]);
+}
+
+#[test]
 fn numbers_are_those_of_the_record() {
     let folder = Workdir::new();
     let page = report(&folder, &format!("{ONE} | vscore"));

@@ -4,14 +4,15 @@ use std::path::Path;
 
 use vfold::cli::OpticsArgs;
 use vfold::image::Photograph;
-use vfold::measure::sun_of;
+use vfold::measure::{LightTaken, light_of};
+use vfold::spectrum::UNKNOWN_LIGHT;
 
-/// What was given, with the sun of the `first` photograph's place and time if no illuminant was; and what is to be said of that.
+/// What was given, or, if no illuminant was, the light of the `first` photograph by what its camera wrote; and what is to be said of that.
 pub fn optics(given: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
     let mut optics = given.clone();
     let (true, Some(photograph)) = (optics.illuminant.is_empty(), first) else { return (optics, None) };
-    let said = match sun_of(&photograph.info().camera.taken) {
-        Ok((spec, sun)) => {
+    let said = match light_of(&photograph.info().camera.taken) {
+        LightTaken::Sun(spec, sun) => {
             let said = format!(
                 "{spec} by place and time of {}: a cloudless sky, the sun {:.1}° from the zenith; \
                  --illuminant says otherwise",
@@ -21,7 +22,13 @@ pub fn optics(given: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (O
             optics.illuminant = vec![spec];
             said
         }
-        Err(why) => format!("daylight assumed, D65: {why}; --illuminant says which light it was"),
+        LightTaken::Daylight(why) => {
+            format!("daylight assumed, D65: {why}; --illuminant says which light it was")
+        }
+        LightTaken::OtherThanDaylight(why) => {
+            optics.illuminant = vec![UNKNOWN_LIGHT.to_owned()];
+            format!("which light it was is to be found in the picture: {why}; --illuminant says which it was")
+        }
     };
     (optics, Some(said))
 }

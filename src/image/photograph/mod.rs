@@ -24,7 +24,7 @@ pub(in crate::image) use interleaved::Interleaved;
 pub use mosaic::Mosaic;
 pub use orientation::Orientation;
 pub use pixel::Pixel;
-pub use taken::Taken;
+pub use taken::{OtherLight, Taken};
 
 use std::ops::Range;
 use std::path::Path;

@@ -1,5 +1,7 @@
 //! What pictures say of place, time and light, as EXIF has it; the two readers of EXIF give the parts.
 
+use crate::image::photograph::OtherLight;
+
 /// Degrees, minutes and seconds, and the side of the equator or of Greenwich on which they lie.
 pub(super) type Angle<'a> = ([f64; 3], &'a str);
 
@@ -53,14 +55,14 @@ fn moment(date: &str, [hour, minute, second]: [f64; 3]) -> Option<String> {
 }
 
 /// The light that is not the sun's, by the flash and the number that EXIF has for lights.
-pub(super) fn other_light(has_fired: bool, source: Option<u32>) -> Option<&'static str> {
+pub(super) fn other_light(has_fired: bool, source: Option<u32>) -> Option<OtherLight> {
     match source {
-        _ if has_fired => Some("flash"),
-        Some(2 | 12..=16) => Some("fluorescent lamps"),
-        Some(3 | 17 | 24) => Some("light bulbs"),
-        Some(4) => Some("flash"),
-        Some(10) => Some("clouds"),
-        Some(11) => Some("shade"),
+        _ if has_fired => Some(OtherLight::Flash),
+        Some(2 | 12..=16) => Some(OtherLight::FluorescentLamps),
+        Some(3 | 17 | 24) => Some(OtherLight::LightBulbs),
+        Some(4) => Some(OtherLight::Flash),
+        Some(10) => Some(OtherLight::Clouds),
+        Some(11) => Some(OtherLight::Shade),
         _ => None,
     }
 }
