@@ -48,7 +48,7 @@ pub use photograph::{
 };
 pub use placing::{
     CHART_CORNERS, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
-    check_inside, parse_corners,
+    check_inside, parse_corners, parse_point,
 };
 pub use pose::{CornersBy, FoldAngle, FoldSeen};
 pub use reading::PictureFile;

@@ -47,8 +47,9 @@ fn a_camera_that_no_photograph_names_is_asked() {
 #[test]
 fn several_photographs_have_one_page() {
     let (folder, run) = run(
-        &["a.exr", "b.exr"],
-        "echo none > c.exr\nmeasure --yes --camera canon-5d-mark-ii --illuminant D65 a.exr b.exr c.exr",
+        &["a.exr"],
+        "oiiotool a.exr -o a.tif; echo none > c.exr
+        measure --yes --camera canon-5d-mark-ii --illuminant D65 a.exr a.tif c.exr",
     );
     assert_eq!(run.status, 3, "{run:?}");
     assert!(run.stderr.contains("vfold-measure: 3 of 3, c.exr\n"), "{run:?}");

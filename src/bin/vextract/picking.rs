@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use vfold::cli::{self, Reply, ServedFile};
-use vfold::image::{Lens, Photograph, Point, find_fold, find_fold_around, write_preview};
+use vfold::image::{Photograph, Point, find_fold, find_fold_around, parse_point, write_preview};
 use vfold::stream::{Output, picked_line};
 use vfold::{Error, Result};
 
@@ -29,6 +29,14 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     };
     let photograph = reading.open(path)?;
     let lens = args.placing.lens(&photograph)?;
+    let chart = finding::sure_chart(&photograph, lens);
+    let found =
+        finding::line(args, path, &photograph, lens, (&find_fold(&photograph, &lens), chart.as_ref()))?;
+    // the chart stays as the person has it
+    let around = |clicks| {
+        let fold = find_fold_around(&photograph, &lens, clicks);
+        finding::line(args, path, &photograph, lens, (&fold, None))
+    };
     let files = [
         ServedFile { name: "", media_type: "text/html; charset=utf-8", bytes: PAGE.into() },
         ServedFile {
@@ -36,16 +44,12 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
             media_type: "image/png",
             bytes: preview(args, path, &photograph)?,
         },
-        ServedFile {
-            name: "regions.json",
-            media_type: "application/json",
-            bytes: found(args, path, &photograph, lens, None)?.into(),
-        },
+        ServedFile { name: "regions.json", media_type: "application/json", bytes: found.into() },
     ];
     let reply = |name: &str, text: &str| match name {
         "done" => picked_line("the page", text)
             .map_or_else(|problem| Reply::Refused(problem.to_string()), Reply::Answered),
-        "find" => match clicks(text).map(|clicks| found(args, path, &photograph, lens, Some(clicks))) {
+        "find" => match clicks(text).map(around) {
             Some(Ok(line)) => Reply::Text(line),
             Some(Err(problem)) => Reply::Refused(problem.to_string()),
             None => Reply::Refused("write two places as x,y x,y".to_owned()),
@@ -65,30 +69,9 @@ fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>>
     std::fs::read(&file).map_err(unwritten)
 }
 
-/// The fold in a photograph, or the one whose panels are at two places, and the chart.
-fn found(
-    args: &Args,
-    path: &Path,
-    photograph: &Photograph,
-    lens: Lens,
-    panels: Option<[Point; 2]>,
-) -> Result<String> {
-    let fold = match panels {
-        Some(panels) => find_fold_around(photograph, &lens, panels),
-        None => find_fold(photograph, &lens),
-    };
-    let chart = finding::sure_chart(photograph, lens);
-    finding::line(args, path, photograph, lens, (&fold, chart.as_ref()))
-}
-
 /// Two places of the photograph, px, as `x,y x,y`.
 fn clicks(text: &str) -> Option<[Point; 2]> {
-    let place = |pair: &str| {
-        let (x, y) = pair.split_once(',')?;
-        Some(Point::new(x.parse().ok()?, y.parse().ok()?))
-    };
-    let [first, second] = text.split_whitespace().map(place).collect::<Option<Vec<_>>>()?.try_into().ok()?;
-    Some([first, second])
+    text.split_whitespace().map(parse_point).collect::<Option<Vec<_>>>()?.try_into().ok()
 }
 
 /// Opens the page for somebody who sits at a terminal, and says where it is.

@@ -44,8 +44,8 @@ beliefs! {
     /// Of one that nobody states: people expose so that white that faces the sun lies within a third and three times the white level of the
     /// picture in nineteen cases of twenty.
     exposure_sd: 0.55,
-    /// Of one that the camera's settings and the height of the sun tell: sensors are more sensitive than makers say by up to a stop, apertures and
-    /// lenses pass a tenth more or less.
+    /// Of one that the camera's settings and the height of the sun tell: a round number, measured on no camera; ISO 12232 lets makers state several
+    /// kinds of sensitivity, and apertures and lenses are not quite what they are called.
     exposure_metered_sd: 0.3,
     /// How heavy the tails are of what was stated, now and then by mistake; 0: those of a normal number.
     stated_tail: 0.5,

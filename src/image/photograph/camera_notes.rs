@@ -35,7 +35,8 @@ const SATURATION_LX_S: f64 = 78.0;
 
 impl CameraNotes {
     /// Value of a perfect white diffuser under 1000 lx, that of a full sensor being 1, by exposure time, aperture and sensitivity; none if not all
-    /// three are said. Makers may understate the sensitivity of a sensor by a third of a stop and more.
+    /// three are said. That standard lets makers state
+    /// other sensitivities than this one, so that a sensor may be full sooner or later.
     ///
     /// # Source
     /// ISO 12232:2019, saturation-based speed; a diffuser under E lx has a luminance of E / π.

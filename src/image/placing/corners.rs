@@ -51,7 +51,16 @@ pub fn parse_corners(flag: &'static str, text: &str, names: &[&str; 4]) -> Resul
     }
 }
 
-fn parse_point(pair: &str) -> Option<Point> {
+/// Parses `x,y`, px.
+///
+/// # Example
+/// ```
+/// use vfold::image::{Point, parse_point};
+/// assert_eq!(parse_point("3,4.5"), Some(Point::new(3.0, 4.5)));
+/// assert_eq!(parse_point("3"), None);
+/// ```
+#[must_use]
+pub fn parse_point(pair: &str) -> Option<Point> {
     let (x, y) = pair.split_once(',')?;
     Some(Point::new(x.parse().ok()?, y.parse().ok()?))
 }

@@ -10,7 +10,7 @@ mod point;
 mod pose;
 
 pub(in crate::image) use corners::is_inside;
-pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners};
+pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners, parse_point};
 pub use distortion::Lens;
 pub use framing::Framing;
 pub use grid::Grid;
