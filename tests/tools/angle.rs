@@ -1,5 +1,7 @@
 //! The angle of a fold from a photograph alone: `--find` prints it, vkernel takes it, vestimate believes it as far as it is known.
 
+use std::fs;
+
 use serde_json::Value;
 
 use crate::common::{Ended, Workdir};
@@ -11,7 +13,7 @@ const ALL: &str = "vextract --find photo.exr > regions.json
 /// A folder with a photograph of a fold of 50°.
 fn with_photo() -> Workdir {
     let folder = Workdir::new();
-    std::fs::copy(format!("{PHOTOS}/a_ideal_magenta_50.exr"), folder.path().join("photo.exr")).unwrap();
+    fs::copy(format!("{PHOTOS}/a_ideal_magenta_50.exr"), folder.path().join("photo.exr")).unwrap();
     folder
 }
 
@@ -77,7 +79,7 @@ fn an_angle_that_is_told_wins_and_is_compared() {
 /// Who forgets the angle or the form of the panels, or measures another sheet's, hears of it, and the estimate is not called good.
 #[test]
 fn a_scene_of_another_fold_is_named() {
-    let panels = "--panel0 332,462,345,77,122,12,104,442 --panel1 332,462,345,77,485,17,472,446";
+    let panels = "--panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'";
     let estimated = |fold: &str, corners: &str| {
         let folder = with_photo();
         let run = folder.sh(&format!(
