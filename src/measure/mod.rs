@@ -86,6 +86,8 @@ impl Setup<'_> {
             fold: self.fold,
             angle_sd_deg: None,
             light: self.light,
+            sky: None,
+            is_lit_otherwise: false,
             response: respond(&self.fold, Mesh::Auto, TOLERANCE)?.0,
             optics: Some(optics),
             is_daylight_assumed: light.is_none(),

@@ -17,7 +17,7 @@ use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
-use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::conditions::{Daylight, SkyKind};
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
 use crate::estimate::photograph::{Told, Unmodelled};
@@ -122,7 +122,7 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let FoldSetting { fold, angle_sd_deg, light, is_daylight_assumed, .. } = self.setting;
+        let FoldSetting { fold, angle_sd_deg, light, sky, is_daylight_assumed, .. } = self.setting;
         let Picture { measured, exposure, by_chart, white_per_klx, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
@@ -148,13 +148,18 @@ impl<'a> PhotographedFold<'a> {
             daylight: Daylight::of(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
             sky: Some(light.sky()).filter(|sky| *sky > 0.0),
+            sky_kind: sky.map(|sky| SkyKind {
+                is_overcast: sky.is_overcast,
+                elevation_deg: sky.zenith.dot(&sun).clamp(-1.0, 1.0).asin().to_degrees(),
+            }),
             sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
             day: Day::Clear,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let even = self.exact(ModeLight::Sky(1.0));
-        let surroundings = ambient::of(fold, (&pose, sun), (&self.nodes, &even), &bins)?;
+        let zenith = sky.map(|sky| sky.zenith);
+        let surroundings = ambient::of(fold, (&pose, sun, zenith), (&self.nodes, &even), &bins)?;
         let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {
             told,

@@ -7,8 +7,17 @@ fn lights() {
     assert_refused(
         "",
         &[
-            case("vkernel --light 0,0,1", 2, &["--light", "--tilt-deg"]),
-            case("vkernel --sky-type overcast", 2, &["--sky-type", "fold"]),
+            case("vkernel --light 0,0,1 --tilt-deg 5", 2, &["--tilt-deg", "--light X,Y,Z"]),
+            case("vkernel --light 0,0,1 --method midpoint", 2, &["--method", "not beside --light"]),
+            case("vkernel --sky-type overcast", 2, &["--sky-type", "no sky", "--sky only"]),
+            case("vkernel --sky only --sky-type 16", 2, &["--sky-type", "1 to 15"]),
+            case(
+                "vkernel --sky only --sky-type clear --zenith 0,0,-1",
+                2,
+                &["--sky-type", "below its horizon"],
+            ),
+            case("vkernel --light area:0,0,2", 2, &["--light", "WIDTHxHEIGHT"]),
+            case("vkernel --light area:0,0,2,1x0", 2, &["--light", "rectangle"]),
             case("vkernel --folds 2 --light 0,0", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light 0,0,1:", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light point:0,0,x", 2, &["--light", "X,Y,Z"]),

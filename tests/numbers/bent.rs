@@ -7,12 +7,12 @@ use std::path::PathBuf;
 use nalgebra::Vector3;
 use ndarray::Array2;
 use serde_json::Value;
+use vfold::geometry::StandardSky;
 use vfold::geometry::{FacetGrid, Fold};
 use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure};
 use vfold::kernel::bent::{BentExchange, BentFold};
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
 use vfold::kernel::refinement::refine;
-use vfold::kernel::standard_sky::StandardSky;
 use vfold::response::ModeLight;
 
 const GRID: FacetGrid = FacetGrid { rows: 10, cols: 10 };

@@ -83,6 +83,8 @@ pub struct Told {
     pub is_daylight_assumed: bool,
     /// Irradiance by the sky that somebody stated, that by the sun being 1.
     pub sky: Option<f64>,
+    /// What of the sky somebody stated beside that, if it is not alike in all directions.
+    pub sky_kind: Option<SkyKind>,
     /// Irradiance by the sun of a plane that faces it, as it was stated: 1, or 0 if the sky is alone.
     pub sun: f64,
     /// Whether the sky's colour is given.
@@ -95,7 +97,19 @@ impl Told {
     /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun being 1.
     #[must_use]
     pub fn even_sky(&self) -> f64 {
-        self.sky.unwrap_or(0.0)
+        self.sky.filter(|_| self.sky_kind.is_none()).unwrap_or(0.0)
+    }
+
+    /// The same of a sky with a horizon.
+    #[must_use]
+    pub fn sky_above_horizon(&self) -> f64 {
+        self.sky.filter(|_| self.sky_kind.is_some()).unwrap_or(0.0)
+    }
+
+    /// How far above the horizon the fold opens, degrees, by the zenith that somebody stated.
+    #[must_use]
+    pub fn elevation_deg(&self) -> Option<f64> {
+        self.sky_kind.map(|kind| kind.elevation_deg)
     }
 
     /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
@@ -111,6 +125,15 @@ impl Told {
     pub fn is_exposure_stated(&self) -> bool {
         self.exposure.is_some() && !self.by_chart
     }
+}
+
+/// A sky with a horizon, as it was stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyKind {
+    /// Whether clouds cover it.
+    pub is_overcast: bool,
+    /// How far above the horizon the fold opens, degrees.
+    pub elevation_deg: f64,
 }
 
 /// Daylight of a reciprocal colour temperature, 1e-6/K.
