@@ -15,6 +15,7 @@ use crate::estimate::measured::Measured;
 use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
 use crate::estimate::noise::{Noise, NoiseSource};
 use crate::estimate::prior::Prior;
+use crate::estimate::shadow::Shadow;
 use crate::estimate::unknowns::SceneModel;
 use crate::estimate::verdict::refuse_unexplained;
 use crate::forward::FacetValues;
@@ -154,6 +155,8 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     };
     let model = SceneModel::known(fold.model()?);
     let sd = noise.deviations(model.facets(), &rgb)?;
+    let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
+    let rgb = Shadow::left_out(&shadows, &rgb);
     let measured = &Measured { rgb: &rgb, sd: &sd };
     let picture = Picture {
         measured,
@@ -168,6 +171,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let taken = Photographed {
         making: Making::of(photograph.info(), processing, open_sides(photograph, &panels)),
         by_chart: false,
+        shadows,
         parts: Some(PhotographedFold::of(&fold).parts(&picture)?),
     };
     let lights = setup.lights(photograph, fold.optics()?)?;

@@ -12,7 +12,7 @@ use framing::Pose;
 use nalgebra::Vector3;
 use ndarray::Array2;
 
-use super::{FoldSetting, metered};
+use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
@@ -151,6 +151,7 @@ impl<'a> PhotographedFold<'a> {
             sky_kind: sky.map(|sky| SkyKind {
                 is_overcast: sky.is_overcast,
                 elevation_deg: sky.zenith.dot(&sun).clamp(-1.0, 1.0).asin().to_degrees(),
+                is_zenith_stated: sky.is_zenith_stated(),
             }),
             sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
@@ -158,7 +159,7 @@ impl<'a> PhotographedFold<'a> {
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let even = self.exact(ModeLight::Sky(1.0));
-        let zenith = sky.map(|sky| sky.zenith);
+        let zenith = sky.filter(StatedSky::is_zenith_stated).map(|sky| sky.zenith);
         let surroundings = ambient::of(fold, (&pose, sun, zenith), (&self.nodes, &even), &bins)?;
         let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {

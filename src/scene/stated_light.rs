@@ -61,6 +61,11 @@ impl StatedLight {
 }
 
 impl StatedSky {
+    /// Whether somebody said where the zenith is: the default is where the fold opens to.
+    pub fn is_zenith_stated(&self) -> bool {
+        self.zenith != Vector3::z()
+    }
+
     fn of(source: &LightSource) -> Option<Self> {
         match source {
             LightSource::OvercastSky { zenith, .. } => Some(Self { is_overcast: true, zenith: *zenith }),

@@ -44,6 +44,8 @@ pub struct Conditions {
     pub bow_deg: f64,
     /// By how much panel 0 turns more than their mean, and panel 1 less, degrees.
     pub bow_difference_deg: f64,
+    /// By how much end 1 of the crease has less light than end 0, relative to the middle.
+    pub fall_off: f64,
     /// Share of the light that the lens loses in the corners of the picture.
     pub vignetting: f64,
     /// Share of the picture's mean light that the lens spreads over all of it.
@@ -109,7 +111,7 @@ impl Told {
     /// How far above the horizon the fold opens, degrees, by the zenith that somebody stated.
     #[must_use]
     pub fn elevation_deg(&self) -> Option<f64> {
-        self.sky_kind.map(|kind| kind.elevation_deg)
+        self.sky_kind.filter(|kind| kind.is_zenith_stated).map(|kind| kind.elevation_deg)
     }
 
     /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
@@ -134,6 +136,8 @@ pub struct SkyKind {
     pub is_overcast: bool,
     /// How far above the horizon the fold opens, degrees.
     pub elevation_deg: f64,
+    /// Whether somebody said so: straight up is what nobody has to say of a computed fold.
+    pub is_zenith_stated: bool,
 }
 
 /// Daylight of a reciprocal colour temperature, 1e-6/K.

@@ -114,7 +114,7 @@ impl<'a> PhotographModel<'a> {
             } else {
                 0.0
             },
-            elevation_deg: told.elevation_deg().unwrap_or(told.beliefs.elevation_deg),
+            elevation_deg: stated_sky.map_or(told.beliefs.elevation_deg, |sky| sky.elevation_deg),
             even_sky: if is_ideal { told.even_sky() } else { 0.0 },
             sky_mired: None,
             ground: 0.0,
@@ -122,6 +122,7 @@ impl<'a> PhotographModel<'a> {
             crease_radius: 0.0,
             bow_deg: 0.0,
             bow_difference_deg: 0.0,
+            fall_off: 0.0,
             vignetting: 0.0,
             glare: 0.0,
             gloss: 0.0,

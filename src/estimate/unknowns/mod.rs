@@ -18,6 +18,7 @@ mod elevation;
 mod even_sky;
 mod exposure;
 mod factor;
+mod fall_off;
 mod first_gain;
 mod fuzz;
 mod glare;
@@ -48,6 +49,7 @@ use elevation::ELEVATION;
 pub use even_sky::EVEN_SKY;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
+use fall_off::FALL_OFF;
 use first_gain::FIRST_GAIN;
 use fuzz::FUZZ;
 use glare::GLARE;
@@ -90,6 +92,7 @@ pub static TABLE: &[&Unknown] = &[
     &CREASE,
     &BOW,
     &BOW_DIFFERENCE,
+    &FALL_OFF,
     &VIGNETTING,
     &GLARE,
     &FIRST_GAIN,
