@@ -44,6 +44,8 @@ pub struct Conditions {
     pub bow_deg: f64,
     /// By how much panel 0 turns more than their mean, and panel 1 less, degrees.
     pub bow_difference_deg: f64,
+    /// Depth of a panel over the distance of the lamp that lights it; 0 of the sun.
+    pub nearness: f64,
     /// By how much end 1 of the crease has less light than end 0, relative to the middle.
     pub fall_off: f64,
     /// Share of the light that the lens loses in the corners of the picture.

@@ -122,6 +122,7 @@ impl<'a> PhotographModel<'a> {
             crease_radius: 0.0,
             bow_deg: 0.0,
             bow_difference_deg: 0.0,
+            nearness: 0.0,
             fall_off: 0.0,
             vignetting: 0.0,
             glare: 0.0,

@@ -1,6 +1,6 @@
 //! Light that falls off along the crease.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
 use crate::estimate::Fitted;
 
 /// By how much one end of the crease has less light than the other, relative to its middle; negative: more.
@@ -31,7 +31,6 @@ pub static FALL_OFF: Unknown = Unknown {
     }),
 };
 
-/// Of the sun's light it is as little as what no other unknown explains.
 fn prior(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: 0.0, sd: told.beliefs.discrepancy_shared }.into())
+    Some(told.beliefs.unevenness().into())
 }

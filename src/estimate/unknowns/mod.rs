@@ -27,6 +27,7 @@ mod gloss_roughness;
 mod ground;
 mod ground_redness;
 mod last_gain;
+mod nearness;
 mod scene_model;
 mod sky;
 mod sky_colour;
@@ -58,6 +59,7 @@ use gloss_roughness::GLOSS_ROUGHNESS;
 use ground::GROUND;
 use ground_redness::GROUND_REDNESS;
 use last_gain::LAST_GAIN;
+use nearness::NEARNESS;
 pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
 pub use sky_colour::SKY_COLOUR;
@@ -92,6 +94,7 @@ pub static TABLE: &[&Unknown] = &[
     &CREASE,
     &BOW,
     &BOW_DIFFERENCE,
+    &NEARNESS,
     &FALL_OFF,
     &VIGNETTING,
     &GLARE,
