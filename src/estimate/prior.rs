@@ -13,11 +13,11 @@ use crate::error::{Error, Result};
 /// Gaussian; classes are told apart with it, too.
 const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
-/// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little and materials differ most;
-/// it falls by e within the decay.
+/// The same under a class: less, but more towards both ends of the visible spectrum, where cameras see little and materials differ most: dyes
+/// that are dark in all of it rise there. It falls by e within the decay.
 const MIDDLE_SD: f64 = 0.16;
 const VIOLET_SD: f64 = 0.2;
-const RED_SD: f64 = 0.1;
+const RED_SD: f64 = 0.2;
 const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;

@@ -50,6 +50,7 @@ pub fn doubts_of_taking(stated: &Stated, making: &Making) -> Vec<Doubt> {
         processed(making),
         black(making),
         open_sides(making),
+        other_fold(making),
         scaled(stated),
         stand_in(stated),
         another_camera(stated, making),
@@ -100,6 +101,16 @@ fn open_sides(making: &Making) -> Option<Doubt> {
         Doubt::new(
             format!("no edge of the sheet lies along {sides}: it goes on beyond the corners, or does not reach them"),
             "mark the corners of the whole panels, as vextract --overlay shows them",
+        )
+    })
+}
+
+/// Corners that are not those of the fold that was stated.
+fn other_fold(making: &Making) -> Option<Doubt> {
+    making.other_fold.map(|other| {
+        Doubt::new(
+            format!("the corners are not those of the fold that was stated, but {other}"),
+            "measure the sheet and the angle again, look at vextract --overlay, or give vkernel what vextract --find prints, as --regions",
         )
     })
 }

@@ -50,5 +50,5 @@ pub use placing::{
     CHART_CORNERS, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS, camera_position,
     check_inside, parse_corners, parse_point,
 };
-pub use pose::{CornersBy, FoldAngle, FoldSeen};
+pub use pose::{CornersBy, FoldAngle, FoldSeen, OtherFold, StatedFold};
 pub use reading::PictureFile;

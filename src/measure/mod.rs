@@ -21,10 +21,11 @@ use crate::estimate::verdict::refuse_unexplained;
 use crate::forward::FacetValues;
 use crate::geometry::{FacetGrid, Fold, Light};
 use crate::image::{
-    FacetMeasurement, Framing, Lens, Making, MeasuredPanels, Photograph, Point, measure_panels, open_sides,
+    CornersBy, FacetMeasurement, FoldSeen, Framing, Lens, Making, MeasuredPanels, Photograph, Point,
+    measure_panels, open_sides,
 };
 use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
-use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, stated};
+use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, stated, stated_fold};
 use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, likely_lights};
 use crate::stream::{self, Optics};
 
@@ -168,8 +169,16 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         by_chart: false,
         white_per_klx: photograph.info().white_per_klx(),
     };
+    let seen = FoldSeen {
+        size: [photograph.width(), photograph.height()],
+        corners_by: CornersBy::Hand,
+        lens: None,
+        focal_35mm: photograph.info().camera.focal_35mm,
+        depths: None,
+    };
+    let other_fold = seen.other_than(&setup.corners, &stated_fold(&fold.fold, None));
     let taken = Photographed {
-        making: Making::of(photograph.info(), processing, open_sides(photograph, &panels)),
+        making: Making::of(photograph.info(), processing, open_sides(photograph, &panels), other_fold),
         by_chart: false,
         shadows,
         parts: Some(PhotographedFold::of(&fold).parts(&picture)?),

@@ -3,9 +3,23 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
+use crate::estimate::photograph::beliefs::Beliefs;
 use crate::geometry::sight::Sight;
-use crate::geometry::{Panel, joints};
-use crate::image::{FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, camera_position};
+use crate::geometry::{Fold, Panel, joints};
+use crate::image::{
+    FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, StatedFold, camera_position,
+};
+
+/// A fold as it was stated, to be compared with corners; the standard deviation of its angle, degrees, is that of one that somebody measured
+/// unless it is known.
+#[must_use]
+pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
+    StatedFold {
+        angle_deg: fold.angle_deg(),
+        angle_sd_deg: angle_sd_deg.unwrap_or(Beliefs::USUAL.angle_sd_deg),
+        depths: fold.depths().map(|depth| depth / fold.width()),
+    }
+}
 
 /// Panels as the scene has them and as they were marked.
 pub struct MarkedPanels<'a> {

@@ -26,7 +26,7 @@ pub use expected::ExpectedError;
 pub use fold::FoldSetting;
 pub use folded_sheet::FoldedSheet;
 pub use given_kernel::GivenKernel;
-pub use marked::MarkedPanels;
+pub use marked::{MarkedPanels, stated_fold};
 pub use photograph::{PhotographedFold, Picture};
 pub use residuals::residuals;
 pub use sample::{photographed, stated};

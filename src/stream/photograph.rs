@@ -10,7 +10,8 @@ use super::colours;
 use super::development::DevelopmentRecord;
 use crate::error::Result;
 use crate::image::{
-    FacetMeasurement, FileStamp, Framing, Grid, Making, PhotographInfo, Point, Processing, Refinement,
+    FacetMeasurement, FileStamp, FoldAngle, Framing, Grid, Making, OtherFold, PhotographInfo, Point,
+    Processing, Refinement,
 };
 
 /// The photograph, how its numbers were understood, and where the panels lie in it.
@@ -83,6 +84,9 @@ pub struct ImageRecord {
     /// Sides along which no edge of the sheet lies, such as `the outer side of panel 0`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     open_sides: Vec<String>,
+    /// The fold that the corners are rather those of than of the scene's, if they are not those of that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    other_fold: Option<OtherFoldRecord>,
     /// Distance from a facet's sides within which pixels are left out, px.
     margin_px: f64,
     /// Coefficients K1 and K2 of the lens.
@@ -125,6 +129,33 @@ impl From<ProcessingRecord> for Processing {
             ProcessingRecord::Curve => Self::Curve,
             ProcessingRecord::Matrix => Self::Matrix,
         }
+    }
+}
+
+/// A fold as its corners tell it.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+struct OtherFoldRecord {
+    /// Angle between the panels.
+    angle_deg: f64,
+    /// Standard deviation of the angle.
+    angle_sd_deg: f64,
+    /// Depths of panels 0 and 1 over their width.
+    depths: [f64; 2],
+    /// Whether its panels are others than the scene's, and not its angle.
+    other_panels: bool,
+}
+
+impl From<OtherFold> for OtherFoldRecord {
+    fn from(OtherFold { fold, has_other_panels }: OtherFold) -> Self {
+        let FoldAngle { angle_deg, angle_sd_deg, depths } = fold;
+        Self { angle_deg, angle_sd_deg, depths, other_panels: has_other_panels }
+    }
+}
+
+impl From<OtherFoldRecord> for OtherFold {
+    fn from(record: OtherFoldRecord) -> Self {
+        let OtherFoldRecord { angle_deg, angle_sd_deg, depths, other_panels } = record;
+        Self { fold: FoldAngle { angle_deg, angle_sd_deg, depths }, has_other_panels: other_panels }
     }
 }
 
@@ -220,6 +251,7 @@ impl ImageRecord {
             orientation: info.camera.orientation.exif(),
             panels: (0..count).map(corners).collect(),
             open_sides: Vec::new(),
+            other_fold: None,
             margin_px,
             distortion: None,
             refined: None,
@@ -239,6 +271,13 @@ impl ImageRecord {
     #[must_use]
     pub fn with_open_sides(mut self, open_sides: Vec<String>) -> Self {
         self.open_sides = open_sides;
+        self
+    }
+
+    /// The record with the fold that the corners are rather those of than of the scene's.
+    #[must_use]
+    pub fn with_other_fold(mut self, other_fold: Option<OtherFold>) -> Self {
+        self.other_fold = other_fold.map(OtherFoldRecord::from);
         self
     }
 
@@ -287,6 +326,7 @@ struct MakingRecord {
     processing: Option<ProcessingRecord>,
     #[serde(default)]
     open_sides: Vec<String>,
+    other_fold: Option<OtherFoldRecord>,
     #[serde(default)]
     darkest: Vec<f64>,
     black_level: Option<Levels>,
@@ -317,6 +357,7 @@ impl From<MakingRecord> for Making {
             is_developed: record.developed,
             processing: record.processing.map(Processing::from),
             open_sides: record.open_sides,
+            other_fold: record.other_fold.map(OtherFold::from),
             taken_by: (record.make, record.model),
             file: record.file_bytes.zip(record.file_modified_s).map(|(bytes, s)| stamp(bytes, s)),
         }

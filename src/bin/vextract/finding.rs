@@ -4,11 +4,11 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use vfold::cli;
-use vfold::estimate::photograph::beliefs::Beliefs;
 use vfold::image::{
-    CornersBy, FoldSeen, FoundChart, FoundFold, Grid, Homography, Lens, NoFold, Photograph, find_chart,
-    find_fold,
+    CornersBy, FoldSeen, FoundChart, FoundFold, Grid, Homography, Lens, NoFold, OtherFold, Photograph,
+    find_chart, find_fold,
 };
+use vfold::scene::stated_fold;
 use vfold::stream::{Output, Regions, Scene, found_line, not_found_line};
 use vfold::{Error, Result};
 
@@ -92,19 +92,20 @@ pub fn find(
     Ok(found.confidence)
 }
 
-/// Angles further apart than this, in standard deviations, are not those of one fold.
-const APART: f64 = 3.0;
-
-/// What to say where the fold of the scene, whose angle somebody measured, is open by another angle than found corners tell.
-pub fn other_angle(path: &Path, scene: &Scene, regions: &Regions) -> Result<Option<String>> {
-    let Some((corners_deg, sd_deg)) = regions.angle_deg.zip(regions.angle_sd_deg) else { return Ok(None) };
-    let Some(scene_deg) = scene.fold_if_one()?.map(|fold| fold.angle_deg()) else { return Ok(None) };
-    let usual_deg = Beliefs::USUAL.angle_sd_deg.hypot(sd_deg);
-    let is_apart = scene.angle_sd_deg()?.is_none() && (corners_deg - scene_deg).abs() > APART * usual_deg;
-    Ok(is_apart.then(|| {
-        let path = path.display();
-        format!("{path}: the corners say {corners_deg:.1} ± {sd_deg:.1}°, the scene {scene_deg}°; give vkernel what --find prints, as --regions")
-    }))
+/// The fold that the corners of panels are rather those of than of the scene's, if that is a fold.
+pub fn other_fold(
+    args: &Args,
+    photograph: &Photograph,
+    scene: &Scene,
+    (panels, corners_by): (&[Grid], CornersBy),
+) -> Result<Option<OtherFold>> {
+    let Some(fold) = scene.fold_if_one()? else { return Ok(None) };
+    let corners = |number: usize| {
+        panels.iter().find(|panel| panel.panel == Some(number)).map(|panel| *panel.outline.corners())
+    };
+    let (Some(panel0), Some(panel1)) = (corners(0), corners(1)) else { return Ok(None) };
+    let seen = FoldSeen { corners_by, ..seen(args, photograph, args.placing.lens(photograph)?) };
+    Ok(seen.other_than(&[panel0, panel1], &stated_fold(&fold, scene.angle_sd_deg()?)))
 }
 
 /// Finds a chart and puts it into `regions`, if it is found surely.

@@ -9,7 +9,8 @@ use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::geometry::sight::Sight;
 use vfold::image::{
-    FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels, open_sides,
+    CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
+    open_sides,
 };
 use vfold::scene::MarkedPanels;
 use vfold::stream::{CalibrationRecord, ImageRecord, Regions, Sample, Scene};
@@ -58,12 +59,17 @@ impl Setup<'_> {
             Some(confidence)
         };
         self.calibration.forget_spare(&mut regions);
-        let other_angle = finding::other_angle(path, self.scene, &regions)?;
-        if let Some(line) = other_angle.filter(|_| !args.common.quiet) {
-            cli::say("vextract", &line);
-        }
         let panels = MarkedPanels::new(&self.panels, &regions.panels)?;
         let placed = args.placing.place(&photograph, &panels)?;
+        let corners_by = if confidence.is_some() { CornersBy::Finding } else { CornersBy::Hand };
+        let other_fold = finding::other_fold(args, &photograph, self.scene, (&placed.grids, corners_by))?;
+        if let Some(other) = other_fold.filter(|_| !args.common.quiet) {
+            let path = path.display();
+            cli::say(
+                "vextract",
+                &format!("{path}: the corners are not those of the scene's fold, but {other}"),
+            );
+        }
         let margin = args.regions.margin;
         let MeasuredPanels { facets: mut measured, pixels_sharing_noise, processing } =
             measure_panels(&photograph, &placed.grids, margin)?;
@@ -92,6 +98,7 @@ impl Setup<'_> {
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &pixels_sharing_noise)
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
+            .with_other_fold(other_fold)
             .with_placing(placed.distortion, placed.refinement.as_ref())
             .with_confidence(confidence);
         sample.set_photograph(&image, &facets)?;

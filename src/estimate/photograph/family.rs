@@ -65,8 +65,8 @@ impl<'a> Photographs<'a> {
     /// Each photograph at a maximum; none if the model is not finite.
     pub fn seen(&self, Maximum { start, at, .. }: &Maximum<Hypothesis, ()>) -> Option<Vec<Seen>> {
         let model = self.model(start.hypothesis, &start.gaussian)?;
-        let lower = information(&at.jacobian)?.l();
-        let own = lower.solve_lower_triangular(&DMatrix::identity(start.w.len(), start.w.len()))?;
+        let lower = model.information(&start.w, at)?;
+        let own = lower.solve_lower_triangular(&DMatrix::identity(lower.nrows(), lower.nrows()))?;
         let widened = widened(model.rms(&at.residuals));
         let of = |(member, residuals): (&Member, DVector<f64>)| {
             let w = member.own(&start.w);
@@ -147,9 +147,9 @@ impl SpectrumModel for JointModel<'_> {
 
     fn spread(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
         let first = self.first();
-        let lower = information(&at.jacobian)?.l();
+        let lower = self.information(w, at)?;
         let point = first.model.point(&first.own(w));
-        let slopes = slopes(first, self.unknowns(), &first.own(w), &point);
+        let slopes = slopes(first, lower.nrows(), &first.own(w), &point);
         let spread = widened(self.rms(&at.residuals)) * lower.solve_lower_triangular(&slopes.transpose())?;
         Some(match first.model.instrument_errors(&point.albedo) {
             Some(errors) => {
@@ -166,6 +166,21 @@ impl SpectrumModel for JointModel<'_> {
 
     fn ln_whitening(&self) -> f64 {
         self.members().iter().map(|member| member.model.whitening().ln_determinant()).sum()
+    }
+}
+
+impl JointModel<'_> {
+    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_told) of camera and light being numbers, too: an ideal fold is
+    /// estimated as if that were exact, but is not known better than if it were not.
+    fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
+        // ideal folds are not joined
+        let told = match self.members() {
+            [Member { model, .. }] => model.by_told(w),
+            _ => None,
+        };
+        let Some(told) = told else { return Some(information(&at.jacobian)?.l()) };
+        let columns = at.jacobian.column_iter().chain(told.column_iter());
+        Some(information(&DMatrix::from_columns(&columns.collect::<Vec<_>>()))?.l())
     }
 }
 

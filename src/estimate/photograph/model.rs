@@ -20,6 +20,7 @@ use super::sheets::Departure;
 use super::sums::{add, add_product, columns};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
+use crate::estimate::unknowns::Known;
 use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
@@ -252,17 +253,44 @@ impl<'a> PhotographModel<'a> {
         terms: &DMatrix<f64>,
         Predicted { values, lights, lens, .. }: &Predicted,
     ) {
-        let (facets, camera) = (values.nrows(), self.hypothesis.imperfection.scale);
+        let facets = values.nrows();
         for (mut out, (channel, error)) in out.column_iter_mut().zip(&self.parts.eye.errors) {
             let seen = &mut out.as_mut_slice()[channel * facets..][..facets];
             for light in lights {
-                let of_nodes = terms * (camera * error.component_mul(&light.power));
+                let of_nodes = terms * error.component_mul(&light.power);
                 for (share, radiance) in of_nodes.iter().zip(columns(&light.radiance)) {
                     add(seen, *share, radiance);
                 }
             }
             lens.see(*channel, seen);
         }
+    }
+
+    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were told, as two of a kind differ: they
+    /// are not found there, as facets would say too surely which they are. None where they are unknowns.
+    #[must_use]
+    pub fn by_told(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
+        self.hypothesis.imperfection.is_ideal().then_some(())?;
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        let (terms, sensitivities) = (self.terms(&albedo), self.sensitivities(w));
+        let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
+        let (conditions, beyond) = (self.conditions(w), self.beyond(w));
+        let here = predictor.facets(&conditions, &beyond);
+        let is_told =
+            |number: &&Number| (number.effect.known)(&self.told) == Known::Told && !number.matters();
+        let numbers: Vec<&Number> = self.numbers.iter().filter(is_told).collect();
+        let mut by_told = DMatrix::zeros(here.values.len(), numbers.len() + self.parts.eye.errors.len());
+        for (mut column, number) in by_told.column_iter_mut().zip(&numbers) {
+            let [at, beside] = [0.0, STEP].map(|w| {
+                let mut conditions = conditions.clone();
+                (number.effect.set)(&mut conditions, number.at(w).0);
+                predictor.beside(&here, &conditions, &beyond, number.effect.whose)
+            });
+            column.copy_from(&(in_order(&(beside - at)) / STEP));
+        }
+        let curves = self.parts.eye.errors.len();
+        self.by_curves(&mut by_told.columns_mut(numbers.len(), curves), &terms.values, &here);
+        Some(self.whitening.of_all(&by_told))
     }
 
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::view::{K1, LN_DEPTH, LN_DEPTH_RATIO, LN_FOCAL};
+use super::view::{ANGLE, K1, LN_DEPTH, LN_DEPTH_RATIO, LN_FOCAL};
 
 /// A number of known mean and standard deviation.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +14,7 @@ pub(super) struct Expected {
 }
 
 /// Numbers of which something is known beforehand.
-pub(super) const EXPECTED: usize = 4;
+pub(super) const EXPECTED: usize = 5;
 
 /// One way in which a fold may have been made and photographed.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +52,13 @@ const LN_DEPTH_SD: f64 = 0.005;
 /// Depth over width of panels of which nothing is known: two in three between a half and two.
 const LN_ANY_DEPTH_SD: f64 = 0.7;
 
+/// An angle that nobody stated, radians: any.
+const ANY_ANGLE: (f64, f64) = (0.8, 10.0);
+/// One that is another than was stated, radians: most folds are open by 20° to 80°.
+const OTHER_ANGLE: (f64, f64) = (0.85, 0.4);
+/// How many folds are as they were stated; of the others half are of another angle, half of other panels.
+const AS_STATED: f64 = 0.9;
+
 /// Depth over width of usual panels, and their shares of all: squares most of all, halves of A and Letter sheets along either middle,
 /// whole ones of sheets twice as large, and the same folded the other way.
 const FORMS: [(f64, f64); 11] = [
@@ -83,18 +90,35 @@ pub(super) struct Told {
 
 /// Every way in which the fold may have been made and photographed.
 pub(super) fn hypotheses(told: &Told) -> Vec<Hypothesis> {
+    forms(told.depths).into_iter().flat_map(|form| with_focals(told, form, ANY_ANGLE)).collect()
+}
+
+/// The fold as it was stated: the mean and the standard deviation of its angle, radians.
+pub(super) fn as_stated(told: &Told, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
+    with_focals(told, (AS_STATED, Form::Usual(depths)), angle)
+}
+
+/// The same if it is not as it was stated: the angle is another, or the form of the panels.
+pub(super) fn other_than_stated(told: &Told, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
+    let share = 0.5 * (1.0 - AS_STATED);
+    let other_angle = with_focals(told, (share, Form::Usual(depths)), OTHER_ANGLE);
+    let is_other = |(_, form): &(f64, Form)| *form != Form::Usual(depths);
+    let others = forms(None).into_iter().filter(is_other);
+    let other_form = others.flat_map(|(of_form, form)| with_focals(told, (share * of_form, form), angle));
+    other_angle.into_iter().chain(other_form).collect()
+}
+
+/// A form of the panels and its share, at every focal length.
+fn with_focals(told: &Told, (share, form): (f64, Form), angle: (f64, f64)) -> Vec<Hypothesis> {
     let k1 = Expected { unknown: K1, mean: 0.0, sd: if told.is_lens_known { K1_TOLD_SD } else { K1_SD } };
-    let focals = focals(told);
-    let with_focal = |(share, form): (f64, Form)| {
-        let [depth, ratio] = of_form(form);
-        let hypothesis = move |(of_form, focal): &(f64, Expected)| Hypothesis {
-            share: share * of_form,
-            expected: [*focal, k1, depth, ratio],
-            form,
-        };
-        focals.iter().map(hypothesis).collect::<Vec<_>>()
+    let angle = Expected { unknown: ANGLE, mean: angle.0, sd: angle.1 };
+    let [depth, ratio] = of_form(form);
+    let hypothesis = |(of_focal, focal): (f64, Expected)| Hypothesis {
+        share: share * of_focal,
+        expected: [focal, k1, depth, ratio, angle],
+        form,
     };
-    forms(told.depths).into_iter().flat_map(with_focal).collect()
+    focals(told).into_iter().map(hypothesis).collect()
 }
 
 /// Forms that the panels may have, and the share of each.

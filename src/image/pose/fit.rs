@@ -37,8 +37,22 @@ pub(super) struct Fitted {
     pub unknowns: Unknowns,
     /// Standard deviation of the angle, radians.
     pub angle_sd: f64,
+    /// Sum of the squares of all residuals.
+    pub squares: f64,
     /// Logarithm of the probability of the corners under the hypothesis times its share, but for a constant.
     pub ln_evidence: f64,
+}
+
+impl Fitted {
+    /// How many times further off corners are than they should be.
+    pub fn misfit(&self) -> f64 {
+        (self.squares / (RESIDUALS - UNKNOWNS) as f64).max(1.0).sqrt()
+    }
+
+    /// The same probability where all corners are so many times further off than they should be.
+    pub fn ln_evidence_at(&self, misfit: f64) -> f64 {
+        self.ln_evidence + 0.5 * self.squares * (1.0 - misfit.powi(-2))
+    }
 }
 
 /// Corners that were seen, and how exactly.
@@ -120,14 +134,13 @@ impl Problem<'_> {
         let factor = jacobian.tr_mul(&jacobian).cholesky()?;
         let ln_determinant = 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum();
         let expected = self.hypothesis.expected.iter();
-        // corners that the model does not explain are further off than they should be
-        let misfit = (residuals.norm_squared() / (RESIDUALS - UNKNOWNS) as f64).max(1.0).sqrt();
         let ln_prior = self.hypothesis.share.ln() - expected.map(|expected| expected.sd.ln()).sum::<f64>();
-        Some(Fitted {
-            unknowns,
-            angle_sd: misfit * factor.inverse()[(ANGLE, ANGLE)].sqrt(),
-            ln_evidence: ln_prior - 0.5 * (residuals.norm_squared() + ln_determinant),
-        })
+        let squares = residuals.norm_squared();
+        let ln_evidence = ln_prior - 0.5 * (squares + ln_determinant);
+        let angle_sd = factor.inverse()[(ANGLE, ANGLE)].sqrt();
+        let found = Fitted { unknowns, angle_sd, squares, ln_evidence };
+        // corners that the model does not explain are further off than they should be
+        Some(Fitted { angle_sd: found.misfit() * angle_sd, ..found })
     }
 
     /// Seen places less those of a model, then unknowns less what is expected of them, each over its standard deviation.

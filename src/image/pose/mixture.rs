@@ -68,7 +68,7 @@ fn deviation(angle: f64, mut weighed: Vec<(f64, f64, f64)>) -> f64 {
 }
 
 /// Each explanation once.
-fn distinct(explanations: Vec<Explanation>) -> Vec<Explanation> {
+pub(super) fn distinct(explanations: Vec<Explanation>) -> Vec<Explanation> {
     let mut kept: Vec<Explanation> = Vec::new();
     for one in explanations {
         let is_same = |other: &Explanation| {

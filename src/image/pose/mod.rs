@@ -7,14 +7,17 @@
 //! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a picture cut on one side is seen
 //! a little askew.
 
+mod agreement;
 mod belief;
 mod fit;
 mod mixture;
 mod outline;
 mod view;
 
+pub use agreement::{OtherFold, StatedFold};
+
 use super::placing::{Lens, Point};
-use belief::{FILM_DIAGONAL_MM, FOCAL_MM, Told, hypotheses};
+use belief::{FILM_DIAGONAL_MM, FOCAL_MM, Hypothesis, Told, hypotheses};
 use fit::Sighting;
 use mixture::{Explanation, Mean, mean};
 use outline::Outline;
@@ -84,30 +87,42 @@ impl FoldSeen {
     /// ```
     #[must_use]
     pub fn angle(&self, panels: &[[Point; 4]; 2]) -> Option<FoldAngle> {
-        let unit_px = self.unit_px();
-        let outline = Outline::of(panels, self.lens, self.size.map(|px| px as f64), unit_px)?;
-        let corner = match self.corners_by {
-            CornersBy::Finding => FOUND,
-            CornersBy::Hand => MARKED,
-        };
-        let sighting = Sighting { corners: outline.corners, sd: corner * outline.side };
-        let diagonal = (self.size[0] as f64).hypot(self.size[1] as f64) / unit_px;
-        let told = Told {
-            is_lens_known: self.lens.is_some(),
-            focal: self.focal_35mm.map(|focal_mm| focal_mm / FILM_DIAGONAL_MM * diagonal),
-            usual_focal: FOCAL_MM / FILM_DIAGONAL_MM * diagonal,
-            depths: self.depths.map(|depths| outline.in_order(depths)),
-        };
-        let explained = hypotheses(&told).into_iter().flat_map(|hypothesis| {
-            let fitted = sighting.fit(&hypothesis).into_iter();
-            fitted.map(move |fitted| Explanation { form: hypothesis.form, fitted })
-        });
-        let Mean { angle, sd, depths } = mean(explained.collect())?;
+        let outline = self.outline(panels)?;
+        let explained = self.explained(&outline, hypotheses(&self.told(&outline)));
+        let Mean { angle, sd, depths } = mean(explained)?;
         Some(FoldAngle {
             angle_deg: angle.to_degrees(),
             angle_sd_deg: sd.to_degrees(),
             depths: outline.in_order(depths),
         })
+    }
+
+    fn outline(&self, panels: &[[Point; 4]; 2]) -> Option<Outline> {
+        Outline::of(panels, self.lens, self.size.map(|px| px as f64), self.unit_px())
+    }
+
+    fn told(&self, outline: &Outline) -> Told {
+        let diagonal = (self.size[0] as f64).hypot(self.size[1] as f64) / self.unit_px();
+        Told {
+            is_lens_known: self.lens.is_some(),
+            focal: self.focal_35mm.map(|focal_mm| focal_mm / FILM_DIAGONAL_MM * diagonal),
+            usual_focal: FOCAL_MM / FILM_DIAGONAL_MM * diagonal,
+            depths: self.depths.map(|depths| outline.in_order(depths)),
+        }
+    }
+
+    /// All that explains the corners under some hypotheses.
+    fn explained(&self, outline: &Outline, hypotheses: Vec<Hypothesis>) -> Vec<Explanation> {
+        let corner = match self.corners_by {
+            CornersBy::Finding => FOUND,
+            CornersBy::Hand => MARKED,
+        };
+        let sighting = Sighting { corners: outline.corners, sd: corner * outline.side };
+        let explained = hypotheses.iter().flat_map(|hypothesis| {
+            let fitted = sighting.fit(hypothesis).into_iter();
+            fitted.map(|fitted| Explanation { form: hypothesis.form, fitted })
+        });
+        explained.collect()
     }
 
     /// Half the picture's shorter side, px.

@@ -1,0 +1,102 @@
+//! Whether corners are those of the fold that was stated: of its angle, and of panels of its form.
+
+use std::fmt;
+
+use super::belief::{as_stated, other_than_stated};
+use super::mixture::{Explanation, Mean, distinct, mean};
+use super::{FoldAngle, FoldSeen};
+use crate::image::placing::Point;
+
+/// A fold as it was stated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StatedFold {
+    /// Angle between the panels, degrees.
+    pub angle_deg: f64,
+    /// Its standard deviation, degrees.
+    pub angle_sd_deg: f64,
+    /// Depths of both panels over their width.
+    pub depths: [f64; 2],
+}
+
+/// A fold that corners are rather those of than of the stated one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherFold {
+    /// The likeliest fold that is not as it was stated.
+    pub fold: FoldAngle,
+    /// Whether it is of other panels, and not of another angle.
+    pub has_other_panels: bool,
+}
+
+impl fmt::Display for OtherFold {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FoldAngle { angle_deg, angle_sd_deg, depths: [depth0, depth1] } = self.fold;
+        if !self.has_other_panels {
+            return write!(f, "those of a fold open by {angle_deg:.0} ± {angle_sd_deg:.0}°");
+        }
+        write!(f, "those of panels {depth0:.2}")?;
+        if (depth1 / depth0).ln().abs() > SAME_FORM {
+            write!(f, " and {depth1:.2}")?;
+        }
+        write!(f, " times as deep as wide")
+    }
+}
+
+/// Probability that a fold is as it was stated below which it is not.
+const LEAST: f64 = 0.05;
+/// Corners so near to those of the stated fold, as a sum of squares in standard deviations, are not looked at further: others that
+/// explain them exactly would not be as likely as that.
+const NEAR: f64 = 6.0;
+/// Depths whose logarithms differ by less than this are those of one form.
+const SAME_FORM: f64 = 1e-6;
+
+impl FoldSeen {
+    /// A fold that these corners are rather those of, if they are not those of the stated one.
+    ///
+    /// # Arguments
+    /// - `panels`: as [`FoldSeen::angle`] has them.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::geometry::{FacetGrid, Fold};
+    /// use vfold::image::{CornersBy, FoldSeen, Point, StatedFold};
+    /// let see = |x: f64, y: f64, z: f64| Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z));
+    /// let fold = Fold::new(45.0, 1.0, 2.0, FacetGrid { rows: 1, cols: 1 })?;
+    /// let panels = fold.panels().map(|panel| panel.corners.map(|p| see(p.x, p.y, p.z)));
+    /// let seen = FoldSeen { size: [640, 480], corners_by: CornersBy::Hand, lens: None, focal_35mm: None, depths: None };
+    /// let stated = StatedFold { angle_deg: 45.0, angle_sd_deg: 1.2, depths: [2.0; 2] };
+    /// assert_eq!(seen.other_than(&panels, &stated), None);
+    /// let other = seen.other_than(&panels, &StatedFold { depths: [1.0; 2], ..stated }).unwrap();
+    /// assert!(other.has_other_panels);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn other_than(&self, panels: &[[Point; 4]; 2], stated: &StatedFold) -> Option<OtherFold> {
+        let outline = self.outline(panels)?;
+        let (told, depths) = (self.told(&outline), outline.in_order(stated.depths));
+        let angle = (stated.angle_deg.to_radians(), stated.angle_sd_deg.to_radians());
+        let stated = self.explained(&outline, as_stated(&told, depths, angle));
+        if stated.iter().any(|one| one.fitted.squares < NEAR) {
+            return None;
+        }
+        let others = self.explained(&outline, other_than_stated(&told, depths, angle));
+        let [stated, others] = [stated, others].map(distinct);
+        let all = || stated.iter().chain(&others).map(|one| one.fitted);
+        let misfit = all().map(|fitted| fitted.misfit()).fold(f64::INFINITY, f64::min);
+        let most = all().map(|fitted| fitted.ln_evidence_at(misfit)).fold(f64::NEG_INFINITY, f64::max);
+        let weight = |all: &[Explanation]| {
+            all.iter().map(|one| (one.fitted.ln_evidence_at(misfit) - most).exp()).sum::<f64>()
+        };
+        if weight(&stated) >= LEAST * (weight(&stated) + weight(&others)) {
+            return None;
+        }
+        let Mean { angle, sd, depths: found } = mean(others)?;
+        let fold = FoldAngle {
+            angle_deg: angle.to_degrees(),
+            angle_sd_deg: sd.to_degrees(),
+            depths: outline.in_order(found),
+        };
+        let has_other_panels =
+            found.iter().zip(depths).any(|(found, stated)| (found / stated).ln().abs() > SAME_FORM);
+        Some(OtherFold { fold, has_other_panels })
+    }
+}
