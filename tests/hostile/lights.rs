@@ -38,6 +38,22 @@ fn lights() {
     );
 }
 
+/// A fold among lamps is estimated as it was stated.
+#[test]
+fn folds() {
+    assert_refused(
+        "vkernel --facets 2x2 --light point:0,0,2 --no-history -o lamp.json",
+        &[
+            case(
+                "vforward lamp.json --reflectance 0.5 | vestimate --fit tilt",
+                1,
+                &["nothing but the exposure"],
+            ),
+            case("vforward lamp.json --reflectance 0.5 --reference-panel 1", 1, &["--material"]),
+        ],
+    );
+}
+
 /// Scenes under several lights, and tools that need a fold.
 #[test]
 fn scenes() {
