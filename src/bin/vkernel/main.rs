@@ -29,8 +29,8 @@ use vfold::{Error, Result};
                   vkernel --angle-deg 1 --check\n  \
                   vextract --find photo.exr | vkernel --regions - -o scene.json\n  \
                   vkernel --shape corner.obj --light 1,1,2 | vforward --reflectance cc24 | vestimate\n  \
-                  vkernel --sky only --sky-type overcast --zenith 0,0.7,0.7 | vforward --reflectance cc24 | vestimate\n  \
-                  vkernel --light point:0,1,3 | vforward --reflectance cc24 --illuminant A | vestimate\n  \
+                  vkernel --sky only --sky-type overcast | vforward --reflectance cc24 | vestimate\n  \
+                  vkernel --light point:0,1,3 | vforward --reflectance cc24 | vestimate\n  \
                   vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
 )]
 struct Args {
