@@ -148,7 +148,7 @@ fn skies_light_a_fold() {
         let (sky, up) = (StandardSky::of_type(number).unwrap(), Vec3::from(zenith).normalize());
         let source = LightSource::standard_sky(sky, zenith, [0.0, 0.1, 1.0], 1.0).unwrap();
         let sun = Vec3::new(0.0, 0.1, 1.0).normalize();
-        let (heights, turns) = (120, 240);
+        let (heights, turns) = (120_usize, 240_usize);
         let open = sky.irradiance(up.dot(&sun));
         let east = up.cross(&Vec3::new(0.3, -0.9, 0.2)).normalize();
         let parts: Vec<(Vec3, f64)> = (0..heights * turns)
@@ -185,8 +185,8 @@ fn windows_light_a_fold() {
         let source = LightSource::area(at, middle, size, 2.0).unwrap();
         let LightSource::Area { corners, distance, .. } = source else { panic!() };
         let facing = (corners[1] - corners[0]).cross(&(corners[3] - corners[0])).normalize();
-        let parts = 60;
-        let place = |n: usize| (n as f64 + 0.5) / f64::from(parts as u32);
+        let parts = 60_usize;
+        let place = |n: usize| (n as f64 + 0.5) / parts as f64;
         let part = |n: usize| {
             corners[0]
                 + place(n / parts) * (corners[1] - corners[0])
