@@ -7,10 +7,10 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
 
 use nalgebra::{DMatrix, DVector, Vector3};
+use vfold::geometry::StandardSky;
 use vfold::geometry::{FacetGrid, Fold};
 use vfold::kernel::bent::BentFold;
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
-use vfold::kernel::standard_sky::StandardSky;
 
 const ANGLES_DEG: [f64; 3] = [40.0, 55.0, 70.0];
 const ELEVATIONS_DEG: [f64; 3] = [30.0, 45.0, 60.0];

@@ -122,7 +122,7 @@ _vkernel() {
                     return 0
                     ;;
                 --sky-type)
-                    COMPREPLY=($(compgen -W "uniform overcast" -- "${cur}"))
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --zenith)

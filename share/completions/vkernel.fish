@@ -16,17 +16,16 @@ complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed,
 complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the mean]' -r
 complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
-complete -c vkernel -l sky -d 'Uniform sky: its irradiance on an open plane facing the sun, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1' -r
+complete -c vkernel -l sky -d 'Sky, uniform or as --sky-type says: its irradiance on an open plane facing the sun, of one with a horizon on an open horizontal plane, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
 complete -c vkernel -l plot -d 'Draw how much of its light every facet hands to others, and the direct light on it' -r -F
 complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for pairs that are near or partly hidden' -r -F
 complete -c vkernel -l folds -d 'Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases' -r
 complete -c vkernel -l ridge-deg -d 'Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]' -r
 complete -c vkernel -l bow-deg -l bow -d 'Panels curved in an arc: degrees by which each turns away from the other between the crease, where the angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough' -r
-complete -c vkernel -l light -d 'A light, repeated for several: direction X,Y,Z towards the sun, or point:X,Y,Z, a lamp there; a number after another colon is its irradiance on a plane facing it (of a lamp: in the middle of the shape), 1 if there is none. none: the sky alone [default: 0,0,1]' -r
-complete -c vkernel -l sky-type -d 'Sky of --sky on a shape: alike in all directions, or that of a dull day (CIE), dark below the horizon' -r -f -a "uniform\t'Alike in all directions'
-overcast\t'That of a dull day'"
-complete -c vkernel -l zenith -d 'Direction X,Y,Z to the zenith of an overcast sky [default: 0,0,1]' -r
+complete -c vkernel -l light -d 'A light, repeated for several: direction X,Y,Z towards the sun; point:X,Y,Z, a small lamp there; area:X,Y,Z,WIDTHxHEIGHT, a window or a large lamp with its middle there, turned to the middle of the sheet, its width along the y axis. A number after another colon is its irradiance on a plane facing it (of a lamp: in the middle of the sheet), 1 if there is none. none: the sky alone. Of a fold the bottom of the crease\'s middle is at 0,0,0, y runs along the crease, z out of the opening, panel 1 is at positive x; the unit is that of --panel [default: 0,0,1, of a fold as --tilt-deg and --slant-deg say]' -r
+complete -c vkernel -l sky-type -d 'Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day (Moon and Spencer), clear, or the number of a CIE standard sky, 1 to 15, of which 12 is clear; bright about the first sun of --light, or 0,0,1' -r
+complete -c vkernel -l zenith -d 'Direction X,Y,Z to the zenith of a sky that is not uniform [default: 0,0,1]' -r
 complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
 complete -c vkernel -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
 complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r

@@ -13,6 +13,7 @@ use super::photograph::day::Day;
 use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
 use super::prior::Prior;
 use super::shading::Shading;
+use super::shadow::Shadow;
 use super::taking::{Stated, doubts_of_taking};
 use super::unknowns::{SceneModel, Unknown};
 use super::verdict::{
@@ -58,6 +59,8 @@ pub struct Photographed {
     pub making: Making,
     /// Whether a chart or a card in it calibrated its numbers.
     pub by_chart: bool,
+    /// Shadows on its panels, facets in which are not measured.
+    pub shadows: Vec<Shadow>,
     /// What its facets are made of, or why real sheets are not modelled there; none if it is taken for one of an ideal fold.
     pub parts: Option<std::result::Result<Parts, Unmodelled>>,
 }
@@ -154,7 +157,9 @@ impl<'a> Inference<'a> {
 
     /// What speaks against an estimate from how the photograph was taken; of other surfaces than a fold nothing is asked.
     fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
-        self.panel.map_or_else(Vec::new, |_| doubts_of_taking(self.stated, &photograph.making))
+        let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
+        let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));
+        of_shadows.chain(of_taking.into_iter().flatten()).collect()
     }
 
     /// An estimate with the verdict on it, `doubts` being known already.

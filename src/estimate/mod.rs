@@ -23,6 +23,7 @@ pub mod photograph;
 pub mod prior;
 mod search;
 pub mod shading;
+pub mod shadow;
 pub mod smooth;
 mod smooth_errors;
 mod starts;

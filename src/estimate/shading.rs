@@ -132,7 +132,7 @@ impl<'a> Shading<'a> {
         Some(Doubt {
             level,
             because: format!(
-                "{which} at the outer side: a ridge instead of a valley, corners in another order, or no direct sun"
+                "{which} at the outer side: a ridge instead of a valley, corners in another order, no direct sun, or a lamp near by"
             ),
             remedy: "check the order of the corners; photograph a valley in direct sunlight".to_owned(),
         })

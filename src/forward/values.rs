@@ -84,6 +84,14 @@ impl FacetValues {
             .map(|(values, measured)| measured.then_some(values))
     }
 
+    /// The same as if some facets had not been measured.
+    #[must_use]
+    pub fn without(&self, facets: impl Iterator<Item = usize>) -> Self {
+        let mut rest = self.clone();
+        facets.for_each(|facet| rest.is_measured[facet] = false);
+        rest
+    }
+
     /// All values that were measured.
     pub fn measured(&self) -> impl Iterator<Item = f64> {
         self.facets().flatten().flat_map(|values| values.into_iter().copied())

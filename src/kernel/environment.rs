@@ -7,10 +7,9 @@ use nalgebra::{DMatrix, Vector3};
 use ndarray::Array2;
 
 use crate::error::Result;
-use crate::geometry::Fold;
+use crate::geometry::{Fold, StandardSky};
 
 use super::bent::{BentExchange, BentFold, Seen};
-use super::standard_sky::StandardSky;
 
 /// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many of them (R. Swinbank, R. J. Purser,
 /// *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p. 1769).

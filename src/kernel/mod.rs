@@ -21,7 +21,7 @@ pub mod quadrature;
 pub mod refinement;
 pub mod skipped;
 pub mod spectra;
-pub mod standard_sky;
+
 pub mod surface;
 
 pub use fold_kernel::FoldKernel;

@@ -15,6 +15,7 @@ use crate::estimate::measured::Measured;
 use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
 use crate::estimate::noise::{Noise, NoiseSource};
 use crate::estimate::prior::Prior;
+use crate::estimate::shadow::Shadow;
 use crate::estimate::unknowns::SceneModel;
 use crate::estimate::verdict::refuse_unexplained;
 use crate::forward::FacetValues;
@@ -88,6 +89,8 @@ impl Setup<'_> {
             fold: self.fold,
             angle_sd_deg: None,
             light: self.light,
+            sky: None,
+            is_lit_otherwise: false,
             response: respond(&self.fold, Mesh::Auto, TOLERANCE)?.0,
             optics: Some(optics),
             is_daylight_assumed: light.is_none(),
@@ -157,6 +160,8 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     };
     let model = SceneModel::known(fold.model()?);
     let sd = noise.deviations(model.facets(), &rgb)?;
+    let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
+    let rgb = Shadow::left_out(&shadows, &rgb);
     let measured = &Measured { rgb: &rgb, sd: &sd };
     let picture = Picture {
         measured,
@@ -179,6 +184,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let taken = Photographed {
         making: Making::of(photograph.info(), processing, open_sides(photograph, &panels), other_fold),
         by_chart: false,
+        shadows,
         parts: Some(PhotographedFold::of(&fold).parts(&picture)?),
     };
     let lights = setup.lights(photograph, fold.optics()?)?;

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::photograph::eye;
 use super::{FoldSetting, Setting};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
 use crate::stream::{Optics, needs_fold};
@@ -30,6 +30,10 @@ impl Setting<'_> {
         }
         match self {
             Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit),
+            Self::Surface(surface) if surface.scene.fold_if_one()?.is_some() => {
+                let problem = "in light that is not the sun's and a uniform sky's nothing but the exposure is fitted; leave --fit out";
+                Err(Error::field("light", problem))
+            }
             Self::Surface(_) => Err(needs_fold()),
         }
     }

@@ -1,6 +1,7 @@
 //! A fold under sun and sky: its response, its lights and its camera, with a card of known reflectance if it has one.
 
 use super::camera::{illuminant_responses, sky_response};
+use super::stated_light::{StatedLight, StatedSky};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{Card, FacetModel, Lighting};
@@ -21,6 +22,10 @@ pub struct FoldSetting {
     pub angle_sd_deg: Option<f64>,
     /// Sun and sky.
     pub light: Light,
+    /// How the sky is not alike in all directions, if somebody stated one that is not.
+    pub sky: Option<StatedSky>,
+    /// Whether other lights were stated than one sun and one sky.
+    pub is_lit_otherwise: bool,
     /// What all bounces make of light.
     pub response: Response,
     /// Camera and illuminants, if there is one and these are known.
@@ -34,7 +39,7 @@ pub struct FoldSetting {
 }
 
 impl FoldSetting {
-    /// That of a scene's record.
+    /// That of a scene's record; of a fold among sources, what a photograph of it is taken to be.
     ///
     /// # Errors
     /// [`Error::Field`] if it is not that of a fold, or a part of it is missing or impossible.
@@ -46,13 +51,21 @@ impl FoldSetting {
         // where panels are seen, no light is asked for
         let is_lit = scene.has_camera() && !scene.is_light_unknown()?;
         let is_fine = scene.has_accuracy() && scene.mesh()? == Mesh::Auto.to_string();
+        let (StatedLight { light, sky, is_other }, response) = if scene.has_sources() {
+            let (response, _) = respond(&fold, Mesh::Auto, PICTURE_TOLERANCE)?;
+            (StatedLight::of(&scene.sources()?, &fold)?, response)
+        } else {
+            (scene.light_on(&fold)?.into(), scene.response_of(&fold)?)
+        };
         Ok(Self {
             angle_sd_deg: scene.angle_sd_deg()?,
-            light: scene.light_on(&fold)?,
-            response: scene.response_of(&fold)?,
+            light,
+            sky,
+            is_lit_otherwise: is_other,
+            response,
             optics: if is_lit { Some(scene.optics()?) } else { None },
             is_daylight_assumed: scene.is_daylight_assumed()?,
-            card: if is_lit { card(scene)? } else { None },
+            card: if is_lit && !scene.has_sources() { card(scene)? } else { None },
             tolerance: if is_fine { Some(scene.tolerance()?) } else { None },
             fold,
         })

@@ -15,6 +15,7 @@ mod metered;
 mod photograph;
 mod residuals;
 mod sample;
+mod stated_light;
 mod surface;
 mod unmodelled;
 
@@ -29,6 +30,7 @@ pub use marked::{MarkedPanels, stated_fold};
 pub use photograph::{PhotographedFold, Picture};
 pub use residuals::residuals;
 pub use sample::{photographed, stated};
+pub use stated_light::StatedSky;
 pub use surface::SurfaceSetting;
 
 use crate::camera::CameraResponse;
@@ -39,9 +41,9 @@ use crate::stream::Scene;
 
 /// A surface in its light before a camera.
 pub enum Setting<'a> {
-    /// Two panels that meet at a crease, under sun and sky.
+    /// Two panels that meet at a crease, under the sun and a uniform sky.
     Fold(Box<FoldSetting>),
-    /// Any other surface, under any sources.
+    /// Any other surface, or a fold under other sources.
     Surface(SurfaceSetting<'a>),
 }
 
@@ -51,7 +53,7 @@ impl<'a> Setting<'a> {
     /// # Errors
     /// [`crate::Error::Field`] if a part of it is missing or impossible.
     pub fn of(scene: &'a Scene) -> Result<Self> {
-        Ok(match scene.fold_if_one()? {
+        Ok(match scene.fold_if_one()?.filter(|_| !scene.has_sources()) {
             Some(fold) => Self::Fold(Box::new(FoldSetting::with_fold(scene, fold)?)),
             None => Self::Surface(SurfaceSetting::of(scene)),
         })

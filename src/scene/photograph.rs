@@ -9,17 +9,17 @@ mod sheets;
 
 use bins::Bins;
 use framing::Pose;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use ndarray::Array2;
 
-use super::{FoldSetting, metered};
+use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
-use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::conditions::{Daylight, SkyKind};
 use crate::estimate::photograph::day::Day;
-use crate::estimate::photograph::parts::{Change, Parts, Sunlit};
+use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit};
 use crate::estimate::photograph::{Told, Unmodelled};
 use crate::forward::render::{FoldView, Frame, Viewpoint};
 use crate::image::Framing;
@@ -33,6 +33,8 @@ const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
 const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
+/// Depths of a panel over the distance of a lamp.
+const NEARNESSES: [f64; 2] = [0.08, 0.25];
 
 /// Width and height of a photograph that nobody has taken yet, px.
 const SIZE: [usize; 2] = [640, 480];
@@ -122,7 +124,7 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let FoldSetting { fold, angle_sd_deg, light, is_daylight_assumed, .. } = self.setting;
+        let FoldSetting { fold, angle_sd_deg, light, sky, is_daylight_assumed, .. } = self.setting;
         let Picture { measured, exposure, by_chart, white_per_klx, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
@@ -148,13 +150,19 @@ impl<'a> PhotographedFold<'a> {
             daylight: Daylight::of(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
             sky: Some(light.sky()).filter(|sky| *sky > 0.0),
+            sky_kind: sky.map(|sky| SkyKind {
+                is_overcast: sky.is_overcast,
+                elevation_deg: sky.zenith.dot(&sun).clamp(-1.0, 1.0).asin().to_degrees(),
+                is_zenith_stated: sky.is_zenith_stated(),
+            }),
             sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
             day: Day::Clear,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let even = self.exact(ModeLight::Sky(1.0));
-        let surroundings = ambient::of(fold, (&pose, sun), (&self.nodes, &even), &bins)?;
+        let zenith = sky.filter(StatedSky::is_zenith_stated).map(|sky| sky.zenith);
+        let surroundings = ambient::of(fold, (&pose, sun, zenith), (&self.nodes, &even), &bins)?;
         let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {
             told,
@@ -188,8 +196,28 @@ impl<'a> PhotographedFold<'a> {
             })?,
             crease_radius: change(&CREASE_RADII, &|crease_radius| BentFold { crease_radius, ..flat })?,
             bow_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, bow], ..flat })?,
+            nearness: Change { known: self.near(bins, sun, view, &ideal)? },
             bow_difference_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, -bow], ..flat })?,
         })
+    }
+
+    /// What a lamp does in the place of the sun.
+    fn near(
+        &self,
+        bins: &Bins,
+        sun: Vector3<f64>,
+        view: Vector3<f64>,
+        ideal: &Array2<f64>,
+    ) -> Result<Vec<(f64, Radiance)>> {
+        let fold = &self.setting.fold;
+        let exchange = BentExchange::new(&BentFold::ideal(fold.angle_deg()), fold, view);
+        let [depth, _] = fold.depths();
+        let middle = Vector2::new(0.0, 0.5 * depth * (0.5 * fold.angle_rad()).cos());
+        let of = |nearness: f64| {
+            let lit = exchange.radiance_by_lamp(sun, (middle, depth / nearness), &self.nodes)?;
+            Ok((nearness, bins.pool(&(lit - ideal))))
+        };
+        NEARNESSES.into_iter().map(of).collect()
     }
 
     fn bent(&self, bent: BentFold, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Array2<f64>> {

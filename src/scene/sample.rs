@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::estimate::Exposure;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::Photographed;
+use crate::estimate::shadow::Shadow;
 use crate::estimate::taking::Stated;
 use crate::image::Making;
 use crate::spectrum::have_one_peak;
@@ -22,19 +23,19 @@ pub fn stated(Optics { camera, illuminants, .. }: &Optics, is_daylight_assumed: 
     }
 }
 
-/// The photograph in which the facets of a sample were measured; of other surfaces than a `fold` nothing is asked.
+/// The photograph in which the facets of a sample were measured, but for those in shadows; of other surfaces than a `fold` nothing is asked.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if facets or corners do not fit the scene, or the record of the photograph is not one.
 pub fn photographed(
     fold: Option<&FoldSetting>,
     sample: &Sample,
-    measured: &Measured,
+    (measured, shadows): (&Measured, Vec<Shadow>),
     exposure: Exposure,
 ) -> Result<Photographed> {
     let by_chart = sample.fields.has("calibration");
     let Some(fold) = fold else {
-        return Ok(Photographed { making: Making::default(), by_chart, parts: None });
+        return Ok(Photographed { making: Making::default(), by_chart, shadows, parts: None });
     };
     let making = sample.making()?;
     // estimates by sums are those of ideal folds
@@ -43,5 +44,13 @@ pub fn photographed(
     } else {
         Some(PhotographedFold::of(fold).parts(&Picture::of(sample, measured, exposure.known())?)?)
     };
-    Ok(Photographed { making, by_chart, parts })
+    Ok(Photographed { making, by_chart, shadows, parts })
+}
+
+impl FoldSetting {
+    /// Shadows on its panels.
+    #[must_use]
+    pub fn shadows(&self, measured: &Measured) -> Vec<Shadow> {
+        Shadow::all(self.fold.facets(), measured)
+    }
 }

@@ -21,7 +21,7 @@ impl<'a> SurfaceSetting<'a> {
     }
 
     pub(super) fn facets(&self) -> Result<usize> {
-        self.scene.listed_facets()
+        self.scene.facet_count()
     }
 
     /// The surface in space.

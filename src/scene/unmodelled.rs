@@ -11,6 +11,7 @@ impl Unmodelled {
             Self::Card => "reference_panel",
             Self::UnequalPanels => "geometry",
             Self::SeveralLights => "illuminants",
+            Self::OtherLight => "light",
             Self::NoPose => "regions",
             Self::NoFacets => "facet_rgb",
         }
@@ -32,6 +33,7 @@ impl FoldSetting {
             (self.card.is_some(), Unmodelled::Card),
             (!self.fold.is_symmetric(), Unmodelled::UnequalPanels),
             (self.pictures()? != 1, Unmodelled::SeveralLights),
+            (self.is_lit_otherwise, Unmodelled::OtherLight),
         ];
         Ok(all.into_iter().find(|(is_so, _)| *is_so).map(|(_, why)| why))
     }

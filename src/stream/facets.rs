@@ -102,12 +102,15 @@ impl From<GroupRecord> for Group {
 }
 
 impl Scene {
-    /// Number of facets of a surface that is not a fold.
+    /// Number of facets of any surface.
     ///
     /// # Errors
     /// [`Error::Field`] if the scene does not say it.
-    pub fn listed_facets(&self) -> Result<usize> {
-        Ok(self.facet_list()?.count)
+    pub fn facet_count(&self) -> Result<usize> {
+        match self.fold_if_one()? {
+            Some(fold) => Ok(2 * fold.facets().len()),
+            None => Ok(self.facet_list()?.count),
+        }
     }
 
     pub(super) fn facet_grid(&self) -> Result<GridRecord> {

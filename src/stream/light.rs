@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
-use crate::geometry::{Fold, Light, LightSource};
+use crate::geometry::{Fold, Light, LightSource, StandardSky};
 
 /// Where light comes from.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum LightRecord {
-    /// On a fold.
+    /// The sun and a uniform sky on a fold.
     Sun(SunRecord),
-    /// On any other surface.
+    /// On any other surface, and of other kinds on a fold.
     Sources(SourcesRecord),
 }
 
@@ -73,6 +73,17 @@ enum SourceRecord {
         #[schemars(range(min = 0))]
         distance: f64,
     },
+    /// A lamp or a window of some size, alike bright all over and in all directions.
+    Area {
+        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the vertices.
+        corners: [[f64; 3]; 4],
+        /// Irradiance of a plane that faces its middle squarely at that distance.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+        /// Distance at which it gives that irradiance, in the unit of the vertices.
+        #[schemars(range(min = 0))]
+        distance: f64,
+    },
     /// Light from everywhere alike, from below as well.
     UniformSky {
         /// Irradiance of a plane that nothing hides.
@@ -83,6 +94,19 @@ enum SourceRecord {
     OvercastSky {
         /// Direction towards the zenith.
         zenith: [f64; 3],
+        /// Irradiance of a plane that faces the zenith and that nothing hides.
+        #[schemars(range(min = 0))]
+        irradiance: f64,
+    },
+    /// One of the CIE's standard skies, dark below the horizon.
+    StandardSky {
+        /// Its type.
+        #[schemars(range(min = 1, max = 15))]
+        number: usize,
+        /// Direction towards the zenith.
+        zenith: [f64; 3],
+        /// Direction towards the sun, which may be hidden.
+        sun: [f64; 3],
         /// Irradiance of a plane that faces the zenith and that nothing hides.
         #[schemars(range(min = 0))]
         irradiance: f64,
@@ -100,6 +124,12 @@ impl From<&LightSource> for SourceRecord {
             LightSource::Point { at, irradiance, distance } => {
                 Self::Point { at: at.into(), irradiance, distance }
             }
+            LightSource::Area { corners, irradiance, distance } => {
+                Self::Area { corners: corners.map(Into::into), irradiance, distance }
+            }
+            LightSource::StandardSky { sky, zenith, sun, irradiance } => {
+                Self::StandardSky { number: sky.number(), zenith: zenith.into(), sun: sun.into(), irradiance }
+            }
             LightSource::UniformSky { irradiance } => Self::UniformSky { irradiance },
             LightSource::OvercastSky { zenith, irradiance } => {
                 Self::OvercastSky { zenith: zenith.into(), irradiance }
@@ -114,6 +144,18 @@ impl SourceRecord {
         match self {
             Self::Directional { towards, irradiance } => LightSource::directional(towards, irradiance),
             Self::Point { at, irradiance, distance } => LightSource::point(at, irradiance, distance),
+            Self::Area { corners, irradiance, distance } => {
+                LightSource::rectangle(corners.map(Into::into), irradiance, distance)
+            }
+            Self::StandardSky { number, zenith, sun, irradiance } => {
+                let sky = StandardSky::of_type(number).ok_or_else(|| {
+                    Error::field(
+                        "light.sources",
+                        format!("{number} is no type of a standard sky; they are 1 to 15"),
+                    )
+                })?;
+                LightSource::standard_sky(sky, zenith, sun, irradiance)
+            }
             Self::UniformSky { irradiance } => LightSource::uniform_sky(irradiance),
             Self::OvercastSky { zenith, irradiance } => LightSource::overcast_sky(zenith, irradiance),
             Self::Given => Ok(LightSource::Given),
@@ -165,7 +207,13 @@ impl Scene {
         Light::new(fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
     }
 
-    /// The sources around a surface that is not a fold.
+    /// Whether light is said by its sources, as it is on other surfaces than folds.
+    #[must_use]
+    pub fn has_sources(&self) -> bool {
+        matches!(self.fields.get::<SourcesRecord>("light"), Ok(Some(_)))
+    }
+
+    /// The sources around a surface.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing or impossible.

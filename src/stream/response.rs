@@ -21,7 +21,7 @@ pub(super) enum ResponseRecord {
         /// Light on panel 0 and light on panel 1, residues for the facets of both.
         panels: [ModesRecord; 2],
     },
-    /// Of any other surface.
+    /// Of any other surface, or of a fold among sources other than the sun and a uniform sky.
     Sources {
         /// Every source, residues for all facets.
         sources: Vec<ModesRecord>,
@@ -132,7 +132,7 @@ impl Scene {
         let ResponseRecord::Sources { sources: modes } = self.response_record()? else {
             return Err(Error::field("response", "that of a fold; make the scene again with vkernel"));
         };
-        let (facets, sources) = (self.listed_facets()?, self.sources()?.len());
+        let (facets, sources) = (self.facet_count()?, self.sources()?.len());
         if modes.len() != sources {
             let problem = format!("{} for {sources} sources of light", modes.len());
             return Err(Error::field("response.sources", problem));

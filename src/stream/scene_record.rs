@@ -36,9 +36,9 @@ pub(super) struct SceneRecord {
     facets: FacetsRecord,
     /// Where light comes from.
     light: LightRecord,
-    /// What all bounces make of light, for every reflectance r at once. On a fold, irradiance 1 on a panel becomes
+    /// What all bounces make of light, for every reflectance r at once. On a fold under sun and uniform sky, irradiance 1 on a panel becomes
     /// `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same with `r·poles[k]·residues[i][k]` on that of the other panel; on
-    /// any other surface a source gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
+    /// any other surface, and on a fold among other sources, one gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
     response: ResponseRecord,
     #[serde(flatten)]
     further: FurtherRecord,
@@ -123,7 +123,7 @@ impl Scene {
             format: FORMAT,
             id: id.to_owned(),
             geometry: surface.into(),
-            facets: FacetsRecord::List(surface.into()),
+            facets: surface.into(),
             light: LightRecord::Sources(sources.into()),
             response: responses.into(),
             further: FurtherRecord::default(),

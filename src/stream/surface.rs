@@ -1,14 +1,16 @@
 //! The scene's geometry: any surface, as a mesh or as nothing but its kernel.
 
 use super::Scene;
-use super::facets::ListRecord;
+use super::facets::{FacetsRecord, ListRecord};
 use super::geometry::GeometryRecord;
 use crate::error::{Error, Result};
-use crate::geometry::{Group, Shape};
+use crate::geometry::{Fold, Group, Shape};
 
-/// A surface that is not a fold.
+/// A surface around which there are sources of light.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
+    /// Two panels that meet at a crease.
+    Fold(Fold),
     /// Flat facets in space.
     Mesh(Shape),
     /// So many facets of which nothing is known but their kernel.
@@ -21,19 +23,22 @@ pub enum Surface {
 impl From<&Surface> for GeometryRecord {
     fn from(surface: &Surface) -> Self {
         match surface {
+            Surface::Fold(fold) => Self::Fold(fold.into()),
             Surface::Mesh(shape) => Self::Mesh(shape.into()),
             Surface::Kernel { .. } => Self::Kernel,
         }
     }
 }
 
-impl From<&Surface> for ListRecord {
+impl From<&Surface> for FacetsRecord {
     fn from(surface: &Surface) -> Self {
         match surface {
-            Surface::Mesh(shape) => {
-                Self { count: shape.len(), groups: shape.groups().iter().map(Into::into).collect() }
-            }
-            Surface::Kernel { facets } => Self { count: *facets, groups: Vec::new() },
+            Surface::Fold(fold) => Self::Grid(fold.into()),
+            Surface::Mesh(shape) => Self::List(ListRecord {
+                count: shape.len(),
+                groups: shape.groups().iter().map(Into::into).collect(),
+            }),
+            Surface::Kernel { facets } => Self::List(ListRecord { count: *facets, groups: Vec::new() }),
         }
     }
 }
@@ -42,8 +47,11 @@ impl Scene {
     /// The surface in space.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is a fold, or not a possible mesh, or nothing but its kernel is known.
+    /// [`Error::Field`] if it is no possible mesh or fold, or nothing but its kernel is known.
     pub fn shape(&self) -> Result<Shape> {
+        if let Some(fold) = self.fold_if_one()? {
+            return fold.shape().map_err(|e| Error::field("geometry", e));
+        }
         let GeometryRecord::Mesh(record) = self.geometry()? else {
             let problem = "a mesh is needed here; make the scene with vkernel --shape";
             return Err(Error::field("geometry", problem));

@@ -7,8 +7,17 @@ fn lights() {
     assert_refused(
         "",
         &[
-            case("vkernel --light 0,0,1", 2, &["--light", "--tilt-deg"]),
-            case("vkernel --sky-type overcast", 2, &["--sky-type", "fold"]),
+            case("vkernel --light 0,0,1 --tilt-deg 5", 2, &["--tilt-deg", "--light X,Y,Z"]),
+            case("vkernel --light 0,0,1 --method midpoint", 2, &["--method", "not beside --light"]),
+            case("vkernel --sky-type overcast", 2, &["--sky-type", "no sky", "--sky only"]),
+            case("vkernel --sky only --sky-type 16", 2, &["--sky-type", "1 to 15"]),
+            case(
+                "vkernel --sky only --sky-type clear --zenith 0,0,-1",
+                2,
+                &["--sky-type", "below its horizon"],
+            ),
+            case("vkernel --light area:0,0,2", 2, &["--light", "WIDTHxHEIGHT"]),
+            case("vkernel --light area:0,0,2,1x0", 2, &["--light", "rectangle"]),
             case("vkernel --folds 2 --light 0,0", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light 0,0,1:", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light point:0,0,x", 2, &["--light", "X,Y,Z"]),
@@ -25,6 +34,22 @@ fn lights() {
                 &["--sky", "no direction"],
             ),
             case("vkernel --folds 3 --facets 1x1 --light 0,0,-1", 1, &["no light falls"]),
+        ],
+    );
+}
+
+/// A fold among lamps is estimated as it was stated.
+#[test]
+fn folds() {
+    assert_refused(
+        "vkernel --facets 2x2 --light point:0,0,2 --no-history -o lamp.json",
+        &[
+            case(
+                "vforward lamp.json --reflectance 0.5 | vestimate --fit tilt",
+                1,
+                &["nothing but the exposure"],
+            ),
+            case("vforward lamp.json --reflectance 0.5 --reference-panel 1", 1, &["--material"]),
         ],
     );
 }

@@ -4,15 +4,16 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::PathBuf;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use ndarray::Array2;
 use serde_json::Value;
-use vfold::geometry::{FacetGrid, Fold};
+use vfold::geometry::{FacetGrid, Fold, LightSource, StandardSky};
 use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure};
 use vfold::kernel::bent::{BentExchange, BentFold};
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
+use vfold::kernel::mesh::Mesh;
 use vfold::kernel::refinement::refine;
-use vfold::kernel::standard_sky::StandardSky;
+use vfold::kernel::surface::refinement::solve;
 use vfold::response::ModeLight;
 
 const GRID: FacetGrid = FacetGrid { rows: 10, cols: 10 };
@@ -66,6 +67,30 @@ fn an_ideal_fold_has_the_exact_solution() {
             "{angle_deg}: {crease} {others}"
         );
     }
+}
+
+/// What a lamp changes of the sun's light, against the same fold as any surface, in the columns at the middle of the crease.
+#[test]
+fn a_lamp_near_by_is_that_of_the_exact_solution() {
+    let grid = FacetGrid { rows: 5, cols: 5 };
+    let fold = Fold::new(60.0, 1.0, 1.0, grid).unwrap();
+    let (distance, albedo) = (5.0, 0.8);
+    let height = 0.5 * 30_f64.to_radians().cos();
+    let exchange = BentExchange::new(&BentFold::ideal(60.0), &fold, Vector3::z());
+    let lamp = (Vector2::new(0.0, height), distance);
+    let near = exchange.radiance_by_lamp(Vector3::z(), lamp, &[albedo]).unwrap();
+    let got = near / exchange.facet_radiance(Vector3::z(), &[albedo]).unwrap();
+    let sources = [
+        LightSource::point([0.0, 0.0, height + distance], 1.0, distance).unwrap(),
+        LightSource::directional([0.0, 0.0, 1.0], 1.0).unwrap(),
+    ];
+    let solved = solve(&fold.shape().unwrap(), &sources, Mesh::Auto, 5e-3).unwrap();
+    let [lamp, sun] = [0, 1].map(|n| &solved.responses[n]);
+    for facet in (2..50).step_by(5) {
+        let want = lamp.irradiance(facet, albedo) / sun.irradiance(facet, albedo);
+        assert!((got[(facet, 0)] / want - 1.0).abs() < 8e-3, "{facet}: {} for {want}", got[(facet, 0)]);
+    }
+    assert!(got[(22, 0)] / got[(2, 0)] > 1.2, "the outer row is nearer to the lamp");
 }
 
 #[test]

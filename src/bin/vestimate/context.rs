@@ -57,7 +57,7 @@ impl Context {
             start,
             fold: match setting {
                 Setting::Fold(fold) => Some(fold),
-                Setting::Surface(_) => None,
+                Setting::Surface(_) => among_sources(scene)?.map(Box::new),
             },
             stated: if lights.is_empty() { stated } else { stated.but_light() },
             lights,
@@ -77,4 +77,10 @@ impl Context {
             panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
         }
     }
+}
+
+/// The fold among sources other than sun and uniform sky, as photographs of it are believed; none if the scene is none, or a part of it is known.
+fn among_sources(scene: &Scene) -> Result<Option<FoldSetting>> {
+    let is_whole = scene.fold_if_one()?.is_some() && scene.materials()?.is_empty();
+    if is_whole { FoldSetting::of(scene).map(Some) } else { Ok(None) }
 }

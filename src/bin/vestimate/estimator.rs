@@ -11,6 +11,7 @@ use vfold::estimate::measurement::{Facets, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::Unmodelled;
 use vfold::estimate::prior::Prior;
+use vfold::estimate::shadow::Shadow;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
@@ -148,11 +149,17 @@ impl Transform for Estimator<'_> {
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
-                let measured = &Measured { rgb: &rgb, sd: &deviations.sd };
                 let is_photograph = sample.is_photograph();
+                let fold = context.fold.as_deref();
+                let photographed_fold = fold.filter(|_| is_photograph);
+                let shadows =
+                    photographed_fold.map(|fold| fold.shadows(&Measured { rgb: &rgb, sd: &deviations.sd }));
+                let shadows = shadows.unwrap_or_default();
+                let rgb = Shadow::left_out(&shadows, &rgb);
+                let measured = &Measured { rgb: &rgb, sd: &deviations.sd };
                 let inference = context.inference(prior, self.is_auto());
                 let data = inference.data(measured, exposure, is_photograph)?;
-                let photograph = || photographed(context.fold.as_deref(), sample, measured, exposure);
+                let photograph = || photographed(fold, sample, (measured, shadows), exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
                 let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;

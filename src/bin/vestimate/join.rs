@@ -7,6 +7,7 @@ use vfold::estimate::Exposure;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::{Facets, Measurement, Photographed, of_one_sheet};
 use vfold::estimate::photograph::Parts;
+use vfold::estimate::shadow::Shadow;
 use vfold::files::composed;
 use vfold::forward::FacetValues;
 use vfold::scene::photographed;
@@ -143,8 +144,11 @@ impl Estimator<'_> {
         let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is no fold".to_owned()))?;
         let rgb = sample.facet_rgb()?;
         let sd = self.noise(sample)?.deviations(context.told.facets(), &rgb)?;
+        let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
+        let rgb = Shadow::left_out(&shadows, &rgb);
         let measured = Measured { rgb: &rgb, sd: &sd };
-        let mut photograph = photographed(Some(fold), sample, &measured, self.exposure_of(sample)?)?;
+        let mut photograph =
+            photographed(Some(fold), sample, (&measured, shadows), self.exposure_of(sample)?)?;
         match photograph.parts.take() {
             Some(Ok(parts)) => Ok((parts, (rgb, sd, photograph))),
             Some(Err(why)) => Err(alone(why.to_string())),

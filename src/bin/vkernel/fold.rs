@@ -26,7 +26,6 @@ const SAMPLES: u32 = 10_000;
 
 /// Writes the scene of a fold, or what its kernel makes of the laws of light.
 pub fn write(args: &Args, out: &mut Output) -> Result<()> {
-    args.light.check_fold()?;
     let Opened { fold, angle_sd_deg } = fold(args)?;
     let method = method(args)?;
     if args.check {
@@ -43,11 +42,7 @@ fn scene(
     method: Method,
     out: &mut Output,
 ) -> Result<()> {
-    if args.sky.is_infinite() {
-        let given = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
-        refuse(given, "there is no sun", "leave it out, or give --sky a number")?;
-    }
-    let light = Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)?;
+    let light = light(args, fold)?;
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let default = if method == Method::Exact { Mesh::Auto } else { Mesh::Facets };
     let mesh = args.mesh.unwrap_or(default);
@@ -73,6 +68,15 @@ fn scene(
         scene.fields.add_history("vkernel")?;
     }
     out.scene(&scene)
+}
+
+/// The sun where flags say it stands, and the sky.
+pub fn light(args: &Args, fold: &Fold) -> Result<Light> {
+    if args.sky.is_infinite() {
+        let given = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
+        refuse(given, "there is no sun", "leave it out, or give --sky a number")?;
+    }
+    Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)
 }
 
 /// Prints what a kernel makes of the laws of light.

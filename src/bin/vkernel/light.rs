@@ -1,32 +1,40 @@
 //! `--light`, `--sky-type`, `--zenith`: sources of light around any surface.
 
-use clap::{Args, ValueEnum};
-use vfold::cli::{refuse, vector};
-use vfold::geometry::{LightSource, Shape, Vec3};
+use clap::Args;
+use vfold::cli::{pair, vector};
+use vfold::geometry::{LightSource, Shape, StandardSky, Vec3};
 use vfold::{Error, Result};
 
-/// Where the sun stands if nothing is said.
-const UP: [f64; 3] = [0.0, 0.0, 1.0];
+/// Where sun and zenith are if nothing is said.
+pub const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// Sources of light around any surface.
+/// Sources of light around any surface, a fold among them.
 #[derive(Args)]
-#[command(next_help_heading = "Light on shapes")]
+#[command(next_help_heading = "Light from anywhere")]
 pub struct LightArgs {
-    /// A light, repeated for several: direction X,Y,Z towards the sun, or point:X,Y,Z, a lamp there; a number after another colon is
-    /// its irradiance on a plane facing it (of a lamp: in the middle of the shape), 1 if there is none. none: the sky alone
-    /// [default: 0,0,1]
-    #[arg(long, value_name = "X,Y,Z[:E]|point:X,Y,Z[:E]|none", value_parser = light, allow_hyphen_values = true)]
-    light: Vec<LightArg>,
-    /// Sky of --sky on a shape: alike in all directions, or that of a dull day (CIE), dark below the horizon
+    /// A light, repeated for several: direction X,Y,Z towards the sun; point:X,Y,Z, a small lamp there; area:X,Y,Z,WIDTHxHEIGHT, a window or a
+    /// large lamp with its middle there, turned to the middle of the sheet, its width along the y axis. A number after another colon is its
+    /// irradiance on a plane facing it (of a lamp: in the middle of the sheet), 1 if there is none. none: the sky alone. Of a fold the bottom of
+    /// the crease's middle is at 0,0,0, y runs along the crease, z out of the opening, panel 1 is at positive x; the unit is that of --panel
+    /// [default: 0,0,1, of a fold as --tilt-deg and --slant-deg say]
     #[arg(
         long,
-        value_name = "uniform|overcast",
+        value_name = "X,Y,Z[:E]|point:X,Y,Z[:E]|area:X,Y,Z,WxH[:E]|none",
+        value_parser = light,
+        allow_hyphen_values = true
+    )]
+    light: Vec<LightArg>,
+    /// Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day (Moon and Spencer), clear, or the
+    /// number of a CIE standard sky, 1 to 15, of which 12 is clear; bright about the first sun of --light, or 0,0,1
+    #[arg(
+        long,
+        value_name = "uniform|overcast|clear|1..15",
         default_value = "uniform",
-        hide_possible_values = true,
-        hide_default_value = true
+        hide_default_value = true,
+        value_parser = sky_type
     )]
     sky_type: SkyType,
-    /// Direction X,Y,Z to the zenith of an overcast sky [default: 0,0,1]
+    /// Direction X,Y,Z to the zenith of a sky that is not uniform [default: 0,0,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     zenith: Option<[f64; 3]>,
 }
@@ -37,57 +45,79 @@ enum LightArg {
     None,
     Directional([f64; 3], f64),
     Point([f64; 3], f64),
+    Area([f64; 3], [f64; 2], f64),
 }
 
 /// What `--sky-type` takes.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum SkyType {
     /// Alike in all directions.
     Uniform,
     /// That of a dull day.
     Overcast,
+    /// One of the CIE's.
+    Standard(StandardSky),
 }
 
 impl LightArgs {
-    /// Refuses flags that a fold does not know.
-    pub fn check_fold(&self) -> Result<()> {
-        let given = [
-            ("--light", !self.light.is_empty()),
-            ("--sky-type", self.sky_type != SkyType::Uniform),
-            ("--zenith", self.zenith.is_some()),
-        ];
-        refuse(given, "a fold has its light by --tilt-deg, --slant-deg and --sky", "leave it out")
+    /// Whether there is more than a sun and a uniform sky.
+    pub fn is_given(&self) -> bool {
+        !self.light.is_empty() || self.sky_type != SkyType::Uniform || self.zenith.is_some()
     }
 
-    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if it is infinite.
-    pub fn sources(&self, shape: &Shape, sky: f64) -> Result<Vec<LightSource>> {
+    /// Whether the lights themselves are stated, so that nothing else says where the sun stands.
+    pub fn states_lights(&self) -> bool {
+        !self.light.is_empty()
+    }
+
+    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if it is infinite; the sun stands at
+    /// `sun` if no light is stated.
+    pub fn sources(&self, shape: &Shape, sky: f64, sun: [f64; 3]) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
             return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));
+        }
+        if self.sky_type != SkyType::Uniform && sky == 0.0 {
+            return Err(Error::usage(
+                "--sky-type",
+                "there is no sky",
+                "add --sky only, or --sky with a number",
+            ));
         }
         if sky.is_infinite() && !matches!(self.light.as_slice(), [] | [LightArg::None]) {
             return Err(Error::usage("--sky", "only, beside a --light", "leave one of them out"));
         }
         let lights = match self.light.as_slice() {
             [] if sky.is_infinite() => Vec::new(),
-            [] => vec![LightArg::Directional(UP, 1.0)],
+            [] => vec![LightArg::Directional(sun, 1.0)],
             given => given.to_vec(),
         };
         let mut sources = Vec::new();
-        for light in lights {
+        for light in &lights {
             sources.extend(light.source(shape).map_err(|e| usage("--light", &e))?);
         }
         let sky = if sky.is_infinite() { 1.0 } else { sky };
         if sky != 0.0 {
-            let sky = match self.sky_type {
-                SkyType::Uniform => LightSource::uniform_sky(sky),
-                SkyType::Overcast => LightSource::overcast_sky(self.zenith.unwrap_or(UP), sky),
-            };
-            sources.push(sky.map_err(|e| usage("--sky", &e))?);
+            let sun = lights.iter().find_map(LightArg::sun).unwrap_or(sun);
+            sources.push(self.sky(sky, sun)?);
         }
         if sources.is_empty() {
             return Err(Error::usage("--light", "none, and no sky", "add --sky 1"));
         }
         Ok(sources)
+    }
+
+    /// A sky of this irradiance, in which the sun stands there.
+    fn sky(&self, irradiance: f64, sun: [f64; 3]) -> Result<LightSource> {
+        let zenith = self.zenith.unwrap_or(UP);
+        match self.sky_type {
+            SkyType::Uniform => LightSource::uniform_sky(irradiance).map_err(|e| usage("--sky", &e)),
+            SkyType::Overcast => {
+                LightSource::overcast_sky(zenith, irradiance).map_err(|e| usage("--sky", &e))
+            }
+            SkyType::Standard(sky) => {
+                LightSource::standard_sky(sky, zenith, sun, irradiance).map_err(|e| usage("--sky-type", &e))
+            }
+        }
     }
 }
 
@@ -100,6 +130,17 @@ impl LightArg {
                 let distance = (middle(shape) - Vec3::from(at)).norm();
                 LightSource::point(at, irradiance, distance).map(Some)
             }
+            Self::Area(at, size, irradiance) => {
+                LightSource::area(at, middle(shape), size, irradiance).map(Some)
+            }
+        }
+    }
+
+    /// Direction to a sun.
+    fn sun(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Directional(towards, _) => Some(*towards),
+            Self::None | Self::Point(..) | Self::Area(..) => None,
         }
     }
 }
@@ -118,9 +159,34 @@ fn light(text: &str) -> std::result::Result<LightArg, String> {
     if text == "none" {
         return Ok(LightArg::None);
     }
-    let wrong = || "write X,Y,Z or point:X,Y,Z, with :IRRADIANCE or without, or none".to_owned();
-    let (is_point, rest) = text.strip_prefix("point:").map_or((false, text), |rest| (true, rest));
+    let wrong = || {
+        "write X,Y,Z, point:X,Y,Z or area:X,Y,Z,WIDTHxHEIGHT, with :IRRADIANCE or without, or none".to_owned()
+    };
+    let (kind, rest) = match text.split_once(':') {
+        Some((kind @ ("point" | "area"), rest)) => (kind, rest),
+        _ => ("sun", text),
+    };
     let (place, irradiance) = rest.split_once(':').unwrap_or((rest, "1"));
-    let (place, irradiance) = (vector(place).map_err(|_| wrong())?, irradiance.parse().map_err(|_| wrong())?);
-    Ok(if is_point { LightArg::Point(place, irradiance) } else { LightArg::Directional(place, irradiance) })
+    let irradiance = irradiance.parse().map_err(|_| wrong())?;
+    let at = |place| vector(place).map_err(|_| wrong());
+    Ok(match kind {
+        "point" => LightArg::Point(at(place)?, irradiance),
+        "area" => {
+            let (place, size) = place.rsplit_once(',').ok_or_else(wrong)?;
+            let (width, height) = pair::<f64>(size).map_err(|_| wrong())?;
+            LightArg::Area(at(place)?, [width, height], irradiance)
+        }
+        _ => LightArg::Directional(at(place)?, irradiance),
+    })
+}
+
+fn sky_type(text: &str) -> std::result::Result<SkyType, String> {
+    match text {
+        "uniform" => Ok(SkyType::Uniform),
+        "overcast" => Ok(SkyType::Overcast),
+        "clear" => Ok(SkyType::Standard(StandardSky::CLEAR)),
+        _ => text.parse().ok().and_then(StandardSky::of_type).map(SkyType::Standard).ok_or_else(|| {
+            "write uniform, overcast, clear, or the number of a CIE standard sky, 1 to 15".to_owned()
+        }),
+    }
 }

@@ -29,6 +29,8 @@ use vfold::{Error, Result};
                   vkernel --angle-deg 1 --check\n  \
                   vextract --find photo.exr | vkernel --regions - -o scene.json\n  \
                   vkernel --shape corner.obj --light 1,1,2 | vforward --reflectance cc24 | vestimate\n  \
+                  vkernel --sky only --sky-type overcast | vforward --reflectance cc24 | vestimate\n  \
+                  vkernel --light point:0,1,3 | vforward --reflectance cc24 | vestimate\n  \
                   vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
 )]
 struct Args {
@@ -84,8 +86,9 @@ struct Args {
     /// Angle of the sun along the crease, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     slant_deg: f64,
-    /// Uniform sky: its irradiance on an open plane facing the sun, relative to the sun's; sun:40deg or sun:LAT,LON,TIME: as much as a
-    /// cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1
+    /// Sky, uniform or as --sky-type says: its irradiance on an open plane facing the sun, of one with a horizon on an open horizontal
+    /// plane, relative to the sun's; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is
+    /// no sun, and the sky gives an open plane 1
     #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
@@ -145,7 +148,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let Some(tolerance) = args.tolerance.filter(|tolerance| !(1e-12..=0.1).contains(tolerance)) {
         return Err(Error::usage("--tolerance", format!("{tolerance} is out of range"), "give 1e-12 to 0.1"));
     }
-    if args.shape.is_shape() { shape::write(args, out) } else { fold::write(args, out) }
+    let is_any = args.shape.is_shape() || args.light.is_given();
+    if is_any { shape::write(args, out) } else { fold::write(args, out) }
 }
 
 /// With `--verbose`, what was solved and what was not.

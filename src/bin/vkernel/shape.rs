@@ -1,4 +1,5 @@
-//! Any surface: read from a file, or a fold of several creases or with curved panels.
+//! Any surface: read from a file, a fold of several creases or with curved panels, or a plain one among other lights than the sun and a uniform
+//! sky.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,9 @@ use vfold::scene::SurfaceSetting;
 use vfold::stream::{Output, Scene, Surface, read_shape, write_matrix};
 use vfold::{Error, Result};
 
-use super::{Args, MethodName, fold, say_work};
+use super::fold::{self, Opened};
+use super::light::UP;
+use super::{Args, MethodName, say_work};
 
 /// Relative error of facet means.
 const TOLERANCE: f64 = 5e-3;
@@ -67,12 +70,12 @@ impl ShapeArgs {
 /// Writes the scene of a surface.
 pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     check(args)?;
-    let shape = shape(args)?;
+    let Lit { surface, shape, angle_sd_deg, sun } = lit(args)?;
     if args.plot.is_some() && shape.panels().is_empty() {
         let problem = "the facets of this shape form no rows and columns";
         return Err(Error::usage("--plot", problem, "leave it out, or name groups of facets that do"));
     }
-    let sources = args.light.sources(&shape, args.sky)?;
+    let sources = args.light.sources(&shape, args.sky, sun)?;
     let (tolerance, mesh) = (args.tolerance.unwrap_or(TOLERANCE), args.mesh.unwrap_or(Mesh::Auto));
     if args.shape.bow_deg != 0.0
         && (mesh, shape.len() >= SLOW, tolerance < FAST_TOLERANCE) == (Mesh::Auto, true, true)
@@ -89,7 +92,8 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     if let Some(path) = out.saves.take("kernel") {
         save(&path, &shape, &solved, mesh, tolerance)?;
     }
-    let mut scene = Scene::of_surface(&args.id, &Surface::Mesh(shape), &sources, &solved.responses)?;
+    let mut scene = Scene::of_surface(&args.id, &surface, &sources, &solved.responses)?;
+    angle_sd_deg.map_or(Ok(()), |sd_deg| scene.set_angle_sd_deg(sd_deg))?;
     scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = &args.plot {
@@ -111,8 +115,10 @@ fn save(path: &Path, shape: &Shape, solved: &Solved, mesh: Mesh, tolerance: f64)
     write_matrix(path, shape.len(), shape.len(), |facet| kernel.matrix_row(facet))
 }
 
-/// Refuses flags that only a V of flat panels knows.
+/// Refuses flags that only a V of flat panels under the sun and a uniform sky knows.
 fn check(args: &Args) -> Result<()> {
+    let (sun_is_elsewhere, remedy) =
+        (args.shape.is_shape() || args.light.states_lights(), "give --light X,Y,Z towards the sun");
     let given = [
         (
             "--method",
@@ -120,32 +126,54 @@ fn check(args: &Args) -> Result<()> {
             "leave it out: shapes have exact form factors",
         ),
         ("--check", args.check, "leave it out: the kernel of a shape is checked as it is made"),
-        ("--tilt-deg", args.tilt_deg != 0.0, "give --light X,Y,Z towards the sun"),
-        ("--slant-deg", args.slant_deg != 0.0, "give --light X,Y,Z towards the sun"),
+        ("--tilt-deg", sun_is_elsewhere && args.tilt_deg != 0.0, remedy),
+        ("--slant-deg", sun_is_elsewhere && args.slant_deg != 0.0, remedy),
         (
             "--tolerance",
             args.tolerance.is_some_and(|tolerance| tolerance < TOLERANCE_MIN),
             "give 1e-6 or more",
         ),
     ];
-    given
-        .into_iter()
-        .try_for_each(|(flag, given, remedy)| cli::refuse([(flag, given)], "not for shapes", remedy))
+    let problem =
+        if args.shape.is_shape() { "not for shapes" } else { "not beside --light, --sky-type or --zenith" };
+    given.into_iter().try_for_each(|(flag, given, remedy)| cli::refuse([(flag, given)], problem, remedy))
 }
 
-/// The surface, and what is odd about it on standard error.
-fn shape(args: &Args) -> Result<Shape> {
+/// A surface among sources of light.
+struct Lit {
+    surface: Surface,
+    shape: Shape,
+    /// Standard deviation of a fold's angle, degrees, if a photograph told it.
+    angle_sd_deg: Option<f64>,
+    /// Where the sun stands if no light is stated.
+    sun: [f64; 3],
+}
+
+/// The surface that flags describe; what is odd about it goes to standard error.
+fn lit(args: &Args) -> Result<Lit> {
     let ShapeArgs { shape: file, two_sided, folds, ridge_deg, bow_deg } = &args.shape;
-    let Some(path) = file else {
-        let valley = fold::fold(args)?.fold;
-        let ridge_deg = ridge_deg.unwrap_or(valley.angle_deg());
-        return Accordion { valley, creases: *folds, ridge_deg, bow_deg: *bow_deg }.shape();
-    };
-    let (shape, remarks) = read_shape(path)?;
-    if !args.common.quiet {
-        remarks.iter().for_each(|remark| cli::say("vkernel", &format!("{}: {remark}", path.display())));
+    if !args.shape.is_shape() {
+        let Opened { fold, angle_sd_deg } = fold::fold(args)?;
+        let sun = fold::light(args, &fold)?.towards().into();
+        return Ok(Lit { surface: Surface::Fold(fold), shape: fold.shape()?, angle_sd_deg, sun });
     }
-    if *two_sided && !shape.is_two_sided() { shape.with_backs() } else { Ok(shape) }
+    let shape = match file {
+        None => {
+            let valley = fold::fold(args)?.fold;
+            let ridge_deg = ridge_deg.unwrap_or(valley.angle_deg());
+            Accordion { valley, creases: *folds, ridge_deg, bow_deg: *bow_deg }.shape()?
+        }
+        Some(path) => {
+            let (shape, remarks) = read_shape(path)?;
+            if !args.common.quiet {
+                remarks
+                    .iter()
+                    .for_each(|remark| cli::say("vkernel", &format!("{}: {remark}", path.display())));
+            }
+            if *two_sided && !shape.is_two_sided() { shape.with_backs()? } else { shape }
+        }
+    };
+    Ok(Lit { surface: Surface::Mesh(shape.clone()), shape, angle_sd_deg: None, sun: UP })
 }
 
 /// Warns of an accuracy below what was expected, and refuses one below what was asked for.

@@ -70,7 +70,7 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
         (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
     // of lamps one hypothesis stands for all days, with the share of a clear one
-    let ln_clear = Day::Clear.share(parts.told.beliefs, parts.told.sun).ln();
+    let ln_clear = Day::Clear.share(&parts.told).ln();
     let of = |light: &'a Candidate| {
         let parts = parts.in_light(&light.power);
         let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
@@ -101,7 +101,7 @@ fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
         let mut search = Search::new(&family, prior);
         for day in way.days() {
             let hypothesis = Hypothesis::on_dull_day(*day, Kind::Family);
-            let ln_share = way.ln_share + day.share(family.beliefs(), way.parts.told.sun).ln();
+            let ln_share = way.ln_share + day.share(&way.parts.told).ln();
             // lights of another kind have other unknowns
             let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
             let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {

@@ -175,6 +175,12 @@ impl Beliefs {
         Normal { mean: 0.0, sd: self.exposure_sd }
     }
 
+    /// How uneven the sun's light is over the panels: by a quarter of what no unknown explains.
+    #[must_use]
+    pub const fn unevenness(&self) -> Normal {
+        Normal { mean: 0.0, sd: 0.25 * self.discrepancy_shared }
+    }
+
     /// What is known of something that an ideal fold does not have, of which half of all photographs have less than `amount`: some next to nothing,
     /// a few several times as much.
     #[must_use]

@@ -44,6 +44,10 @@ pub struct Conditions {
     pub bow_deg: f64,
     /// By how much panel 0 turns more than their mean, and panel 1 less, degrees.
     pub bow_difference_deg: f64,
+    /// Depth of a panel over the distance of the lamp that lights it; 0 of the sun.
+    pub nearness: f64,
+    /// By how much end 1 of the crease has less light than end 0, relative to the middle.
+    pub fall_off: f64,
     /// Share of the light that the lens loses in the corners of the picture.
     pub vignetting: f64,
     /// Share of the picture's mean light that the lens spreads over all of it.
@@ -83,6 +87,8 @@ pub struct Told {
     pub is_daylight_assumed: bool,
     /// Irradiance by the sky that somebody stated, that by the sun being 1.
     pub sky: Option<f64>,
+    /// What of the sky somebody stated beside that, if it is not alike in all directions.
+    pub sky_kind: Option<SkyKind>,
     /// Irradiance by the sun of a plane that faces it, as it was stated: 1, or 0 if the sky is alone.
     pub sun: f64,
     /// Whether the sky's colour is given.
@@ -95,7 +101,19 @@ impl Told {
     /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun being 1.
     #[must_use]
     pub fn even_sky(&self) -> f64 {
-        self.sky.unwrap_or(0.0)
+        self.sky.filter(|_| self.sky_kind.is_none()).unwrap_or(0.0)
+    }
+
+    /// The same of a sky with a horizon.
+    #[must_use]
+    pub fn sky_above_horizon(&self) -> f64 {
+        self.sky.filter(|_| self.sky_kind.is_some()).unwrap_or(0.0)
+    }
+
+    /// How far above the horizon the fold opens, degrees, by the zenith that somebody stated.
+    #[must_use]
+    pub fn elevation_deg(&self) -> Option<f64> {
+        self.sky_kind.filter(|kind| kind.is_zenith_stated).map(|kind| kind.elevation_deg)
     }
 
     /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
@@ -111,6 +129,17 @@ impl Told {
     pub fn is_exposure_stated(&self) -> bool {
         self.exposure.is_some() && !self.by_chart
     }
+}
+
+/// A sky with a horizon, as it was stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyKind {
+    /// Whether clouds cover it.
+    pub is_overcast: bool,
+    /// How far above the horizon the fold opens, degrees.
+    pub elevation_deg: f64,
+    /// Whether somebody said so: straight up is what nobody has to say of a computed fold.
+    pub is_zenith_stated: bool,
 }
 
 /// Daylight of a reciprocal colour temperature, 1e-6/K.

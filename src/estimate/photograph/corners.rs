@@ -16,8 +16,7 @@ use super::parts::Place;
 #[must_use]
 pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let slopes = slopes(places, values);
-    let width = places.iter().map(|place| place.along).fold(0.0, f64::max)
-        + places.iter().map(|place| place.along).fold(f64::INFINITY, f64::min);
+    let width = width(places);
     let column = |share: &dyn Fn(&Place) -> f64| {
         DVector::from_fn(slopes.len(), |n, _| share(&places[n % places.len()]) * slopes[n])
     };
@@ -34,6 +33,13 @@ pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
         }
     }
     all
+}
+
+/// Length of the crease, in depths of a panel: facets begin and end as far from its ends.
+#[must_use]
+pub fn width(places: &[Place]) -> f64 {
+    let along = || places.iter().map(|place| place.along);
+    along().fold(0.0, f64::max) + along().fold(f64::INFINITY, f64::min)
 }
 
 /// Corners that are off by that much, in depths of a panel, are named.

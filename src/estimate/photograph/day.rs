@@ -1,6 +1,7 @@
 //! Kinds of days: where daylight comes from.
 
 use super::beliefs::Beliefs;
+use super::conditions::{SkyKind, Told};
 use crate::estimate::unknowns::Normal;
 
 /// Where daylight comes from.
@@ -40,11 +41,28 @@ impl Day {
         }
     }
 
-    /// How many photographs are taken on such a day, of those for which this much sun was stated: if none, those in the sun are mistakes.
+    /// How many photographs are taken on such a day, of those of which this was stated: on days with another sky, or in the sun where there is none,
+    /// they are mistakes.
     #[must_use]
-    pub fn share(self, beliefs: &Beliefs, sun: f64) -> f64 {
-        let stated = if self.has_sun() && sun <= 0.0 { beliefs.mistake_share } else { 1.0 };
-        stated * self.usual_share(beliefs)
+    pub fn share(self, told: &Told) -> f64 {
+        let beliefs = told.beliefs;
+        let is_sunny = told.sun > 0.0;
+        match told.sky_kind {
+            Some(SkyKind { is_overcast, .. }) if self == Self::stated(is_sunny, is_overcast) => 1.0,
+            Some(_) => beliefs.mistake_share * self.usual_share(beliefs),
+            None if self.has_sun() && !is_sunny => beliefs.mistake_share * self.usual_share(beliefs),
+            None => self.usual_share(beliefs),
+        }
+    }
+
+    /// The day of which somebody speaks who states such a sky.
+    fn stated(is_sunny: bool, is_overcast: bool) -> Self {
+        match (is_sunny, is_overcast) {
+            (true, true) => Self::Hazy,
+            (true, false) => Self::Clear,
+            (false, true) => Self::Overcast,
+            (false, false) => Self::Shade,
+        }
     }
 
     fn usual_share(self, beliefs: &Beliefs) -> f64 {

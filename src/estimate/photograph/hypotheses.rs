@@ -97,10 +97,11 @@ impl Hypothesis {
     }
 
     /// Logarithm of how often it is true of photographs of which this was stated.
-    pub fn ln_share(&self, Told { beliefs, sun, .. }: &Told) -> f64 {
+    pub fn ln_share(&self, told: &Told) -> f64 {
+        let beliefs = told.beliefs;
         let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(beliefs).ln());
         let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(beliefs) };
-        let of_day = if self.imperfection.is_ideal() { 0.0 } else { self.day.share(beliefs, *sun).ln() };
+        let of_day = if self.imperfection.is_ideal() { 0.0 } else { self.day.share(told).ln() };
         let of_fold = self.imperfection.ln_share(beliefs) + of_kind + of_day;
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }

@@ -1,12 +1,13 @@
-//! What makes values of the radiances of facets.
+//! What makes values of the radiances of facets: the camera, and light that is not alike along the crease.
 
 use nalgebra::DMatrix;
 
 use super::conditions::Conditions;
+use super::corners::width;
 use super::lighting::Lighting;
-use super::parts::Parts;
+use super::parts::{Parts, Place};
 
-/// Exposure, gains, vignetting and glare.
+/// Exposure, gains, fall-off of the light, vignetting and glare.
 pub struct Lens {
     /// Brightness of each facet and channel for a radiance of 1: facet by channel.
     scale: DMatrix<f64>,
@@ -19,11 +20,16 @@ impl Lens {
     #[must_use]
     pub fn new(parts: &Parts, conditions: &Conditions, lighting: &Lighting) -> Self {
         let brightness = lighting.exposure(parts, conditions) * lighting.gains(parts, conditions);
+        let width = width(&parts.places);
+        let uneven = |place: &Place| {
+            (1.0 + conditions.fall_off * (0.5 - place.along / width))
+                * (1.0 - conditions.vignetting * place.off_centre)
+        };
         let mut scale = DMatrix::zeros(parts.places.len(), brightness.len());
         for (column, brightness) in scale.as_mut_slice().chunks_exact_mut(parts.places.len()).zip(&brightness)
         {
             for (scale, place) in column.iter_mut().zip(&parts.places) {
-                *scale = brightness * (1.0 - conditions.vignetting * place.off_centre);
+                *scale = brightness * uneven(place);
             }
         }
         Self { scale, glare: conditions.glare }

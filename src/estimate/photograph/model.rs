@@ -95,7 +95,8 @@ impl<'a> PhotographModel<'a> {
 
     /// Conditions at `w`.
     fn conditions(&self, w: &DVector<f64>) -> Conditions {
-        let told = &self.told;
+        let (told, is_ideal) = (&self.told, self.hypothesis.imperfection.is_ideal());
+        let stated_sky = told.sky_kind.filter(|_| is_ideal);
         let mut conditions = Conditions {
             exposure: told.exposure.unwrap_or(1.0),
             gains: [1.0; 2],
@@ -103,17 +104,27 @@ impl<'a> PhotographModel<'a> {
             tilt_deg: told.tilt_deg,
             sun_mired: None,
             day: told.day,
-            sun: if self.hypothesis.imperfection.is_ideal() { told.sun } else { 1.0 },
-            sky: if told.day.has_sun() { 0.0 } else { 1.0 },
-            cloud: if told.day == Day::Overcast { 1.0 } else { 0.0 },
-            elevation_deg: told.beliefs.elevation_deg,
-            even_sky: if self.hypothesis.imperfection.is_ideal() { told.even_sky() } else { 0.0 },
+            sun: if is_ideal { told.sun } else { 1.0 },
+            sky: match told.day.has_sun() {
+                true if is_ideal => told.sky_above_horizon(),
+                true => 0.0,
+                false => 1.0,
+            },
+            cloud: if stated_sky.map_or(told.day == Day::Overcast, |sky| sky.is_overcast) {
+                1.0
+            } else {
+                0.0
+            },
+            elevation_deg: stated_sky.map_or(told.beliefs.elevation_deg, |sky| sky.elevation_deg),
+            even_sky: if is_ideal { told.even_sky() } else { 0.0 },
             sky_mired: None,
             ground: 0.0,
             ground_redness: 0.0,
             crease_radius: 0.0,
             bow_deg: 0.0,
             bow_difference_deg: 0.0,
+            nearness: 0.0,
+            fall_off: 0.0,
             vignetting: 0.0,
             glare: 0.0,
             gloss: 0.0,

@@ -59,6 +59,8 @@ pub struct Sunlit {
     pub bow_deg: Change,
     /// Bow of panel 0 and the opposite of panel 1, degrees.
     pub bow_difference_deg: Change,
+    /// Depth of a panel over the distance of a lamp that stands in the sun's place.
+    pub nearness: Change,
 }
 
 /// Elevations above the horizon of the direction to which the fold opens, degrees, at which light of the surroundings is known.

@@ -133,6 +133,7 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
     sun.crease_radius.add_to(&mut radiance, 1.0, conditions.crease_radius);
     sun.bow_deg.add_to(&mut radiance, 1.0, conditions.bow_deg);
     sun.bow_difference_deg.add_to(&mut radiance, 1.0, conditions.bow_difference_deg);
+    sun.nearness.add_to(&mut radiance, 1.0, conditions.nearness);
     conditions.sun * (radiance + beyond)
 }
 

@@ -11,6 +11,8 @@ pub enum Unmodelled {
     UnequalPanels,
     /// There is more than one picture of the sheet.
     SeveralLights,
+    /// Lamps light it, or several suns, or one that leaves a panel in the shade.
+    OtherLight,
     /// The corners are not given, or no camera sees the panels so.
     NoPose,
     /// No facet has any light.
@@ -23,6 +25,7 @@ impl fmt::Display for Unmodelled {
             Self::Card => "one panel is a card",
             Self::UnequalPanels => "one panel is deeper than the other",
             Self::SeveralLights => "there are pictures under several lights",
+            Self::OtherLight => "other lights than one sun and one sky were stated",
             Self::NoPose => "the corners do not tell where the camera stood",
             Self::NoFacets => "no facet has any light",
         })

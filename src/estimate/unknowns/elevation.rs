@@ -13,14 +13,17 @@ pub static ELEVATION: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Light,
-        known: |_| Known::OfImperfection,
+        known: |told| if told.elevation_deg().is_some() { Known::Stated } else { Known::OfImperfection },
         prior,
         set: |conditions, value| conditions.elevation_deg = value,
         symptom: None,
     }),
 };
 
+/// People know the zenith as well as where the sun stands across the crease.
 fn prior(told: &Told) -> Option<Expectation> {
-    told.daylight
-        .map(|_| Normal { mean: told.beliefs.elevation_deg, sd: told.beliefs.elevation_sd_deg }.into())
+    let beliefs = told.beliefs;
+    let usual = Normal { mean: beliefs.elevation_deg, sd: beliefs.elevation_sd_deg };
+    let known = told.elevation_deg().map_or(usual, |mean| Normal { mean, sd: beliefs.tilt_sd_deg });
+    told.daylight.map(|_| known.into())
 }

@@ -18,6 +18,7 @@ mod elevation;
 mod even_sky;
 mod exposure;
 mod factor;
+mod fall_off;
 mod first_gain;
 mod fuzz;
 mod glare;
@@ -26,6 +27,7 @@ mod gloss_roughness;
 mod ground;
 mod ground_redness;
 mod last_gain;
+mod nearness;
 mod scene_model;
 mod sky;
 mod sky_colour;
@@ -48,6 +50,7 @@ use elevation::ELEVATION;
 pub use even_sky::EVEN_SKY;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
+use fall_off::FALL_OFF;
 use first_gain::FIRST_GAIN;
 use fuzz::FUZZ;
 use glare::GLARE;
@@ -56,6 +59,7 @@ use gloss_roughness::GLOSS_ROUGHNESS;
 use ground::GROUND;
 use ground_redness::GROUND_REDNESS;
 use last_gain::LAST_GAIN;
+use nearness::NEARNESS;
 pub use scene_model::{Amounts, Expected, SceneModel};
 pub use sky::SKY;
 pub use sky_colour::SKY_COLOUR;
@@ -90,6 +94,8 @@ pub static TABLE: &[&Unknown] = &[
     &CREASE,
     &BOW,
     &BOW_DIFFERENCE,
+    &NEARNESS,
+    &FALL_OFF,
     &VIGNETTING,
     &GLARE,
     &FIRST_GAIN,

@@ -82,7 +82,13 @@ fn towards_light(shape: &Shape, sources: &[LightSource], middle: &Vector3<f64>) 
     let of_source = |source: &LightSource| match source {
         LightSource::Directional { towards, .. } => Some(*towards),
         LightSource::Point { at, .. } => (at - middle).try_normalize(0.0),
-        LightSource::UniformSky { .. } | LightSource::OvercastSky { .. } | LightSource::Given => None,
+        LightSource::Area { corners, .. } => {
+            (corners.iter().sum::<Vector3<f64>>() / 4.0 - middle).try_normalize(0.0)
+        }
+        LightSource::UniformSky { .. }
+        | LightSource::OvercastSky { .. }
+        | LightSource::StandardSky { .. }
+        | LightSource::Given => None,
     };
     let facing = || shape.facets().map(|facet| facet.area() * facet.normal()).sum::<Vector3<f64>>();
     sources.iter().find_map(of_source).or_else(|| facing().try_normalize(0.0)).unwrap_or_else(Vector3::z)

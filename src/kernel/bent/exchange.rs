@@ -91,12 +91,44 @@ impl BentExchange {
     /// [`Error::Numeric`] if light does not leave the fold.
     pub fn facet_radiance(&self, sun: Vector3<f64>, albedos: &[f64]) -> Result<Array2<f64>> {
         let sun = Vector2::new(sun.x, sun.z);
-        let lit = |normal: &Vector2<f64>| normal.dot(&sun).max(0.0);
-        let patches = self.strips.iter().flat_map(|strip| [lit(&strip.normal); HALF]);
+        self.radiance_in(|_, normal| normal.dot(&sun).max(0.0), albedos)
+    }
+
+    /// The same in the light of a lamp in that direction, so far from the `middle` of the sheet (across the crease and out of it), where it is as
+    /// bright as that sun. Places along the crease are as its middle.
+    ///
+    /// # Errors
+    /// As [`BentExchange::facet_radiance`].
+    pub fn radiance_by_lamp(
+        &self,
+        towards: Vector3<f64>,
+        (middle, distance): (Vector2<f64>, f64),
+        albedos: &[f64],
+    ) -> Result<Array2<f64>> {
+        let beside = distance * towards.y;
+        let lamp = middle + distance * Vector2::new(towards.x, towards.z);
+        let lit = |place: &Vector2<f64>, normal: &Vector2<f64>| {
+            let way = lamp - place;
+            let reach = way.norm_squared() + beside * beside;
+            normal.dot(&way).max(0.0) * distance * distance / reach.powf(1.5)
+        };
+        self.radiance_in(lit, albedos)
+    }
+
+    /// Radiance of the facets where the direct light on the sheet depends on place and normal.
+    fn radiance_in(
+        &self,
+        lit: impl Fn(&Vector2<f64>, &Vector2<f64>) -> f64,
+        albedos: &[f64],
+    ) -> Result<Array2<f64>> {
+        let patches = self.strips.iter().flat_map(|strip| [lit(&strip.at(0.5), &strip.normal); HALF]);
         let power =
             DMatrix::from_iterator(self.areas.len(), 1, patches.zip(&self.areas).map(|(e, area)| e * area));
-        let direct: Vec<f64> =
-            self.rows.iter().map(|row| row.iter().map(|seen| seen.share * lit(&seen.normal)).sum()).collect();
+        let direct: Vec<f64> = self
+            .rows
+            .iter()
+            .map(|row| row.iter().map(|seen| seen.share * lit(&seen.place, &seen.normal)).sum())
+            .collect();
         let half = self.cols.div_ceil(2);
         let mut radiance = Array2::zeros((self.rows.len() * self.cols, albedos.len()));
         for (node, albedo) in albedos.iter().enumerate() {

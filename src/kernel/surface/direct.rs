@@ -1,11 +1,16 @@
 //! Direct light of any source on patches, shadows included.
 
+use std::f64::consts::PI;
+
 use super::SurfaceKernel;
+use super::arealight::arealight;
 use super::patches::Patch;
+use super::shadow::point_factor;
 use super::skylight::{backs, skylight};
 use super::sunlight::{lamplight, sunlight};
-use crate::geometry::LightSource;
+use super::wedges;
 use crate::geometry::shape::Shape;
+use crate::geometry::{LightSource, Polygon, Vec3};
 
 /// Mean irradiance of every patch, and its largest standard error, zero where there is none.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +23,7 @@ pub struct DirectLight {
 
 impl DirectLight {
     /// What `source` gives to `patches` of `shape`, between which `kernel` says the exchange. A uniform sky gives what the patches do
-    /// not hide from each other, less the backs that they see, which are sampled; an overcast sky is sampled. A light of which nothing
+    /// not hide from each other, less the backs that they see, which are sampled; other skies are sampled where more than a few flat parts hide them. A light of which nothing
     /// but its irradiance is known gives nothing.
     ///
     /// # Source
@@ -32,15 +37,25 @@ impl DirectLight {
                 Self::sampled(source, (kernel.row_sums().into_iter().zip(backs).map(open).collect(), error))
             }
             LightSource::OvercastSky { zenith, .. } => {
-                Self::sampled(source, skylight(shape, patches, |towards| overcast(zenith.dot(towards))))
+                Self::of_sky(source, shape, patches, zenith, |towards| overcast(zenith.dot(towards)))
             }
-            LightSource::Directional { .. } | LightSource::Point { .. } | LightSource::Given => {
+            LightSource::StandardSky { sky, zenith, sun, .. } => {
+                let unit = PI / sky.irradiance(zenith.dot(sun));
+                Self::of_sky(source, shape, patches, zenith, |towards| match zenith.dot(towards) {
+                    height if height > 0.0 => unit * sky.radiance(height, sun.dot(towards)),
+                    _ => 0.0,
+                })
+            }
+            LightSource::Directional { .. }
+            | LightSource::Point { .. }
+            | LightSource::Area { .. }
+            | LightSource::Given => {
                 Self { irradiance: Self::of_lamp(source, shape, patches), standard_error: 0.0 }
             }
         }
     }
 
-    /// What the sun or a lamp gives to `patches`, exact; nothing if `source` is neither.
+    /// What the sun or a lamp gives to `patches`, exact but for lamps of some size, which are as exact as patches are small; nothing if `source` is neither.
     #[must_use]
     pub fn of_lamp(source: &LightSource, shape: &Shape, patches: &[Patch]) -> Vec<f64> {
         let (unit, amount) = match source {
@@ -50,11 +65,30 @@ impl DirectLight {
             LightSource::Point { at, distance, irradiance } => {
                 (lamplight(shape, patches, at), irradiance * distance * distance)
             }
-            LightSource::UniformSky { .. } | LightSource::OvercastSky { .. } | LightSource::Given => {
-                (vec![0.0; patches.len()], 0.0)
+            LightSource::Area { corners, distance, irradiance } => {
+                let (lamp, reach) = (Polygon::new(corners), *distance);
+                let facing = lamp.plane().normal;
+                let before = lamp.centroid() + reach * facing;
+                (arealight(shape, patches, &lamp), irradiance / point_factor(&before, &-facing, corners))
             }
+            LightSource::UniformSky { .. }
+            | LightSource::OvercastSky { .. }
+            | LightSource::StandardSky { .. }
+            | LightSource::Given => (vec![0.0; patches.len()], 0.0),
         };
         unit.into_iter().map(|light| amount * light).collect()
+    }
+
+    /// Of a sky with a horizon: by quadrature, or else by rays.
+    fn of_sky(
+        source: &LightSource,
+        shape: &Shape,
+        patches: &[Patch],
+        zenith: &Vec3,
+        radiance: impl Fn(&Vec3) -> f64 + Sync,
+    ) -> Self {
+        let exact = wedges::skylight(shape, patches, zenith, &radiance).map(|light| (light, 0.0));
+        Self::sampled(source, exact.unwrap_or_else(|| skylight(shape, patches, &radiance)))
     }
 
     fn sampled(source: &LightSource, (unit, error): (Vec<f64>, f64)) -> Self {

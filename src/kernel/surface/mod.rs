@@ -5,6 +5,7 @@
 //! other their backs exchange nothing. One number stands for both directions, so that reciprocity holds by construction. In large meshes
 //! clusters that see each other from afar exchange light without a number for every pair (`far_field`, `hierarchy`).
 
+pub mod arealight;
 mod assembly;
 mod block;
 pub mod casters;
@@ -25,6 +26,7 @@ mod site;
 pub mod skylight;
 pub mod sunlight;
 pub mod symmetric;
+pub mod wedges;
 
 use rayon::prelude::*;
 

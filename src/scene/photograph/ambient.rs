@@ -9,27 +9,27 @@ use super::framing::Pose;
 use crate::error::Result;
 use crate::estimate::photograph::parts::{Ambient, Change, ELEVATIONS_DEG, Surroundings};
 use crate::geometry::Fold;
+use crate::geometry::StandardSky;
 use crate::kernel::bent::BentFold;
 use crate::kernel::environment::{Environment, Surroundings as Part, facet_radiances};
-use crate::kernel::standard_sky::StandardSky;
 
 /// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle at most, and bow.
 const ANGLE_DEG: f64 = 3.0;
 const ANGLE_MOST: f64 = 0.15;
 const BOW_DEG: f64 = 3.0;
 
-/// Skies and the ground on a fold that is turned to `sun`.
+/// Skies and the ground on a fold that is turned to `sun`, the `zenith` being where somebody stated it, or where people hold their cameras.
 ///
 /// `even` is what facets have in light that is alike in all directions and gives an open plane 1, facet by node: what they have in other light is
 /// coarse, and off in proportion.
 pub fn of(
     fold: &Fold,
-    (pose, sun): (&Pose, Vector3<f64>),
+    (pose, sun, zenith): (&Pose, Vector3<f64>, Option<Vector3<f64>>),
     (nodes, even): (&[f64], &Array2<f64>),
     bins: &Bins,
 ) -> Result<Surroundings> {
     let lights = ELEVATIONS_DEG.map(|elevation_deg| {
-        let up = pose.up(sun, elevation_deg.to_radians().sin());
+        let up = pose.up(sun, elevation_deg.to_radians().sin(), zenith);
         Environment::new(
             [Part::Standard(StandardSky::CLEAR, sun), Part::OvercastSky, Part::Ground, Part::Sky],
             up,

@@ -44,9 +44,10 @@ impl Pose {
         ((x - self.centre.x).powi(2) + (y - self.centre.y).powi(2)) / self.half_diagonal.powi(2)
     }
 
-    /// The zenith, if people hold their cameras upright and the sun stands at this sine of its height.
-    pub fn up(&self, sun: Vector3<f64>, sun_height: f64) -> Vector3<f64> {
-        let beside = (self.up - self.up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);
+    /// The zenith, if the sun stands at this sine of its height, on the side of the one that was stated, or of what is up for the camera.
+    pub fn up(&self, sun: Vector3<f64>, sun_height: f64, stated: Option<Vector3<f64>>) -> Vector3<f64> {
+        let up = stated.unwrap_or(self.up);
+        let beside = (up - up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);
         sun_height * sun + (1.0 - sun_height * sun_height).sqrt() * beside
     }
 }

@@ -28,6 +28,7 @@ vestimate flat.ndjson --method park | vscore -o park.ndjson
 vestimate flat.ndjson --method khan | vscore -o khan.ndjson
 
 # shapes in all lights, a group of which is known; a kernel made elsewhere
+vkernel --facets 2x2 --mesh facets --light area:0,1,2,1x1 --light 0,0,1 --sky 0.2 --sky-type 12 -q -o lamps.ndjson
 vkernel --shape "$data/shapes/corner.obj" --two-sided --mesh facets --light 1,1,2 --light point:1,1,2 --sky 0.2 --sky-type overcast \
     -q -o corner.ndjson
 vkernel --folds 2 --angle-deg 80 --facets 2x2 --mesh facets --light 0,0,1 --sky 0.1 --save kernel=K.npy -o accordion.ndjson

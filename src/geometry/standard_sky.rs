@@ -1,19 +1,20 @@
 //! Standard skies: how bright a sky is in each direction, by its cloud and haze.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
 /// One of the fifteen standard general skies: 1 to 5 are overcast, 6 to 10 partly cloudy, 11 to 15 clear.
 ///
 /// # Source
 /// CIE S 011/E:2003, *Spatial distribution of daylight: CIE standard general sky*, table 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StandardSky {
-    /// How radiance changes from horizon to zenith: a and b.
-    gradation: [f64; 2],
-    /// How it changes with the distance from the sun: c, d and e.
-    indicatrix: [f64; 3],
+    number: usize,
 }
 
+/// How radiance changes from horizon to zenith: a and b.
 const GRADATIONS: [[f64; 2]; 6] =
     [[4.0, -0.70], [1.1, -0.8], [0.0, -1.0], [-1.0, -0.55], [-1.0, -0.32], [-1.0, -0.15]];
+/// How it changes with the distance from the sun: c, d and e.
 const INDICATRICES: [[f64; 3]; 6] = [
     [0.0, -1.0, 0.0],
     [2.0, -1.5, 0.15],
@@ -41,30 +42,57 @@ const TYPES: [[usize; 2]; 15] = [
     [5, 5],
 ];
 
+/// Parts of a sky that are added up, in height and round the horizon: the sum is off by less than 1e-4.
+const HEIGHTS: usize = 128;
+const AZIMUTHS: usize = 96;
+
 impl StandardSky {
     /// A clear sky of low turbidity: type 12.
-    pub const CLEAR: Self = Self { gradation: GRADATIONS[4], indicatrix: INDICATRICES[3] };
+    pub const CLEAR: Self = Self { number: 12 };
 
     /// The sky of this type, 1 to 15; none of another.
     ///
     /// # Example
     /// ```
-    /// use vfold::kernel::standard_sky::StandardSky;
+    /// use vfold::geometry::StandardSky;
     /// assert_eq!(StandardSky::of_type(12), Some(StandardSky::CLEAR));
     /// assert_eq!(StandardSky::of_type(16), None);
     /// ```
     #[must_use]
     pub fn of_type(number: usize) -> Option<Self> {
-        let [gradation, indicatrix] = *TYPES.get(number.checked_sub(1)?)?;
-        Some(Self { gradation: GRADATIONS[gradation], indicatrix: INDICATRICES[indicatrix] })
+        (1..=TYPES.len()).contains(&number).then_some(Self { number })
+    }
+
+    /// Number of its type, 1 to 15.
+    #[must_use]
+    pub fn number(self) -> usize {
+        self.number
+    }
+
+    /// Irradiance of an open horizontal plane by its relative radiance, the sine of the sun's elevation being `sun_height`.
+    #[must_use]
+    pub fn irradiance(self, sun_height: f64) -> f64 {
+        let sun_beside = (1.0 - sun_height * sun_height).max(0.0).sqrt();
+        let ring = |height: f64| {
+            let beside = (1.0 - height * height).sqrt();
+            let at = |n: usize| {
+                let azimuth = TAU * (n as f64 + 0.5) / AZIMUTHS as f64;
+                self.radiance(height, sun_height * height + sun_beside * beside * azimuth.cos())
+            };
+            (0..AZIMUTHS).map(at).sum::<f64>()
+        };
+        // rings of equal shares in what a horizontal plane receives of an even sky
+        let height = |n: usize| ((n as f64 + 0.5) / HEIGHTS as f64).sqrt();
+        PI / (HEIGHTS * AZIMUTHS) as f64 * (0..HEIGHTS).map(|n| ring(height(n))).sum::<f64>()
     }
 
     /// Relative radiance from a direction with these cosines of its angles with the zenith, above 0, and with the sun.
     #[must_use]
     pub fn radiance(self, cos_to_zenith: f64, cos_to_sun: f64) -> f64 {
-        let Self { gradation: [a, b], indicatrix: [c, d, e] } = self;
+        let [gradation, indicatrix] = TYPES[self.number - 1];
+        let ([a, b], [c, d, e]) = (GRADATIONS[gradation], INDICATRICES[indicatrix]);
         let cos = cos_to_sun.clamp(-1.0, 1.0);
-        let at_right_angle = (d * std::f64::consts::FRAC_PI_2).exp();
+        let at_right_angle = (d * FRAC_PI_2).exp();
         let indicatrix = 1.0 + c * ((d * cos.acos()).exp() - at_right_angle) + e * cos * cos;
         (1.0 + a * (b / cos_to_zenith).exp()) * indicatrix
     }
@@ -73,6 +101,15 @@ impl StandardSky {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// An even one gives a horizontal plane π times its radiance, the overcast one of Moon and Spencer's kind nearly 7/9 of that at its zenith.
+    #[test]
+    fn skies_are_added_up() {
+        let of = |number: usize, height| StandardSky::of_type(number).unwrap().irradiance(height);
+        assert!((of(5, 0.5) / PI - 1.0).abs() < 1e-12);
+        let zenith = StandardSky::of_type(1).unwrap().radiance(1.0, 0.5);
+        assert!((of(1, 0.5) / (zenith * PI) - 7.0 / 9.0).abs() < 0.01);
+    }
 
     /// The standard's own numbers: an overcast sky of type 1 is three times as bright at the zenith as at the horizon, one of type 5 is even.
     #[test]

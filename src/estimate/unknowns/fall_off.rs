@@ -1,0 +1,36 @@
+//! Light that falls off along the crease.
+
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use crate::estimate::Fitted;
+
+/// By how much one end of the crease has less light than the other, relative to its middle; negative: more.
+pub static FALL_OFF: Unknown = Unknown {
+    name: "fall_off",
+    about: "By how much end 1 of the crease has less light than end 0, relative to the middle",
+    unit: None,
+    flag: &AUTO,
+    range: f64::NEG_INFINITY..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Lens,
+        known: |_| Known::Imperfection,
+        prior,
+        set: |conditions, value| conditions.fall_off = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.03,
+            words: |Fitted { value, .. }, _| {
+                let (percent, end) = (100.0 * value.abs(), usize::from(*value > 0.0));
+                format!(
+                    "light falls off along the crease, by {percent:.0} % towards end {end}: a lamp near by, or the edge of a shadow"
+                )
+            },
+            remedy: "photograph the sheet in the sun, away from walls; in the light of a lamp, with that further away",
+        }),
+    }),
+};
+
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.unevenness().into())
+}

@@ -1,0 +1,36 @@
+//! A lamp near by in the place of the sun.
+
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use crate::estimate::Fitted;
+
+/// Depth of a panel over the distance of the lamp that lights it: 0 of the sun.
+pub static NEARNESS: Unknown = Unknown {
+    name: "nearness",
+    about: "Depth of a panel over the distance of the lamp that lights it",
+    unit: None,
+    flag: &AUTO,
+    range: f64::NEG_INFINITY..=f64::INFINITY,
+    scale: Scale::Linear,
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Fold,
+        known: |_| Known::Imperfection,
+        prior,
+        set: |conditions, value| conditions.nearness = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.02,
+            words: |Fitted { value, .. }, _| {
+                format!(
+                    "light falls off over the panels, as that of a lamp {:.0} depths of a panel away",
+                    value.abs().recip()
+                )
+            },
+            remedy: "photograph the sheet in the sun, or with the lamp further away",
+        }),
+    }),
+};
+
+fn prior(told: &Told) -> Option<Expectation> {
+    Some(told.beliefs.unevenness().into())
+}
