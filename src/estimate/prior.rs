@@ -17,7 +17,7 @@ const MATERN_SD: f64 = 0.25;
 /// that are dark in all of it rise there. It falls by e within the decay.
 const MIDDLE_SD: f64 = 0.16;
 const VIOLET_SD: f64 = 0.2;
-const RED_SD: f64 = 0.2;
+const RED_SD: f64 = 0.15;
 const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;

@@ -32,7 +32,7 @@ pub use drawing::{
     Balance, Thumbnail, White, is_for_the_eye, png_bytes, thumbnail, write_linear, write_overlay,
     write_preview, write_srgb_png,
 };
-pub use edges::{Marked, Refinement, refine};
+pub use edges::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub use finding::{
     FoundChart, FoundFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_around, weighed_chart,
     weighed_folds,

@@ -21,7 +21,7 @@ use crate::forward::FacetValues;
 use crate::geometry::{FacetGrid, Fold, Light};
 use crate::image::{
     CornersBy, FacetMeasurement, FoldSeen, Framing, Lens, Making, MeasuredPanels, Photograph, Point,
-    measure_panels, open_sides,
+    REFINED_WITHIN_PX, measure_panels, open_sides, refine,
 };
 use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
 use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, other_lights, stated, stated_fold};
@@ -35,7 +35,8 @@ pub struct Setup<'a> {
     pub fold: Fold,
     /// Where the sun stands, and how much sky there is.
     pub light: Light,
-    /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1, outer end 1, outer end 0.
+    /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1, outer end 1, outer end
+    /// 0; they are moved to the edges around them.
     pub corners: [[Point; 4]; 2],
     /// Wavelengths of the spectrum.
     pub wavelengths: WavelengthGrid,
@@ -144,7 +145,10 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let fold = setup.setting(photograph)?;
     let panels: BTreeMap<_, _> = fold.fold.panels().into_iter().enumerate().collect();
     let marked: BTreeMap<_, _> = setup.corners.into_iter().enumerate().collect();
-    let panels = MarkedPanels::new(&panels, &marked)?.grids(Lens::STRAIGHT, setup.corners)?;
+    let panels = MarkedPanels::new(&panels, &marked)?;
+    let refined = refine(photograph, &panels.marked, &Lens::STRAIGHT, REFINED_WITHIN_PX)?.panels;
+    let corners = <[[Point; 4]; 2]>::try_from(refined).unwrap_or(setup.corners);
+    let panels = panels.grids(Lens::STRAIGHT, corners)?;
     let MeasuredPanels { facets, processing, .. } = measure_panels(photograph, &panels, 0.0)?;
     let rgb = values(&facets, |facet| facet.mean.clone())?;
     let noise = Noise {
@@ -157,7 +161,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let picture = Picture {
         measured,
         framing: Some(Framing {
-            panels: setup.corners.map(Some),
+            panels: corners.map(Some),
             size: [photograph.width(), photograph.height()].map(|px| px as f64),
         }),
         exposure: setup.exposure,
@@ -171,7 +175,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         focal_35mm: photograph.info().camera.focal_35mm,
         depths: None,
     };
-    let other_fold = seen.other_than(&setup.corners, &stated_fold(&fold.fold, None));
+    let other_fold = seen.other_than(&corners, &stated_fold(&fold.fold, None));
     let taken = Photographed {
         making: Making::of(photograph.info(), processing, open_sides(photograph, &panels), other_fold),
         by_chart: false,

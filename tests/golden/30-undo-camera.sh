@@ -7,7 +7,7 @@ cat > did.json <<'END'
 END
 crease="358.28,441.60 346.13,100.03"
 measure() {
-    vextract -q "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$crease 155.42,55.00 166.27,426.90" \
+    vextract -q --exact-corners "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$crease 155.42,55.00 166.27,426.90" \
         --panel1 "$crease 469.63,38.40 484.58,413.42" --save facet_rgb=$1.npy --save facet_clipped=clipped.npy >sample.ndjson
 }
 for exposure in 1 4; do

@@ -26,7 +26,7 @@ for k, panel in enumerate(panels):
 json.dump([panel.tolist() for panel in panels], open("true.json", "w"))
 END
     extract() { vextract $photo --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$(cat ${1}0)" --panel1 "$(cat ${1}1)" "$2" --save facet_rgb=$1.npy; }
-    extract true --no-history >/dev/null
+    extract true --exact-corners >/dev/null
     extract typed --refine | tail -1 > found.json
     python3 - $photo <<'END'
 import sys, json

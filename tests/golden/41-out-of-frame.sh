@@ -10,7 +10,7 @@ panels() { # corners of both panels, moved to the left
         printf "--panel1\n%s %.2f,38.40 %.2f,413.42\n", crease, 469.63 - dx, 484.58 - dx
     }'
 }
-extract() { panels $2 | tr '\n' '\0' | xargs -0 vextract $1 --scene scene.json --camera canon-5d-mark-ii --illuminant D65; }
+extract() { panels $2 | tr '\n' '\0' | xargs -0 vextract --exact-corners $1 --scene scene.json --camera canon-5d-mark-ii --illuminant D65; }
 extract photo.exr 0 | tail -1 > whole.json
 extract cut.exr 260 | tail -1 > part.json
 python3 - <<'END'

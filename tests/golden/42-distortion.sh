@@ -39,10 +39,10 @@ extract() {
     vextract $photo --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "$(cat ${corners}0)" --panel1 "$(cat ${corners}1)" --margin 1 \
         --save facet_rgb=$name.npy "$@" | tail -1 > $name.json
 }
-extract photo.exr straight straight
-extract bent.exr bent bent --distortion=-0.05,0.01
-extract bent.exr typed refined --distortion=-0.05,0.01 --refine
-extract bent.exr bent ignored
+extract photo.exr straight straight --exact-corners
+extract bent.exr bent bent --distortion=-0.05,0.01 --exact-corners
+extract bent.exr typed refined --distortion=-0.05,0.01
+extract bent.exr bent ignored --exact-corners
 python3 - <<'END'
 import json
 import numpy as np

@@ -6,7 +6,7 @@ oiiotool photo.exr --noise:type=gaussian:stddev=0.002:seed=3 -d half -o clean.ex
 oiiotool clean.exr --fill:color=0.02,0.02,0.02 4x4+250+200 --fill:color=0.01,0.03,0.02 6x3+400+300 \
     --fill:color=9,9,9 1x1+200+150 --fill:color=9,0.2,0.1 1x1+420+200 --line:color=0.05,0.05,0.05 220,330,300,380 -d half -o dusty.exr
 for photo in clean dusty; do
-    vextract $photo.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90" \
+    vextract $photo.exr --exact-corners --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90" \
         --panel1 "358.28,441.60 346.13,100.03 469.63,38.40 484.58,413.42" --save facet_rgb=$photo.npy --save facet_sd=sd.npy \
         --save facet_outliers=$photo-out.npy --overlay $photo.png > $photo.json
 done

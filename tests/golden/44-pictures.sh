@@ -7,7 +7,7 @@ oiiotool photo.exr --ch R -d uint16 -o grey.png
 for photo in photo.exr large.tif turned.tif grey.png; do
     vextract $photo --preview 'preview-{}.png'
 done
-vextract photo.exr large.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90" \
+vextract photo.exr large.tif --exact-corners --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90" \
     --overlay 'overlay-{}.png' > samples.ndjson
 for picture in preview-*.png overlay-*.png; do
     oiiotool --info -v $picture | grep -e "$picture *:" -e 'vfold photograph size' | tr -s ' ' | sed 's/channel, uint8 png/8-bit/'

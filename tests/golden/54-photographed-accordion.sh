@@ -5,7 +5,7 @@ vforward scene.json --reflectance cc24:orange --exposure 2 --eye=-3,-5,12 --rend
 vforward scene.json --reflectance cc24:orange --exposure 2 -q --render above.exr -o above.ndjson
 oiiotool w.exr --noise:type=gaussian:stddev=0.004:seed=7 -d uint16 -o noisy.png
 
-extract() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --no-history; }
+extract() { vextract --exact-corners "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --no-history; }
 extract w.exr --regions simulated.ndjson --overlay overlay.png --save facet_rgb=w.npy > w.ndjson
 extract noisy.png --regions simulated.ndjson -o noisy.ndjson
 extract above.exr --regions above.ndjson -o all.ndjson

@@ -219,17 +219,17 @@ cat > did.json <<END
 {did}
 END
 vkernel --angle-deg {angle} --tilt-deg {tilt} --sky {sky} -o scene.json
-vextract "{photo}" --scene scene.json {undo} --camera {camera} --illuminant {illuminant} {sky_illuminant} \
+vextract "{photo}" --exact-corners --scene scene.json {undo} --camera {camera} --illuminant {illuminant} {sky_illuminant} \
     --panel0 "{panel0}" --panel1 "{panel1}" --exposure {exposure} -o sample.ndjson
 vestimate -q sample.ndjson {reference} | vscore --truth truth.csv
 vestimate -q sample.ndjson {reference} --exposure free | vscore --truth truth.csv
 vkernel --angle-deg {angle} -o scene.json
-vextract "{photo}" --scene scene.json {undo} --camera {camera} --illuminant {illuminant} \
+vextract "{photo}" --exact-corners --scene scene.json {undo} --camera {camera} --illuminant {illuminant} \
     --panel0 "{panel0}" --panel1 "{panel1}" -o sample.ndjson
 vestimate -q sample.ndjson {reference} --fit exposure,tilt,sky | vscore --truth truth.csv
 vestimate -q sample.ndjson {reference} --exposure {exposure} | vscore --truth truth.csv
 vkernel --angle-deg {wrong_angle} -o scene.json
-vextract "{photo}" --scene scene.json {undo} --camera {camera} --illuminant {illuminant} \
+vextract "{photo}" --exact-corners --scene scene.json {undo} --camera {camera} --illuminant {illuminant} \
     --panel0 "{panel0}" --panel1 "{panel1}" -o sample.ndjson
 vestimate -q sample.ndjson {reference} --fit exposure,tilt,sky,angle | vscore --truth truth.csv
 "#,

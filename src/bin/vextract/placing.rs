@@ -2,15 +2,18 @@
 
 use clap::Args;
 use vfold::cli;
-use vfold::image::{Grid, Lens, Photograph, Refinement, refine};
+use vfold::image::{Grid, Lens, Photograph, REFINED_WITHIN_PX, Refinement, refine};
 use vfold::scene::MarkedPanels;
 use vfold::{Error, Result};
 
 #[derive(Args)]
 pub struct PlacingArgs {
-    /// Move the panels' corners to the edges and the crease within PX pixels [PX: 6]
+    /// Move the panels' corners to the edges and the crease within PX pixels, not 6, and say along which sides there are none
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
+    /// Leave the corners where they are
+    #[arg(long, conflicts_with = "refine")]
+    exact_corners: bool,
     /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side
     #[arg(long, value_name = "K1,K2", value_parser = coefficients, allow_hyphen_values = true)]
     distortion: Option<[f64; 2]>,
@@ -28,14 +31,22 @@ impl PlacingArgs {
     /// # Errors
     /// [`Error::Usage`] if the reach is no distance.
     pub fn check(&self) -> Result<()> {
-        match self.refine {
-            Some(px) if !(px > 0.0 && px <= MOST_PX) => Err(Error::usage(
-                "--refine",
-                format!("{px} px is no reach"),
-                "give 1 to 100, such as --refine=6",
-            )),
-            _ => Ok(()),
+        let px = self.reach_px();
+        if px > 0.0 && px <= MOST_PX {
+            return Ok(());
         }
+        let problem = format!("{px} px is no reach");
+        Err(Error::usage("--refine", problem, "give 1 to 100, such as --refine=6"))
+    }
+
+    /// How far from the corners edges are looked for, px.
+    fn reach_px(&self) -> f64 {
+        self.refine.unwrap_or(REFINED_WITHIN_PX)
+    }
+
+    /// Whether it is to be said along which sides there are no edges.
+    pub fn asks_for_edges(&self) -> bool {
+        self.refine.is_some()
     }
 
     /// Whether somebody told how the lens bends the picture.
@@ -52,13 +63,15 @@ impl PlacingArgs {
         Ok(lens.transpose()?.unwrap_or(Lens::STRAIGHT))
     }
 
-    /// Panels with the given corners, refined if asked for, behind the lens.
+    /// Panels with the given corners, refined unless they are exact, behind the lens.
     ///
     /// # Errors
     /// As [`PlacingArgs::lens`], [`refine`] and [`MarkedPanels::grids`].
     pub fn place(&self, photograph: &Photograph, panels: &MarkedPanels) -> Result<Placed> {
         let lens = self.lens(photograph)?;
-        let refinement = self.refine.map(|px| refine(photograph, &panels.marked, &lens, px)).transpose()?;
+        let refinement =
+            (!self.exact_corners).then(|| refine(photograph, &panels.marked, &lens, self.reach_px()));
+        let refinement = refinement.transpose()?;
         let grids = match &refinement {
             Some(refinement) => panels.grids(lens, refinement.panels.iter().copied()),
             None => panels.grids(lens, panels.marked.iter().map(|panel| panel.corners)),

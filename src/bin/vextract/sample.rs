@@ -63,13 +63,6 @@ impl Setup<'_> {
         let placed = args.placing.place(&photograph, &panels)?;
         let corners_by = if confidence.is_some() { CornersBy::Finding } else { CornersBy::Hand };
         let other_fold = finding::other_fold(args, &photograph, self.scene, (&placed.grids, corners_by))?;
-        if let Some(other) = other_fold.filter(|_| !args.common.quiet) {
-            let path = path.display();
-            cli::say(
-                "vextract",
-                &format!("{path}: the corners are not those of the scene's fold, but {other}"),
-            );
-        }
         let margin = args.regions.margin;
         let MeasuredPanels { facets: mut measured, pixels_sharing_noise, processing } =
             measure_panels(&photograph, &placed.grids, margin)?;
@@ -103,7 +96,8 @@ impl Setup<'_> {
             .with_confidence(confidence);
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {
-            placing::report(refinement, &path.display().to_string(), args.common.verbose, args.common.quiet);
+            let quiet = args.common.quiet || !args.placing.asks_for_edges();
+            placing::report(refinement, &path.display().to_string(), args.common.verbose, quiet);
         }
         if !args.common.quiet {
             numbers::warnings(path, photograph.info(), processing, &facets)

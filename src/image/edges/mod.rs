@@ -6,5 +6,5 @@ mod piece;
 mod refine;
 
 pub(in crate::image) use edge::{Edge, MOST_OF_PIECE};
-pub use refine::{Marked, Refinement, refine};
+pub use refine::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub(in crate::image) use refine::{Settled, refine_in_sight, settle};

@@ -54,6 +54,9 @@ const NEARER: f64 = 0.4;
 /// but not nearer than this many standard deviations.
 const LEAST_SDS: f64 = 3.0;
 
+/// As far as people click beside a corner, px.
+pub const REFINED_WITHIN_PX: f64 = 6.0;
+
 /// Moves the corners of panels to the edges around them.
 ///
 /// # Arguments
