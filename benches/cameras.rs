@@ -1,25 +1,82 @@
-//! What stands in for a camera that nobody measured, each of the 52 left out in turn: by its colour matrix, by its maker, by neither, and the
-//! mean of all others. Errors are root mean squares of the curves over 400 to 700 nm, green's peak being 1.
+//! What stands in for a camera that nobody measured, each of the measured ones left out in turn: curves predicted from its published colour matrix,
+//! from the matrix that follows from its own curves, the camera of the nearest published matrix, one of its maker, one of any, and the mean of all.
+//! Errors are root mean squares of the curves over 400 to 700 nm, green's peak being 1.
 //!
 //! `cargo bench --bench cameras` prints the table of `benches/results/cameras.md`.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 
+use nalgebra::Matrix3xX;
+use nalgebra::Vector3;
 use vfold::Result;
-use vfold::camera::{LeftOut, StandIns};
+use vfold::camera::{
+    CameraResponse, ColourMatrix, KnownCurves, LeftOut, Predictor, StandIns, curve_error, known_curves,
+};
+use vfold::colorimetry::{Colorimeter, Observer};
+use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 
 fn main() -> Result<()> {
-    let rows = StandIns::new()?.left_out()?;
-    println!("| camera left out | by matrix | error | by maker | error | by neither | error | mean of all |");
-    println!("|---|---|---|---|---|---|---|---|");
-    for LeftOut { camera, stand_ins, mean_error } in &rows {
-        let cells: Vec<_> =
-            stand_ins.iter().map(|(stand_in, error)| format!("{} | {error:.4}", stand_in.name)).collect();
-        println!("| {camera} | {} | {mean_error:.4} |", cells.join(" | "));
+    let grid = WavelengthGrid::default();
+    let known = known_curves(&grid)?;
+    let published = Predictor::new(&grid)?;
+    let computed = Predictor::by_matrices(&grid, &computed_matrices(&grid, &known)?)?;
+    let nearest = |name: &str| {
+        let nearest = published.nearest_to(name)?;
+        let curves = |name: &str| known.iter().find(|one| one.camera.name() == name).map(|one| &one.curves);
+        Some(curve_error(curves(name)?, curves(&nearest.name())?))
+    };
+    println!(
+        "| camera left out | predicted | by computed matrix | nearest matrix | by maker | error | by neither | error | mean of all |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    let mut columns: [Vec<f64>; 6] = Default::default();
+    for LeftOut { camera, stand_ins: [(maker, of_maker), (any, of_any)], mean_error } in
+        StandIns::new()?.left_out()
+    {
+        let errors = [
+            predicted_error(&published, &camera),
+            predicted_error(&computed, &camera),
+            nearest(&camera),
+            Some(of_maker),
+            Some(of_any),
+            Some(mean_error),
+        ];
+        columns.iter_mut().zip(errors).for_each(|(column, error)| column.extend(error));
+        let [predicted, by_computed, by_nearest, ..] =
+            errors.map(|error| error.map_or_else(String::new, |error| format!("{error:.4}")));
+        println!(
+            "| {camera} | {predicted} | {by_computed} | {by_nearest} | {} | {of_maker:.4} | {} | {of_any:.4} | {mean_error:.4} |",
+            maker.name, any.name
+        );
     }
-    let mean = |error: &dyn Fn(&LeftOut) -> f64| rows.iter().map(error).sum::<f64>() / rows.len() as f64;
-    let [matrix, maker, neither] = [0, 1, 2].map(|k: usize| mean(&|row| row.stand_ins[k].1));
-    let of_all = mean(&|row| row.mean_error);
-    println!("| **mean** | | **{matrix:.4}** | | **{maker:.4}** | | **{neither:.4}** | **{of_all:.4}** |");
+    let [a, b, c, d, e, f] = columns.map(|column| column.iter().sum::<f64>() / column.len() as f64);
+    println!(
+        "| **mean** | **{a:.4}** | **{b:.4}** | **{c:.4}** | | **{d:.4}** | | **{e:.4}** | **{f:.4}** |"
+    );
     Ok(())
+}
+
+/// How far off the curves of a camera are as the others predict them; none if its matrix is not known.
+fn predicted_error(predictor: &Predictor, camera: &str) -> Option<f64> {
+    let left_out = predictor.left_out().into_iter().find(|one| one.camera.name() == camera)?;
+    Some(curve_error(&left_out.predicted, &left_out.measured))
+}
+
+/// Of every camera the matrix that takes the Munsell chips' XYZ under D65 nearest to what it sees of them.
+fn computed_matrices(grid: &WavelengthGrid, known: &[KnownCurves]) -> Result<Vec<(String, ColourMatrix)>> {
+    let daylight = illuminant("D65")?;
+    let power = daylight.on(grid, Outside::Refuse)?;
+    let eye = Colorimeter::new(grid, &daylight, Observer::Cie1931_2deg)?;
+    let chips = reflectances("munsell")?;
+    let chips = chips.iter().map(|chip| chip.on(grid, Outside::Refuse)).collect::<Result<Vec<_>>>()?;
+    let xyz =
+        Matrix3xX::from_columns(&chips.iter().map(|chip| Vector3::from(eye.xyz(chip))).collect::<Vec<_>>());
+    let inverse = (&xyz * xyz.transpose()).try_inverse().unwrap_or_default();
+    let matrix = |known: &KnownCurves| {
+        let response = CameraResponse::new(grid, &known.curves, &power)?;
+        let rgb: Vec<_> = chips.iter().map(|chip| Vector3::from_vec(response.of_flat(chip))).collect();
+        let matrix = Matrix3xX::from_columns(&rgb) * xyz.transpose() * inverse;
+        Ok((known.camera.name(), [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]))))
+    };
+    known.iter().map(matrix).collect()
 }

@@ -54,8 +54,8 @@ def sheets(shared, pick, work):
     for path in sorted((shared / "data/reflectance").glob("*.csv")):
         header, *body = rows(path)
         nm = [float(row[0]) for row in body]
-        if path.stem.startswith("colorchecker24"):
-            picked = range(1, len(header)) if path.stem.endswith("ohta") else []
+        if path.stem == "colorchecker24_ohta":
+            picked = range(1, len(header))
         else:
             good = [n for n in range(1, len(header)) if all(0 <= float(row[n]) <= 1 for row in body)]
             step = len(good) // OF_EACH_SET
@@ -126,21 +126,32 @@ def found(all, light, powers):
     return 100 * statistics.fmean(nearest(one["estimate"]["light"]["power"]) == light for one in all)
 
 
+def picked(all, light):
+    """Per cent of estimates in which this light, one of the eight, is the most probable."""
+    if not all:
+        return None
+    return 100 * statistics.fmean(one["estimate"]["light"]["candidates"][0]["name"].endswith(f":{light}") for one in all)
+
+
 def row_of(bench, light, noise, powers, flags):
     records = bench.taken(light, noise, bench.fold)
     right, _ = bench.estimates(records)
     untold, _ = bench.estimates(records, "--illuminant", "unknown", *flags)
     wrong = [one for other in LISTED if other != light for one in bench.told(records, other)]
+    among, _ = bench.estimates(records, "--illuminant", "unknown", "--illuminants", bench.listed) if light in LISTED else ([], 0)
     flat, _ = bench.estimates(bench.taken(light, noise, bench.flat), "--illuminant", "unknown", *flags)
     return {
         "light": Path(light).stem,
         "noise": noise,
         "found": found(untold, light, powers),
+        "of eight": picked(among, light),
         "flat found": found(flat, light, powers),
         "right": mean_rmse(right),
         "right within": within(right),
         "untold": mean_rmse(untold),
         "untold within": within(untold),
+        "one of eight": mean_rmse(among) if among else None,
+        "one of eight within": within(among) if among else None,
         "wrong": mean_rmse(wrong),
         "wrong within": within(wrong),
         "flat": mean_rmse(flat),
@@ -148,17 +159,24 @@ def row_of(bench, light, noise, powers, flags):
 
 
 COLUMNS = [
-    "light", "noise", "found", "flat found", "right", "right within", "untold", "untold within", "wrong", "wrong within", "flat",
+    "light", "noise", "found", "of eight", "flat found", "right", "right within", "untold", "untold within", "one of eight", "one of eight within", "wrong",
+    "wrong within", "flat",
 ]
+ERRORS = ("right", "untold", "one of eight", "wrong", "flat")
 
 
 def line(one):
-    cell = lambda name: one[name] if isinstance(one[name], str) else f"{one[name]:.3f}" if name in ("right", "untold", "wrong", "flat") else f"{one[name]:.0f}"
+    def cell(name):
+        value = one[name]
+        return value if isinstance(value, str) else "" if value is None else f"{value:.3f}" if name in ERRORS else f"{value:.0f}"
     return "| " + " | ".join(cell(name) for name in COLUMNS) + " |"
 
 
 def mean(name, noise, all):
-    return {"light": name, "noise": noise} | {column: statistics.fmean(one[column] for one in all) for column in COLUMNS[2:]}
+    def of(column):
+        known = [one[column] for one in all if one[column] is not None]
+        return statistics.fmean(known) if known else None
+    return {"light": name, "noise": noise} | {column: of(column) for column in COLUMNS[2:]}
 
 
 def without(bench, light):
@@ -190,6 +208,8 @@ def main():
     with TemporaryDirectory() as work:
         bench = Bench(Tools(given.tools), given.shared, given.pick, Path(work))
         powers = {light: bench.power(light) for light in LISTED}
+        bench.listed = bench.work / "listed.csv"
+        bench.listed.write_text(table_of(powers), encoding="utf-8")
         flags = {light: without(bench, light) for light in LEFT_OUT if light in given.lights}
         jobs = [(light, noise) for noise in NOISES for light in given.lights]
         of = lambda job: row_of(bench, *job, powers | {job[0]: bench.power(job[0])}, flags.get(job[0], []))

@@ -2,11 +2,13 @@
 
 mod from_chart;
 mod measured;
+mod predicted;
 mod stand_in;
 
 pub use from_chart::{ChartCamera, ChartPatch};
 pub use measured::{KnownCurves, curve_error, known_curves};
-pub use stand_in::{ColourMatrix, LeftOut, StandIn, StandIns, Why};
+pub use predicted::{ColourMatrix, PREDICTED_ERROR, PredictedLeftOut, Predictor};
+pub use stand_in::{LeftOut, StandIn, StandIns, Why};
 
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;

@@ -27,7 +27,7 @@ pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{ASSUMED_LIGHT, UNKNOWN_LIGHT, WavelengthGrid};
+use crate::spectrum::{ASSUMED_LIGHT, Sensitivities, UNKNOWN_LIGHT, WavelengthGrid};
 use crate::stream::{Failures, Optics, Output};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
@@ -332,9 +332,8 @@ impl OpticsArgs {
     /// was not measured. What was converted is said as `common` asks.
     ///
     /// # Errors
-    /// As [`Common::camera`] and [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
-    pub fn resolve(&self, camera: &str, common: &Common) -> Result<Optics> {
-        let camera = common.camera(camera)?;
+    /// As [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
+    pub fn resolve(&self, camera: &Sensitivities, common: &Common) -> Result<Optics> {
         let light = |spec: &String| common.illuminant(spec);
         let illuminants: Vec<_> = match self.illuminant.as_slice() {
             [unknown] if unknown == UNKNOWN_LIGHT => Vec::new(),
@@ -342,7 +341,7 @@ impl OpticsArgs {
             given => given.iter().map(light).collect::<Result<_>>()?,
         };
         let sky = self.sky()?.as_ref().map(light).transpose()?;
-        Optics::new(self.wavelengths_nm.clone(), &camera, &illuminants, sky.as_ref())
+        Optics::new(self.wavelengths_nm.clone(), camera, &illuminants, sky.as_ref())
     }
 
     /// The spectrum of the sky; `sky` alone goes with the sun.

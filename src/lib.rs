@@ -45,6 +45,7 @@
 //! plot                 -> image, geometry, files, markup, message
 //! image                -> colorimetry, files, room
 //! score, camera        -> colorimetry
+//! camera               -> solve
 //! camera, colorimetry  -> spectrum
 //! spectrum             -> files, markup, message
 //! progress, markup     -> message

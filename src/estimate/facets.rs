@@ -51,6 +51,11 @@ impl Facets<'_> {
         self.gaussian.nearest(reflectance).resize_vertically(self.unknowns(), 0.0)
     }
 
+    /// The reflectance at `w`.
+    pub fn reflectance_at(&self, w: &DVector<f64>) -> Vec<f64> {
+        self.split(w).0.iter().map(|z| logistic(*z)).collect()
+    }
+
     /// Logits and the scene's unknowns at `w`.
     pub fn split(&self, w: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let coordinates = self.gaussian.basis().ncols();

@@ -5,11 +5,14 @@
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
+use std::slice;
+
 use super::data::FacetData;
 use super::facets::{Facets, Second};
+use super::light::{Likelier, Others, likelier};
 use super::mixture::Mixture;
 use super::prior::Prior;
-use super::search::Search;
+use super::search::{Search, Sorted};
 use super::unknowns::{EXPOSURE, Expected};
 use super::{Estimate, Fitted};
 use crate::error::{Error, Result};
@@ -23,6 +26,9 @@ const EXPOSURE_SUPPORTED: f64 = 0.5;
 /// The mean of all maxima in the one scene of a sample.
 type Found = Mixture<(), Second>;
 
+/// What happened, by runs.
+type Trace = Vec<Vec<Iteration>>;
+
 /// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from instead of the
 /// prior's mean; at a maximum of more evidence than all others it makes no difference.
 ///
@@ -32,27 +38,42 @@ type Found = Mixture<(), Second>;
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
 pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Result<Estimate> {
+    Ok(estimate_in_stated_light(data, prior, start, None)?.0)
+}
+
+/// The same, and the light that is likelier than the stated one, if there is any among `others`.
+///
+/// # Errors
+/// As [`estimate`].
+pub fn estimate_in_stated_light(
+    data: &FacetData,
+    prior: &Prior,
+    start: Option<&[f64]>,
+    others: Option<&Others>,
+) -> Result<(Estimate, Option<Likelier>)> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let (found, trace) = most_probable(data, prior, start).ok_or_else(not_finite)?;
+    let (found, trace, sorted) = most_probable(data, prior, start).ok_or_else(not_finite)?;
+    let likelier = others.and_then(|others| likelier(data, &sorted, others, prior));
     let Some((unknown, bound)) = impossible(data, &found) else {
-        return Ok(into_estimate(data, &found, &found, trace));
+        return Ok((into_estimate(data, &found, &found, trace), likelier));
     };
     // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
     let on_bound = most_probable(&data.with_known(unknown, bound), prior, start).ok_or_else(not_finite)?;
-    Ok(into_estimate(data, &on_bound.0, &found, [trace, on_bound.1].concat()))
+    let estimate = into_estimate(data, &on_bound.0, &found, [trace, on_bound.1].concat());
+    Ok((estimate, likelier))
 }
 
-/// The mean of all maxima, whether or not all unknowns of the scene can be so, and what happened.
+/// The mean of all maxima, whether or not all unknowns of the scene can be so, what happened, and the maximum under all spectra as one.
 fn most_probable(
     data: &FacetData,
     prior: &Prior,
     start: Option<&[f64]>,
-) -> Option<(Found, Vec<Vec<Iteration>>)> {
+) -> Option<(Found, Trace, Sorted<(), Second>)> {
     let all = Facets { data, gaussian: prior.broad() };
     let mut search = Search::new(data, prior);
     let sorted = search.sort(((), 0.0), start.map(|start| all.set_out_from(start)), f64::NEG_INFINITY)?;
-    let mixture = search.mixture(&[sorted])?;
-    Some((mixture, search.trace))
+    let mixture = search.mixture(slice::from_ref(&sorted))?;
+    Some((mixture, search.trace, sorted))
 }
 
 /// An unknown of the scene beyond its range, and the end of that.

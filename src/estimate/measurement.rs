@@ -7,7 +7,7 @@
 use std::slice;
 
 use super::data::FacetData;
-use super::light::{self, Candidate};
+use super::light::{self, Candidate, Likelier, Others};
 use super::measured::Measured;
 use super::photograph::day::Day;
 use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
@@ -48,6 +48,8 @@ pub struct Inference<'a> {
     pub stated: &'a Stated,
     /// What the light may be; none if it is known.
     pub lights: &'a [Candidate],
+    /// What else the light that was stated may be; none if nobody stated one, or several.
+    pub other_lights: Option<&'a Others>,
     /// The facets of a panel, if the surface is a fold.
     pub panel: Option<FacetGrid>,
 }
@@ -117,9 +119,7 @@ impl<'a> Inference<'a> {
             lights => light::estimate(data, lights, self.prior, self.start),
         };
         let Some(photograph) = facets.photograph else {
-            let estimate = ideal()?;
-            let doubts = beyond_chance(&estimate, data.size().1).into_iter().collect();
-            return Ok(self.judged(facets, estimate, doubts));
+            return self.of_computed(facets, data);
         };
         let mut doubts = self.doubts_of_taking(photograph);
         let parts = match &photograph.parts {
@@ -135,6 +135,9 @@ impl<'a> Inference<'a> {
             }
             Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
+        let likelier =
+            self.other_lights.and_then(|others| light::likelier_in_photograph(parts, others, self.prior));
+        doubts.splice(0..0, self.doubt_of_light(likelier));
         let mut real = photograph::estimate(slice::from_ref(parts), self.prior)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         if !photograph.by_chart {
@@ -145,6 +148,17 @@ impl<'a> Inference<'a> {
         }
         doubts.extend(other_angle(&real, parts.told.angle_deg));
         let estimate = Estimate { without_bounces: real.without_bounces, ..ideal()? };
+        Ok(self.judged(facets, estimate, doubts))
+    }
+
+    /// The spectrum of a sheet from facets that were computed.
+    fn of_computed(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
+        let (estimate, likelier) = match self.lights {
+            [] => map::estimate_in_stated_light(data, self.prior, self.start, self.other_lights)?,
+            lights => (light::estimate(data, lights, self.prior, self.start)?, None),
+        };
+        let doubts = self.doubt_of_light(likelier).into_iter();
+        let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
         Ok(self.judged(facets, estimate, doubts))
     }
 
@@ -160,6 +174,11 @@ impl<'a> Inference<'a> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
         let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));
         of_shadows.chain(of_taking.into_iter().flatten()).collect()
+    }
+
+    /// What another light that is likelier says against the one that was stated.
+    fn doubt_of_light(&self, likelier: Option<Likelier>) -> Option<Doubt> {
+        Some(likelier?.doubt(self.stated.lights.first()?))
     }
 
     /// An estimate with the verdict on it, `doubts` being known already.

@@ -123,18 +123,7 @@ impl<'a, F: Family> Search<'a, F> {
         let are_precise = coarse.min(fine) > 1.0;
         let (mut likely, mut is_telling) = (Vec::new(), false);
         if family.tells_classes() {
-            let about = |one: &Sorted<F::Hypothesis, F::Second>| {
-                let model = family.model(one.hypothesis, prior.broad())?;
-                let of = (one.hypothesis, one.ln_share);
-                let tolerance = TELLING_TOLERANCE * family.tolerance();
-                if tolerance >= SORTING_TOLERANCE {
-                    return Linear::about(&model, (&one.solution.w, &one.solution.at), coarse, of);
-                }
-                let Solution { w, at, .. } =
-                    maximise(&model, one.solution.w.clone(), (coarse, coarse), tolerance, SORTING_LIMIT);
-                Linear::about(&model, (&w, &at), coarse, of)
-            };
-            let mut linears: Vec<_> = sorted.iter().filter_map(about).collect();
+            let mut linears: Vec<_> = sorted.iter().filter_map(|one| self.about(one)).collect();
             if family.has_many_hypotheses() {
                 linears.iter_mut().for_each(Linear::condense);
             }
@@ -202,6 +191,29 @@ impl<'a, F: Family> Search<'a, F> {
         let beside = likely[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
         let beside: Vec<_> = beside.filter_map(|one| Beside::of(family, one, prior)).collect();
         Mixture::of(found, &beside)
+    }
+
+    /// The model linear about the maximum of a hypothesis.
+    fn about(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<Linear<F::Hypothesis>> {
+        let model = self.family.model(one.hypothesis, self.prior.broad())?;
+        let of = (one.hypothesis, one.ln_share);
+        let tolerance = TELLING_TOLERANCE * self.family.tolerance();
+        if tolerance >= SORTING_TOLERANCE {
+            return Linear::about(&model, (&one.solution.w, &one.solution.at), self.coarse, of);
+        }
+        let Solution { w, at, .. } =
+            maximise(&model, one.solution.w.clone(), (self.coarse, self.coarse), tolerance, SORTING_LIMIT);
+        Linear::about(&model, (&w, &at), self.coarse, of)
+    }
+
+    /// Logarithm of the evidence of a hypothesis under all classes of spectra; under all spectra as one where data do not tell these apart.
+    pub fn ln_evidence_by_classes(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<f64> {
+        if !self.family.tells_classes() {
+            return Some(one.ln_evidence);
+        }
+        let all = candidates(self.family, vec![self.about(one)?], self.prior);
+        let most = all.first()?.ln_evidence;
+        Some(most + all.iter().map(|class| (class.ln_evidence - most).exp()).sum::<f64>().ln())
     }
 
     fn maximum(

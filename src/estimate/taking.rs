@@ -18,6 +18,8 @@ pub struct Stated {
     pub camera: String,
     /// The camera that took the picture, if nobody measured its curves and another's stand in for them.
     pub stands_in_for: Option<String>,
+    /// Whether its curves are predicted from its colour matrix rather than another's.
+    pub is_predicted: bool,
     /// Whether all channels have the same peak, as curves have that are scaled one by one.
     pub has_one_peak: bool,
 }
@@ -127,9 +129,14 @@ fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
 }
 
 fn stand_in(stated: &Stated) -> Option<Doubt> {
+    let instead = if stated.is_predicted {
+        "they are predicted from its colour matrix"
+    } else {
+        "another camera's stand in for them"
+    };
     stated.stands_in_for.as_ref().map(|unmeasured| {
         Doubt::new(
-            format!("nobody measured the curves of {unmeasured}: another camera's stand in for them"),
+            format!("nobody measured the curves of {unmeasured}: {instead}"),
             "make them of a photograph of a colour chart (vextract --save-camera)",
         )
     })

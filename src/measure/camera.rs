@@ -1,20 +1,38 @@
 //! Which camera took a photograph.
 
-use crate::camera::{StandIn, StandIns};
+use crate::camera::{ColourMatrix, PREDICTED_ERROR, Predictor, StandIn, StandIns};
 use crate::error::{Error, Result};
 use crate::image::PhotographInfo;
-use crate::spectrum;
+use crate::spectrum::{self, Sensitivities, Spectrum, WavelengthGrid};
 use crate::stream::StandInRecord;
 
 /// A camera, and what it stands in for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Built-in name or file.
+    /// Built-in name or file; of one whose curves are predicted, what they are called.
     pub spec: String,
+    /// Its curves, if they are predicted.
+    pub predicted: Option<Sensitivities>,
     /// The camera that took the photograph, if nobody measured that one's curves.
     pub stands_in: Option<StandInRecord>,
     /// What is to be said of it.
     pub said: Option<String>,
+}
+
+impl Camera {
+    /// One that somebody named.
+    #[must_use]
+    pub fn named(spec: &str) -> Self {
+        Self { spec: spec.to_owned(), predicted: None, stands_in: None, said: None }
+    }
+
+    /// Its curves: those that are predicted, or what `read` makes of its name.
+    ///
+    /// # Errors
+    /// As `read`.
+    pub fn sensitivities(&self, read: impl FnOnce(&str) -> Result<Sensitivities>) -> Result<Sensitivities> {
+        self.predicted.clone().map_or_else(|| read(&self.spec), Ok)
+    }
 }
 
 /// The camera that a photograph names, or one that stands in for it.
@@ -35,19 +53,50 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
                 ))
             }
         };
-        return Ok(Camera { spec: camera, stands_in: None, said });
+        return Ok(Camera { said, ..Camera::named(&camera) });
     }
     if model.is_empty() {
         const REMEDY: &str =
             "name one (--list cameras), or give a CSV file or rawtoaces JSON of its sensitivities";
         return Err(Error::usage("--camera", "the photograph names no camera", REMEDY));
     }
-    let stand_in = StandIns::new()?.for_camera(make, info.camera.xyz_to_camera.as_ref())?;
     let of = format!("{make} {model}").trim().to_owned();
+    let predicted = info.camera.xyz_to_camera.map(|matrix| predicted(make, &of, &matrix)).transpose()?;
+    if let Some(camera) = predicted.flatten() {
+        return Ok(camera);
+    }
+    let stand_in = StandIns::new()?.for_camera(make);
     let said = Some(warning(&of, &stand_in));
     let StandIn { name, why, .. } = stand_in;
     let (why, curve_error) = (why.words().to_owned(), why.expected_error());
-    Ok(Camera { spec: name, stands_in: Some(StandInRecord { camera: of, why, curve_error }), said })
+    let stands_in = Some(StandInRecord { camera: of, why, curve_error, is_predicted: false });
+    Ok(Camera { stands_in, said, ..Camera::named(&name) })
+}
+
+/// A camera by `make`, called `of`, whose curves its colour matrix predicts; none if that is no camera's.
+fn predicted(make: &str, of: &str, matrix: &ColourMatrix) -> Result<Option<Camera>> {
+    let grid = WavelengthGrid::uniform(380.0, 780.0, 5.0)?;
+    let Some(curves) = Predictor::new(&grid)?.predict(make, matrix) else { return Ok(None) };
+    let name = format!("{of} (predicted)");
+    let channel = |(name, curve)| Spectrum::new(name, grid.wavelengths_nm().to_vec(), curve);
+    let channels = ["R", "G", "B"].into_iter().zip(curves).map(channel).collect::<Result<_>>()?;
+    let percent = 100.0 * PREDICTED_ERROR;
+    let said = format!(
+        "warning: nobody measured the curves of {of}: they are predicted from its colour matrix, which is off by {percent:.1} % of green's peak in the \
+         mean; photograph a colour chart (--save-camera), or name a camera or file (--camera)"
+    );
+    let stands_in = StandInRecord {
+        camera: of.to_owned(),
+        why: "predicted from its colour matrix".to_owned(),
+        curve_error: PREDICTED_ERROR,
+        is_predicted: true,
+    };
+    Ok(Some(Camera {
+        predicted: Some(Sensitivities::new(&name, channels)?),
+        spec: name,
+        stands_in: Some(stands_in),
+        said: Some(said),
+    }))
 }
 
 fn warning(of: &str, stand_in: &StandIn) -> String {

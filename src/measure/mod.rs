@@ -25,7 +25,7 @@ use crate::image::{
     REFINED_WITHIN_PX, measure_panels, open_sides, refine,
 };
 use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
-use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, stated, stated_fold};
+use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, other_lights, stated, stated_fold};
 use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, likely_lights};
 use crate::stream::{self, Optics};
 
@@ -73,7 +73,7 @@ impl Setup<'_> {
     fn setting(&self, photograph: &Photograph) -> Result<FoldSetting> {
         let info = photograph.info();
         let camera = match self.camera {
-            Some(named) => Camera { spec: named.to_owned(), stands_in: None, said: None },
+            Some(named) => Camera::named(named),
             None => camera_of(info)?,
         };
         let sun = || match light_of(&info.camera.taken) {
@@ -82,7 +82,7 @@ impl Setup<'_> {
         };
         let light = self.illuminant.map(str::to_owned).or_else(sun);
         let illuminant = stream::illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
-        let curves = stream::camera(&camera.spec)?;
+        let curves = camera.sensitivities(stream::camera)?;
         let mut optics = Optics::new(self.wavelengths.clone(), &curves, &[illuminant], None)?;
         optics.camera.stands_in = camera.stands_in;
         Ok(FoldSetting {
@@ -189,6 +189,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     };
     let lights = setup.lights(photograph, fold.optics()?)?;
     let stated = stated(fold.optics()?, fold.is_daylight_assumed);
+    let others = other_lights(fold.optics()?, fold.is_daylight_assumed);
     let inference = Inference {
         model: &model,
         wavelengths_nm: setup.wavelengths.wavelengths_nm(),
@@ -197,6 +198,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         is_auto: true,
         stated: &if lights.is_empty() { stated } else { stated.but_light() },
         lights: &lights,
+        other_lights: others.as_ref(),
         panel: Some(fold.fold.facets()),
     };
     let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);

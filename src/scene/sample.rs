@@ -3,6 +3,7 @@
 use super::{FoldSetting, PhotographedFold, Picture};
 use crate::error::Result;
 use crate::estimate::Exposure;
+use crate::estimate::light::Others;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::Photographed;
 use crate::estimate::shadow::Shadow;
@@ -10,6 +11,9 @@ use crate::estimate::taking::Stated;
 use crate::image::Making;
 use crate::spectrum::have_one_peak;
 use crate::stream::{Optics, Sample};
+
+/// Channels without which no light is told from another.
+const COLOURS: usize = 3;
 
 /// Light and camera as they were stated; of daylight that nobody stated `is_daylight_assumed`.
 #[must_use]
@@ -19,8 +23,19 @@ pub fn stated(Optics { camera, illuminants, .. }: &Optics, is_daylight_assumed: 
         is_daylight_assumed,
         camera: camera.name.clone(),
         stands_in_for: camera.stands_in.as_ref().map(|one| one.camera.clone()),
+        is_predicted: camera.stands_in.as_ref().is_some_and(|one| one.is_predicted),
         has_one_peak: have_one_peak(camera.sensitivities.iter().map(Vec::as_slice)),
     }
+}
+
+/// What else the light of a scene may be, if it is one, somebody stated it, and the camera sees colours.
+#[must_use]
+pub fn other_lights(
+    Optics { grid, camera, illuminants, sky }: &Optics,
+    is_daylight_assumed: bool,
+) -> Option<Others> {
+    let is_stated = illuminants.len() == 1 && sky.is_none() && !is_daylight_assumed;
+    (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
 }
 
 /// The photograph in which the facets of a sample were measured, but for those in shadows; of other surfaces than a `fold` nothing is asked.

@@ -51,6 +51,9 @@ pub struct StandInRecord {
     /// How far off the other one's curves are in the mean of such cases, root mean square, green's peak being 1.
     #[schemars(range(min = 0))]
     pub curve_error: f64,
+    /// Whether the curves are no other camera's, but predicted from its colour matrix.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_predicted: bool,
 }
 
 /// What looks at a fold and in which light, all on one grid of wavelengths.

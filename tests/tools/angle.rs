@@ -30,7 +30,7 @@ fn a_photograph_alone_gives_the_spectrum() {
     let geometry = &scene["geometry"];
     assert!((number(&geometry["angle_deg"]) - 50.0).abs() < 1.0, "{geometry}");
     assert!((0.01..1.0).contains(&number(&geometry["angle_sd_deg"])), "{geometry}");
-    let sidecar = fs::read_to_string(format!("{PHOTOS}/a_ideal_magenta_50.json")).unwrap();
+    let sidecar = std::fs::read_to_string(format!("{PHOTOS}/a_ideal_magenta_50.json")).unwrap();
     let truth = serde_json::from_str::<Value>(&sidecar).unwrap()["reflectance"].take();
     let values = |list: &Value| list.as_array().unwrap().iter().map(number).collect::<Vec<_>>();
     let (truth, estimate) = (values(&truth), values(&sample["estimate"]["reflectance"]));

@@ -65,6 +65,50 @@ fn what_was_decided_is_told() {
     assert_eq!(Photograph::open(Path::new(PHOTO), &options).unwrap_err().exit_status(), 2);
 }
 
+/// The photograph as a camera took it that nobody measured.
+#[test]
+fn curves_are_predicted_from_the_colour_matrix() {
+    let folder = Workdir::new();
+    let unknown = |bytes: Vec<u8>| {
+        let mut bytes = bytes;
+        let (known, other) = (b"EOS 5D Mark II", b"EOS 9X Mark II");
+        let at = bytes.windows(known.len()).position(|window| window == known).unwrap();
+        bytes[at..at + other.len()].copy_from_slice(other);
+        bytes
+    };
+    std::fs::write(folder.path().join("photo.dng"), unknown(std::fs::read(PHOTO).unwrap())).unwrap();
+    let run = folder.sh(
+        "vkernel --angle-deg 50 | vextract -q photo.dng --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' \
+         --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' | tee records | vestimate -q",
+    );
+    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    assert!(
+        run.stderr.contains("Canon EOS 9X Mark II: they are predicted from its colour matrix"),
+        "{}",
+        run.stderr
+    );
+    let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let camera = &records[0]["camera"];
+    assert_eq!(camera["stands_in"]["is_predicted"], true);
+    let verdict = &records[1]["estimate"]["verdict"];
+    assert_eq!(verdict["level"], "doubtful");
+    assert!(verdict["because"].as_str().unwrap().contains("predicted from its colour matrix"), "{verdict}");
+    // near to the magenta patch, and within bars that hold what the curves are off by
+    let truth: Value =
+        serde_json::from_str(&std::fs::read_to_string(Path::new(PHOTO).with_extension("json")).unwrap())
+            .unwrap();
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+    };
+    let estimate = &records[1]["estimate"];
+    let [found, sd] = ["reflectance", "reflectance_sd"].map(|field| numbers(&estimate[field]));
+    let off: Vec<f64> = found.iter().zip(numbers(&truth["reflectance"])).map(|(a, b)| a - b).collect();
+    let rms = (off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64).sqrt();
+    let within = off.iter().zip(&sd).filter(|(off, sd)| off.abs() <= 2.0 * **sd).count();
+    assert!(rms < 0.08, "{rms}");
+    assert!(10 * within >= 8 * off.len(), "{within} of {}", off.len());
+}
+
 #[test]
 fn vextract_records_what_was_decided() {
     let run = Workdir::new().sh(&format!(

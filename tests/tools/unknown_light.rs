@@ -123,3 +123,25 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
     let scene = fs::read_to_string(folder.path().join("photo.ndjson")).unwrap();
     assert!(!scene.contains("illuminants") && scene.contains("illuminant_unknown"));
 }
+
+/// Computed sheets and a photograph, in light that is told rightly and wrongly: another light is named where it is wrong alone.
+#[test]
+fn a_light_that_is_told_wrongly_is_doubted() {
+    let run = Workdir::new().sh(&format!(
+        "vkernel | vforward -q --reflectance cc24 --illuminant A --noise-sd 1e-3 -o right.ndjson
+        vkernel | vforward -q --reflectance 0.5 --illuminant D65 -o daylight.ndjson
+        {{ head -n 1 daylight.ndjson; tail -n +2 right.ndjson; }} > wrong.ndjson
+        vkernel --angle-deg 50 -o scene.json
+        for light in D65 A; do
+            vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant $light {PANELS} -o photo-$light.ndjson
+        done
+        for records in right.ndjson wrong.ndjson photo-D65.ndjson photo-A.ndjson; do
+            vestimate -q --exposure free $records | grep -c 'times as probable as' || true
+        done"
+    ));
+    assert_eq!(run.status, 0, "{run:?}");
+    let named: Vec<usize> = run.stdout.lines().map(|line| line.parse().unwrap()).collect();
+    let [right, wrong, photo_right, photo_wrong] = named[..] else { panic!("{named:?}") };
+    assert!(right <= 1 && wrong >= 12, "{named:?}");
+    assert_eq!((photo_right, photo_wrong), (0, 1), "{named:?}");
+}

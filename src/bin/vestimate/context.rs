@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vfold::Result;
-use vfold::estimate::light::Candidate;
+use vfold::estimate::light::{Candidate, Others};
 use vfold::estimate::measurement::Inference;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::taking::Stated;
@@ -29,6 +29,8 @@ pub struct Context {
     pub stated: Stated,
     /// What the light may be; none if it is known.
     pub lights: Vec<Candidate>,
+    /// What else a light that was stated may be.
+    pub other_lights: Option<Arc<Others>>,
 }
 
 /// The method on the wavelengths of a scene.
@@ -40,13 +42,14 @@ pub enum SceneMethod {
 }
 
 impl Context {
-    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one of them.
+    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one of them; if not, in the
+    /// light that it states, or perhaps in one of the others.
     pub fn new(
         scene: &Scene,
         method: SceneMethod,
         start: Option<Vec<f64>>,
         fit: &[&'static Unknown],
-        lights: Vec<Candidate>,
+        (lights, other_lights): (Vec<Candidate>, Option<Arc<Others>>),
     ) -> Result<Self> {
         let stated = stated(&scene.optics()?, scene.is_daylight_assumed()?);
         let setting = Setting::of(scene)?;
@@ -61,6 +64,7 @@ impl Context {
             },
             stated: if lights.is_empty() { stated } else { stated.but_light() },
             lights,
+            other_lights,
         })
     }
 
@@ -74,6 +78,7 @@ impl Context {
             is_auto,
             stated: &self.stated,
             lights: &self.lights,
+            other_lights: self.other_lights.as_deref(),
             panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
         }
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use vfold::cli;
 use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
-use vfold::estimate::light::Candidate;
+use vfold::estimate::light::{Candidate, Others};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::{Facets, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
@@ -16,7 +16,7 @@ use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
 use vfold::forward::FacetValues;
-use vfold::scene::{Setting, photographed};
+use vfold::scene::{Setting, other_lights, photographed};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, equally_likely, likely_lights};
 use vfold::stream::{
     CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
@@ -58,6 +58,8 @@ pub struct Estimator<'a> {
     forgets_light: bool,
     /// The prior of the scene before, with its wavelengths, nm.
     last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
+    /// What else the light of the scene before may be.
+    last_others: Mutex<Option<Arc<Others>>>,
 }
 
 /// The paper's estimator fits an exposure and nothing else of the scene.
@@ -141,7 +143,9 @@ impl Transform for Estimator<'_> {
             }
             None => None,
         };
-        Context::new(lit.as_ref().unwrap_or(scene), method, start, &self.fit, lights)
+        let lit = lit.as_ref().unwrap_or(scene);
+        let others = other_lights(&lit.optics()?, lit.is_daylight_assumed()?);
+        Context::new(lit, method, start, &self.fit, (lights, self.shared(others)))
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
@@ -195,6 +199,7 @@ impl<'a> Estimator<'a> {
             fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             last_prior: Mutex::default(),
+            last_others: Mutex::default(),
         })
     }
 
@@ -243,6 +248,18 @@ impl<'a> Estimator<'a> {
         });
         *last = Some((wavelengths_nm.to_vec(), Arc::clone(&prior)));
         Ok(prior)
+    }
+
+    /// What else a light may be: scenes that follow each other before the same camera share it, as to make it takes longer than an estimate.
+    fn shared(&self, others: Option<Others>) -> Option<Arc<Others>> {
+        let others = others?;
+        let mut last = self.last_others.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(last) = &*last
+            && last.are_those_of(&others)
+        {
+            return Some(Arc::clone(last));
+        }
+        Some(Arc::clone(last.insert(Arc::new(others))))
     }
 
     /// What an unknown light before a camera may be.

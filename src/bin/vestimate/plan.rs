@@ -133,7 +133,7 @@ impl PlanArgs {
             wavelengths_nm: WavelengthGrid::uniform(400.0, 700.0, 5.0)?,
         };
         let camera = self.camera.as_deref().unwrap_or("canon-5d-mark-ii");
-        scene.set_optics(&optics.resolve(camera, common)?)
+        scene.set_optics(&optics.resolve(&common.camera(camera)?, common)?)
     }
 
     /// The sheets in a scene: their facets have no noise, and are taken to have it.

@@ -18,7 +18,8 @@ pub fn of_scene(scene: &Scene, photograph: &Photograph) -> Balance {
 pub fn of_photograph(args: &Args, photograph: &Photograph) -> Balance {
     let white = || {
         let Some(camera) = camera::camera(args.camera.as_deref(), Some(photograph))? else { return Ok(None) };
-        let optics = args.optics.resolve(&camera.spec, &args.common)?;
+        let optics =
+            args.optics.resolve(&camera.sensitivities(|spec| args.common.camera(spec))?, &args.common)?;
         white(&optics.grid, &optics.camera, &optics.illuminants)
     };
     Balance::of(photograph, white().ok().flatten().as_ref())

@@ -9,7 +9,7 @@ use vfold::{Result, spectrum};
 /// The camera that was named, or else the [camera of](camera_of) the first photograph; none only if that cannot be read.
 pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<Camera>> {
     match named {
-        Some(named) => Ok(Some(Camera { spec: named.to_owned(), stands_in: None, said: None })),
+        Some(named) => Ok(Some(Camera::named(named))),
         None => first.map(|photograph| camera_of(photograph.info())).transpose(),
     }
 }

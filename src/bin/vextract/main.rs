@@ -157,7 +157,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut said = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
         let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
-        let mut optics = given.resolve(&camera.spec, &args.common)?;
+        let mut optics =
+            given.resolve(&camera.sensitivities(|spec| args.common.camera(spec))?, &args.common)?;
         let stands_in = camera.stands_in.is_some();
         optics.camera.stands_in = camera.stands_in;
         scene.set_optics(&optics)?;

@@ -104,7 +104,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     args.render.check(args.sheet.shape()?.is_some())?;
     args.optics.known_illuminants("vforward computes what a camera sees in a light: give that")?;
-    let optics = args.optics.resolve(&args.camera, &args.common)?;
+    let optics = args.optics.resolve(&args.common.camera(&args.camera)?, &args.common)?;
     let subject = Subject::of(args, &optics.grid)?;
     let materials = args.materials.on(&optics.grid, &args.common)?;
     let given = args.kernel.given()?;

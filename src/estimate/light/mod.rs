@@ -6,11 +6,15 @@
 
 mod ideal;
 mod photograph;
+mod stated;
+mod stated_photograph;
 
 use std::iter;
 
 pub use ideal::estimate;
 pub use photograph::estimate_photograph;
+pub use stated::{Likelier, Others, likelier};
+pub use stated_photograph::likelier_in_photograph;
 
 use crate::camera::CameraResponse;
 use crate::error::Result;

@@ -25,7 +25,7 @@ const TRIED: usize = 2;
 
 /// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
 /// window.
-const WITHOUT_SKY: f64 = 0.1;
+pub(super) const WITHOUT_SKY: f64 = 0.1;
 const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
 
 /// A light, and the photograph in it.
@@ -76,10 +76,7 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
         let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
         Way { light: Some(light), ln_share: light.ln_share - ln_days, parts }
     };
-    let is_of_flash = |light: &&Candidate| {
-        light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
-    };
-    let flashes: Vec<&Candidate> = lights.iter().filter(is_of_flash).collect();
+    let flashes: Vec<&Candidate> = lights.iter().filter(|light| is_of_flash(light)).collect();
     let ln_flash = (WITHOUT_SKY * of_daylight / flashes.len() as f64).ln() - ln_clear;
     let of_flash = |light: &'a Candidate| Way {
         light: Some(light),
@@ -87,6 +84,11 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
         parts: parts.in_light(&light.power).without_sky(),
     };
     daylight.into_iter().chain(flashes.into_iter().map(of_flash)).chain(others.map(of)).collect()
+}
+
+/// Whether a light is daylight that may come without a sky.
+pub(super) fn is_of_flash(light: &Candidate) -> bool {
+    light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
 }
 
 /// Those beside any daylight that are not out of the question, the likeliest first.

@@ -193,6 +193,15 @@ impl Parts {
         lit
     }
 
+    /// The same in daylight that nobody stated.
+    #[must_use]
+    pub fn in_any_daylight(&self) -> Self {
+        let power = Daylight::power(&self.eye.daylight, self.told.beliefs.sun_mired);
+        let mut lit = self.in_light(power.as_slice());
+        lit.told.is_daylight_assumed = true;
+        lit
+    }
+
     /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the ground.
     #[must_use]
     pub fn without_sky(mut self) -> Self {

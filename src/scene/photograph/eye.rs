@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::camera::Predictor;
 use crate::error::Result;
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::parts::Eye;
@@ -23,7 +24,10 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs)
     // a camera that stands in for another is off by what such cameras were measured to be
     let curve_sd =
         camera.stands_in.as_ref().map_or(beliefs.curve_sd, |one| one.curve_error.max(beliefs.curve_sd));
-    let errors = errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs });
+    let errors = match &camera.stands_in {
+        Some(one) if one.is_predicted => of_predicted(&camera.sensitivities, grid, &widths)?,
+        _ => errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs }),
+    };
     let is_stand_in = camera.stands_in.is_some();
     Ok(Eye {
         wavelengths_nm,
@@ -41,6 +45,18 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs)
 pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
     let [s0, s1, s2] = daylight_vectors()?.map(|vector| vector.on(grid, Outside::Refuse));
     Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
+}
+
+/// Errors of curves that are predicted: those of cameras whose curves are known.
+fn of_predicted(
+    sensitivities: &[Vec<f64>],
+    grid: &WavelengthGrid,
+    widths: &[f64],
+) -> Result<Vec<(usize, DVector<f64>)>> {
+    let peak = sensitivities.get(1).map_or(1.0, |green| green.iter().copied().fold(0.0, f64::max));
+    let widths = DVector::from_column_slice(widths);
+    let errors = Predictor::new(grid)?.errors().into_iter();
+    Ok(errors.map(|(channel, error)| (channel, peak * error.component_mul(&widths))).collect())
 }
 
 /// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow filter, and is right.

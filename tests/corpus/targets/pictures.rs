@@ -1,12 +1,12 @@
 //! Photographs.
 
-use vfold::camera::StandIns;
+use vfold::camera::{Predictor, StandIns};
 use vfold::image::{
     Grid, Homography, Photograph, Pixel, Point, ReadOptions, Transfer, measure, pixels_sharing_noise,
     write_linear,
 };
 
-use vfold::spectrum::{Sun, camera, camera_by_exif};
+use vfold::spectrum::{Sun, WavelengthGrid, camera, camera_by_exif};
 
 use super::{assert_finite, taken, with_file};
 
@@ -64,11 +64,13 @@ fn look_at_what_it_says(photograph: &Photograph) {
     let of = |text: &Option<String>| text.clone().unwrap_or_default();
     let (make, model) = (of(&info.camera.make), of(&info.camera.model));
     let named = camera_by_exif(&make, &model);
-    let matrix = info.camera.xyz_to_camera.as_ref();
-    let stand_in = || taken(StandIns::new().unwrap().for_camera(&make, matrix)).map(|one| one.name);
-    if let Some(name) = named.or_else(stand_in) {
-        assert_eq!(camera(&name).unwrap().channels.len(), 3, "{make} {model}");
+    if let Some(matrix) = &info.camera.xyz_to_camera
+        && let Some(curves) = Predictor::new(&WavelengthGrid::default()).unwrap().predict(&make, matrix)
+    {
+        assert_finite("predicted curves", curves.iter().flatten());
     }
+    let name = named.unwrap_or_else(|| StandIns::new().unwrap().for_camera(&make).name);
+    assert_eq!(camera(&name).unwrap().channels.len(), 3, "{make} {model}");
     let place = info.camera.taken.place_deg;
     assert_finite("place", place.iter().flatten());
     if let (Some([latitude, longitude]), Some(time)) = (place, &info.camera.taken.time) {

@@ -66,8 +66,14 @@ vextract black.tif cut.tif matrix.tif --scene finer.ndjson --regions marked.json
     -o levels.ndjson 2>said || [ $? = 3 ]
 # a photograph in which the fold is found
 vextract "$data/photos/a_ideal_magenta_50.exr" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o found.ndjson
+# the same, the scene being another fold
+vkernel --angle-deg 75 --facets 2x2 |
+    vextract "$data/photos/a_ideal_magenta_50.exr" --camera canon-5d-mark-ii --illuminant D65 -q -o otherwise.ndjson
 # one whose camera says how it was set
 vextract "$data/photos/h_raw_magenta_50.dng" --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o set.ndjson
+# nobody measured this camera either: its curves are predicted from the colour matrix of the file
+LC_ALL=C sed 's/EOS 5D Mark II/EOS 9X Mark II/' "$data/photos/h_raw_magenta_50.dng" > unmeasured.dng
+vextract unmeasured.dng --scene finer.ndjson --illuminant D65 -q -o predicted.ndjson 2>said
 # one beside which a chart is found
 vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance cc24 --camera canon-5d-mark-ii --illuminant D65 -q -o patches.ndjson
 fills=$(sed 1d patches.ndjson | python3 -c '
