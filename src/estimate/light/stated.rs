@@ -22,11 +22,11 @@ use crate::spectrum::{WavelengthGrid, likely_lights};
 const LN_ODDS: f64 = 3.2;
 /// A light under which facets are at least as probable as that is not asked about, in standard deviations of how improbable facets of known sheets are:
 /// it spares a third of the estimates in light that is told rightly the search, and finds nearly as many lights.
-const USUAL: f64 = -0.5;
+const USUAL: f64 = 0.5;
 /// Lights are weighed by classes of spectra if they are ahead by so much under all spectra as one, and so many of them at most: what classes add
 /// differs from light to light by less than the rest of [`LN_ODDS`].
 pub(super) const LN_AHEAD: f64 = 1.0;
-pub(super) const TOLD_APART: usize = 3;
+const TOLD_APART: usize = 3;
 /// One of so many lights is tried first, as neighbours are alike.
 const STEP: usize = 6;
 /// More times than that are not counted.
@@ -148,11 +148,11 @@ fn seen_alike(reflectance: &[f64], camera: &CameraResponse, light: &Candidate) -
 }
 
 /// Those of most evidence among the lights that are `ahead`: one of [`STEP`] is tried, then the neighbours of the best.
-fn coarse_to_fine<T>(
-    lights: &[Candidate],
-    ahead: impl Fn(&Candidate) -> Option<T>,
+pub(super) fn coarse_to_fine<'l, L, T>(
+    lights: &'l [L],
+    ahead: impl Fn(&'l L) -> Option<T>,
     ln_evidence: impl Fn(&T) -> f64,
-) -> Vec<(&Candidate, T)> {
+) -> Vec<(&'l L, T)> {
     let tried = |at: usize| Some((at, ahead(lights.get(at)?)?));
     let mut all: Vec<_> = (STEP / 2..lights.len()).step_by(STEP).filter_map(tried).collect();
     let order = |(_, a): &(usize, T), (_, b): &(usize, T)| ln_evidence(b).total_cmp(&ln_evidence(a));

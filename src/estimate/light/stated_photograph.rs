@@ -7,8 +7,9 @@ use std::slice;
 
 use nalgebra::DVector;
 
+use super::Candidate;
 use super::photograph::{WITHOUT_SKY, is_of_flash};
-use super::stated::{LN_AHEAD, Likelier, Others, TOLD_APART};
+use super::stated::{LN_AHEAD, Likelier, Others, coarse_to_fine};
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
@@ -30,9 +31,9 @@ struct Lit {
     without_sky: Vec<Parts>,
 }
 
-/// The way of a light that has most evidence.
-struct Best<'a> {
-    parts: &'a Parts,
+/// The way of a light that has most evidence: which of all, and what it is under all spectra as one.
+struct Best {
+    way: usize,
     tried: Tried,
 }
 
@@ -40,33 +41,35 @@ struct Best<'a> {
 pub fn likelier_in_photograph(parts: &Parts, others: &Others, prior: &Prior) -> Option<Likelier> {
     let photographs = Photographs::of(slice::from_ref(parts));
     let stated = Lit::of(String::new(), parts.clone(), others);
-    let stated = stated.best(&photographs, prior, None, f64::NEG_INFINITY)?;
-    let least = stated.tried.ln_weight() + LN_AHEAD;
-    let lights = other_lights(parts, others);
-    let ahead = lights.iter().filter_map(|lit| {
-        let best = lit.best(&photographs, prior, Some(&stated.tried.solution.w), least)?;
+    let best_of_stated = stated.best(&photographs, prior, None, f64::NEG_INFINITY)?;
+    let least = best_of_stated.tried.ln_weight() + LN_AHEAD;
+    let ahead = |light: &Option<&Candidate>| {
+        let lit = match light {
+            Some(lamp) => Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others),
+            None => Lit::of("daylight".to_owned(), parts.in_any_daylight(), others),
+        };
+        let best = lit.best(&photographs, prior, Some(&best_of_stated.tried.solution.w), least)?;
         (best.tried.ln_weight() > least).then_some((lit, best))
-    });
-    let mut ahead: Vec<_> = ahead.collect();
+    };
+    let lights = other_lights(parts, others);
+    let ahead = coarse_to_fine(&lights, ahead, |(_, best)| best.tried.ln_weight());
     if ahead.is_empty() {
         return None;
     }
-    ahead.sort_by(|(_, a), (_, b)| b.tried.ln_weight().total_cmp(&a.tried.ln_weight()));
-    ahead.truncate(TOLD_APART);
-    let by_classes = |Best { parts, tried }: &Best| {
+    let by_classes = |lit: &Lit, Best { way, tried }: &Best| {
+        let (parts, ..) = *lit.ways().get(*way)?;
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
-    let of_lights = ahead.iter().filter_map(|(lit, best)| Some((lit.name.clone(), by_classes(best)?)));
-    Likelier::of(of_lights, by_classes(&stated)?, LN_ODDS)
+    let of_lights =
+        ahead.iter().filter_map(|(_, (lit, best))| Some((lit.name.clone(), by_classes(lit, best)?)));
+    Likelier::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
 }
 
-/// The same photograph in daylight, unless that was stated, and in each of the lamps.
-fn other_lights(parts: &Parts, others: &Others) -> Vec<Lit> {
+/// Daylight, unless that was stated, which is none here, then the lamps.
+fn other_lights<'o>(parts: &Parts, others: &'o Others) -> Vec<Option<&'o Candidate>> {
     let is_stated = matches!(parts.told.daylight, Some(Daylight::Cie { .. }));
-    let daylight = (!is_stated).then(|| Lit::of("daylight".to_owned(), parts.in_any_daylight(), others));
-    let lamps = others.lights().iter().filter(|light| !light.is_any_daylight);
-    let lamps = lamps.map(|light| Lit::of(light.name.clone(), parts.in_light(&light.power), others));
-    daylight.into_iter().chain(lamps).collect()
+    let lamps = others.lights().iter().filter(|light| !light.is_any_daylight).map(Some);
+    (!is_stated).then_some(None).into_iter().chain(lamps).collect()
 }
 
 impl Lit {
@@ -84,9 +87,9 @@ impl Lit {
         prior: &Prior,
         start: Option<&DVector<f64>>,
         ln_least: f64,
-    ) -> Option<Best<'_>> {
+    ) -> Option<Best> {
         let mut best: Option<Best> = None;
-        for (parts, day, share) in self.ways() {
+        for (way, (parts, day, share)) in self.ways().into_iter().enumerate() {
             let family = photographs.in_light_of(parts);
             let hypothesis = Hypothesis::on_dull_day(day, Kind::Family);
             let least = best.as_ref().map_or(ln_least, |best| best.tried.ln_weight());
@@ -94,7 +97,7 @@ impl Lit {
             let from = best.as_ref().map(|best| &best.tried.solution.w).or(start);
             let from = from.filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior)).cloned();
             let tried = Search::new(&family, prior).sort((hypothesis, share.ln()), from, least);
-            best = tried.filter(|one| one.ln_weight() >= least).map(|tried| Best { parts, tried }).or(best);
+            best = tried.filter(|one| one.ln_weight() >= least).map(|tried| Best { way, tried }).or(best);
         }
         best
     }
