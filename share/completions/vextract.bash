@@ -23,7 +23,7 @@ _vextract() {
 
     case "${cmd}" in
         vextract)
-            opts="-o -j -q -v -h -V --files-from --scene --wavelengths-nm --find --pick --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-grid --chart-cos --save-camera --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --chart-reference --white-reflectance --help --version"
+            opts="-o -j -q -v -h -V --files-from --scene --wavelengths-nm --find --pick --panel0 --panel1 --panel --chart --white-region --regions --margin --refine --exact-corners --distortion --overlay --preview --transfer --black-level --white-level --white --undo --exposure --chart-grid --chart-cos --save-camera --white-cos --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --chart-reference --white-reflectance --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -8,7 +8,7 @@ complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches,
 complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
 complete -c vextract -l regions -d 'JSON file of corners, see below, - for standard input; the flags above win over it' -r -F
 complete -c vextract -l margin -d 'Stay this far from the panels\' edges' -r
-complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels [PX: 6]' -r
+complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels, not 6, and say along which sides there are none' -r
 complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r
 complete -c vextract -l overlay -d 'Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
 complete -c vextract -l preview -d 'Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above' -r -F
@@ -196,6 +196,7 @@ cc24-iso17321\t''
 munsell\t''"
 complete -c vextract -l find -d 'Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene'
 complete -c vextract -l pick -d 'Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is seen on this machine alone'
+complete -c vextract -l exact-corners -d 'Leave the corners where they are'
 complete -c vextract -s q -l quiet -d 'Say nothing but errors'
 complete -c vextract -s v -l verbose -d 'Say what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'
