@@ -13,7 +13,11 @@ use crate::error::{Error, Result};
 use crate::solve::Eigen;
 use crate::spectrum::{MeasuredCamera, WavelengthGrid, illuminant};
 
+/// Of cameras that rawler knows, under its licence, which builds that read RAW files are bound by anyway; others predict no camera.
+#[cfg(feature = "raw")]
 const MATRICES: &str = include_str!("../../share/camera-matrices.csv");
+#[cfg(not(feature = "raw"))]
+const MATRICES: &str = "";
 /// How far curves are from a linear function of the matrix, and how far makers are apart: variances, in units of what one standard deviation of a
 /// number of the matrix does. Between a third and three times as much of either, errors are the same to a twentieth.
 const RIDGE: f64 = 1.0;
@@ -102,12 +106,13 @@ impl Predictor {
     }
 
     /// Curves R, G and B, green's peak being 1, of a camera by `make`, as it writes that into its pictures, with this colour matrix; none if that is no
-    /// camera's.
+    /// camera's, and in builds that do not read RAW files.
     ///
     /// # Example
     /// ```
     /// use vfold::camera::Predictor;
     /// use vfold::spectrum::WavelengthGrid;
+    /// # if cfg!(not(feature = "raw")) { return Ok::<(), vfold::Error>(()); }
     /// let grid = WavelengthGrid::default();
     /// let matrix = [[0.902, -0.289, -0.0715], [-0.4535, 1.2436, 0.2348], [-0.0934, 0.1919, 0.7086]];
     /// let [_, green, _] = Predictor::new(&grid)?.predict("NIKON CORPORATION", &matrix).unwrap();
@@ -148,10 +153,13 @@ impl Predictor {
     }
 
     /// How predicted curves are off, green's peak being 1: errors of a channel by waveband, each of standard deviation 1 as it is, those of cameras left
-    /// out in turn.
+    /// out in turn. None in builds that do not read RAW files.
     #[must_use]
     pub fn errors(&self) -> Vec<(usize, DVector<f64>)> {
         let left_out = self.left_out();
+        if left_out.is_empty() {
+            return Vec::new();
+        }
         let of_channel = |channel: usize| {
             let off = |one: &PredictedLeftOut| {
                 let pair = one.predicted[channel].iter().zip(&one.measured[channel]);

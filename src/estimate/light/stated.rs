@@ -21,7 +21,7 @@ use crate::spectrum::{WavelengthGrid, likely_lights};
 /// likely to be ahead by chance. At e³ one light in forty that is told rightly is doubted, at this one in fifty.
 const LN_ODDS: f64 = 3.2;
 /// A light under which facets are at least as probable as that is not asked about, in standard deviations of how improbable facets of known sheets are:
-/// it spares a third of the estimates in light that is told rightly the search, and finds nearly as many lights.
+/// it spares most estimates in light that is told rightly the search (`benches/stated.sh`).
 const USUAL: f64 = 0.5;
 /// Lights are weighed by classes of spectra if they are ahead by so much under all spectra as one, and so many of them at most: what classes add
 /// differs from light to light by less than the rest of [`LN_ODDS`].

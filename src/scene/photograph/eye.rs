@@ -24,9 +24,13 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs)
     // a camera that stands in for another is off by what such cameras were measured to be
     let curve_sd =
         camera.stands_in.as_ref().map_or(beliefs.curve_sd, |one| one.curve_error.max(beliefs.curve_sd));
-    let errors = match &camera.stands_in {
-        Some(one) if one.is_predicted => of_predicted(&camera.sensitivities, grid, &widths)?,
-        _ => errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs }),
+    let is_predicted = camera.stands_in.as_ref().is_some_and(|one| one.is_predicted);
+    let predicted =
+        if is_predicted { of_predicted(&camera.sensitivities, grid, &widths)? } else { Vec::new() };
+    let errors = if predicted.is_empty() {
+        errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs })
+    } else {
+        predicted
     };
     let is_stand_in = camera.stands_in.is_some();
     Ok(Eye {
@@ -47,7 +51,7 @@ pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
     Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
 }
 
-/// Errors of curves that are predicted: those of cameras whose curves are known.
+/// Errors of curves that are predicted: those of cameras whose curves are known; none in builds that do not know them.
 fn of_predicted(
     sensitivities: &[Vec<f64>],
     grid: &WavelengthGrid,
