@@ -135,11 +135,13 @@ impl<'a> Inference<'a> {
             }
             Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
-        let likelier =
-            self.other_lights.and_then(|others| light::likelier_in_photograph(parts, others, self.prior));
-        doubts.splice(0..0, self.doubt_of_light(likelier));
         let mut real = photograph::estimate(slice::from_ref(parts), self.prior)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
+        let day = real.day.map(|found| found.day);
+        let likelier = self
+            .other_lights
+            .and_then(|others| light::likelier_in_photograph(parts, day, others, self.prior));
+        doubts.splice(0..0, self.doubt_of_light(likelier));
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
         }

@@ -29,6 +29,8 @@ struct Lit {
     name: String,
     with_sky: Parts,
     without_sky: Vec<Parts>,
+    /// Kinds of days on which it may shine.
+    days: Vec<Day>,
 }
 
 /// The way of a light that has most evidence: which of all, and what it is under all spectra as one.
@@ -37,10 +39,17 @@ struct Best {
     tried: Tried,
 }
 
-/// The light in which a photograph is much more probable than in the one that was stated, if there is any among `others`.
-pub fn likelier_in_photograph(parts: &Parts, others: &Others, prior: &Prior) -> Option<Likelier> {
+/// The light in which a photograph is much more probable than in the one that was stated, if there is any among `others`; in that the kind of `day`
+/// has been found, if it is daylight.
+pub fn likelier_in_photograph(
+    parts: &Parts,
+    day: Option<Day>,
+    others: &Others,
+    prior: &Prior,
+) -> Option<Likelier> {
     let photographs = Photographs::of(slice::from_ref(parts));
-    let stated = Lit::of(String::new(), parts.clone(), others);
+    let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
+    let stated = Lit { days, ..Lit::of(String::new(), parts.clone(), others) };
     let best_of_stated = stated.best(&photographs, prior, None, f64::NEG_INFINITY)?;
     let least = best_of_stated.tried.ln_weight() + LN_AHEAD;
     let ahead = |light: &Option<&Candidate>| {
@@ -77,7 +86,7 @@ impl Lit {
         let flashes =
             others.lights().iter().filter(|light| with_sky.told.daylight.is_some() && is_of_flash(light));
         let without_sky = flashes.map(|light| with_sky.in_light(&light.power).without_sky()).collect();
-        Self { name, with_sky, without_sky }
+        Self { name, with_sky, without_sky, days: Day::ALL.to_vec() }
     }
 
     /// Under all spectra as one; none where evidence and share cannot be as high as `ln_least`.
@@ -109,8 +118,8 @@ impl Lit {
             return vec![(&self.with_sky, Day::Clear, 1.0)];
         }
         let share = |day: Day| (1.0 - WITHOUT_SKY) * day.share(told);
-        let with_sky = Day::ALL.map(|day| (&self.with_sky, day, share(day)));
+        let with_sky = self.days.iter().map(|day| (&self.with_sky, *day, share(*day)));
         let without_sky = self.without_sky.iter().map(|parts| (parts, Day::Clear, WITHOUT_SKY));
-        with_sky.into_iter().chain(without_sky).collect()
+        with_sky.chain(without_sky).collect()
     }
 }
