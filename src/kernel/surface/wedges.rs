@@ -75,7 +75,10 @@ struct Place<'a> {
 impl<'a> Place<'a> {
     fn new(point: Vec3, patch: &Polygon, before: &'a [Polygon]) -> Self {
         let normal = patch.normal();
-        let axis = patch.edges().next().map_or_else(Vector3::y, |(from, to)| (to - from).normalize());
+        // two corners of a patch may be one
+        let sides = patch.edges().map(|(from, to)| to - from);
+        let longest = sides.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+        let axis = longest.map_or_else(Vector3::y, |side| side.normalize());
         Self { point, normal, axis, aside: axis.cross(&normal), before }
     }
 
