@@ -5,7 +5,7 @@ photo() { # what vkernel is told of the light
             --render photo.tif --render-size 320x240 | tail -1 >rendered.json
 }
 judge() { # the photograph, and what it is said to show
-    vkernel --angle-deg 50 | vextract "$1" --camera canon-5d-mark-ii --illuminant D55 --regions rendered.json -q 2>/dev/null |
+    vkernel --angle-deg 50 | vextract "$1" --exact-corners --camera canon-5d-mark-ii --illuminant D55 --regions rendered.json -q 2>/dev/null |
         vestimate -q >estimate.ndjson
     python3 - "$2" <<'END'
 import json, sys

@@ -144,7 +144,7 @@ fn error_bars_hold_with_a_second_photograph() {
             vkernel --angle-deg $2 > scene.json
             vforward scene.json --reflectance cc24:$chip --gloss 0.4 --gloss-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
                 --noise-sd 2e-3 --seed $seed --exposure 0.5 --render-size 480x360 --render $1.tif -q -o simulated.json
-            vextract $1.tif --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
+            vextract $1.tif --exact-corners --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
         }
         for chip in dark-skin foliage blue-flower orange moderate-red yellow-green cyan neutral-5; do
             photograph one-day 45 D65
@@ -181,8 +181,9 @@ fn error_bars_hold_with_a_second_photograph() {
     // ones, which are rarer than they were taken to be
     assert!([alone, again, angle].iter().all(|[rmse, within]| *rmse < 0.04 && *within > 0.9));
     // by lamplight 0.04 and 0.9 before numbers were fitted on rendered sheets: what the model lacks is taken to be independent in two photographs of
-    // a sheet, which it is not, and there two lights leave little else
-    assert!(lamp[0] < 0.048 && lamp[1] > 0.8);
+    // a sheet, which it is not, and there two lights leave little else; 0.048 and 0.8 before light may fall off and come from near by, which each
+    // photograph has to itself and takes for what the sheet does
+    assert!(lamp[0] < 0.05 && lamp[1] > 0.75);
 }
 
 /// Join and plans know the sun alone: a fold that the sky lights alone is no silent part of them.
