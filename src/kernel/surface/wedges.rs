@@ -76,9 +76,9 @@ impl<'a> Place<'a> {
     fn new(point: Vec3, patch: &Polygon, before: &'a [Polygon]) -> Self {
         let normal = patch.normal();
         // two corners of a patch may be one
-        let sides = patch.edges().map(|(from, to)| to - from);
-        let longest = sides.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
-        let axis = longest.map_or_else(Vector3::y, |side| side.normalize());
+        let mut sides = patch.edges().map(|(from, to)| to - from);
+        let side = sides.find(|side| side.norm() > 0.0);
+        let axis = side.map_or_else(Vector3::y, |side| side.normalize());
         Self { point, normal, axis, aside: axis.cross(&normal), before }
     }
 
