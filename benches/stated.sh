@@ -21,7 +21,8 @@ made_by=$(machine "$bin/vkernel")
     echo
     echo 'Per cent of estimates whose verdict names another light as likelier than the stated one. Computed: the sheets of'
     echo '[lights](lights.md), exposure free, in its first eight lights and in D60, LED-B2 and FL8, each told as each of the eight; daylights next to each'
-    echo 'other in that list are neither right nor wrong. Photographs: `../shared/train`, in daylight told as it is, and as lamps.'
+    echo 'other in that list are neither right nor wrong. Photographs: `../shared/train`, in daylight told as it is, and as lamps; their threshold was fitted'
+    echo 'on these, that of computed facets is what statements are taken to be worth.'
     echo
     python3 -B benches/stated.py "$bin" "$shared"
 } | tee "$page.new"

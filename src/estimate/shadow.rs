@@ -47,15 +47,21 @@ impl Shadow {
     /// use vfold::estimate::{measured::Measured, shadow::Shadow};
     /// use vfold::forward::FacetValues;
     /// use vfold::geometry::FacetGrid;
-    /// let grid = FacetGrid { rows: 6, cols: 6 };
-    /// // both panels brighten towards the crease, and nothing throws a shadow
-    /// let value = |facet: usize| {
-    ///     let [row, _] = grid.place(facet % 36);
-    ///     Some(vec![0.5 - 0.02 * row as f64])
+    /// let grid = FacetGrid { rows: 10, cols: 10 };
+    /// // both panels brighten towards the crease; something shades a corner of panel 1
+    /// let shadows = |shade: f64| {
+    ///     let value = |facet: usize| {
+    ///         let [row, column] = grid.place(facet % 100);
+    ///         let light = if facet >= 100 && row >= 6 && column < 4 { shade } else { 1.0 };
+    ///         Some(vec![light * (0.5 - 0.02 * row as f64)])
+    ///     };
+    ///     let rgb = FacetValues::of_rows(&(0..200).map(value).collect::<Vec<_>>()).unwrap();
+    ///     let sd = rgb.map(|_, _| 1e-3);
+    ///     Shadow::all(grid, &Measured { rgb: &rgb, sd: &sd })
     /// };
-    /// let rgb = FacetValues::of_rows(&(0..72).map(value).collect::<Vec<_>>()).unwrap();
-    /// let sd = rgb.map(|_, _| 1e-3);
-    /// assert!(Shadow::all(grid, &Measured { rgb: &rgb, sd: &sd }).is_empty());
+    /// assert!(shadows(1.0).is_empty());
+    /// assert_eq!(shadows(0.5)[0].panel, 1);
+    /// assert_eq!(shadows(0.5)[0].facets.len(), 5 * 5); // with the facets beside it
     /// ```
     #[must_use]
     pub fn all(grid: FacetGrid, measured: &Measured) -> Vec<Self> {
