@@ -78,7 +78,8 @@ fn a_person_puts_right_what_was_found() {
     let run = folder.sh(&format!(
         "echo '{truth}' > corners.json
         cp {ROOT}/tests/data/photos/a_ideal_magenta_50.exr photo.exr
-        vextract --pick photo.exr > picked.json 2> said &
+        : > said
+        vextract --pick photo.exr > picked.json 2>> said &
         until grep -q http said; do sleep 0.1; done
         PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/served.mjs \"$(grep -o 'http://[^ ]*' said)\" \
             \"${{PICKED_SCREENSHOT:-shot.png}}\" corners.json
