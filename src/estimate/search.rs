@@ -12,7 +12,7 @@ use super::mixture::{Beside, Maximum, Mixture};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, foreseen_cost, maximise};
 
 /// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are told apart within so
 /// many times the [tolerance](Family::tolerance).
@@ -112,6 +112,28 @@ impl<'a, F: Family> Search<'a, F> {
         self.trace.push(solution.trace.clone());
         let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
+    }
+
+    /// Logarithm of how many times as probable data may become, by the model linear about the maximum of a hypothesis, if that could move along
+    /// `change`, too.
+    pub fn ln_gain_along(
+        &self,
+        one: &Sorted<F::Hypothesis, F::Second>,
+        change: &DVector<f64>,
+    ) -> Option<f64> {
+        one.solution.ln_gain_along(change, self.coarse)
+    }
+
+    /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about `start`, as they are under `one` of
+    /// another family; the volumes that errors take are not counted.
+    pub fn ln_gain_from(
+        &self,
+        hypothesis: F::Hypothesis,
+        start: &DVector<f64>,
+        one: &Sorted<F::Hypothesis, F::Second>,
+    ) -> Option<f64> {
+        let model = self.family.model(hypothesis, self.prior.broad())?;
+        Some(0.5 * (one.solution.cost(self.coarse) - foreseen_cost(&model, start, self.coarse)?))
     }
 
     /// The mean of all maxima of evidence under hypotheses that are `sorted`.

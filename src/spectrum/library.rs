@@ -1,5 +1,7 @@
 //! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
 
+use std::sync::OnceLock;
+
 pub use super::names::What;
 use super::names::{same_name, unknown};
 use super::tables::builtin;
@@ -160,8 +162,14 @@ fn about(illuminant: &str) -> &'static str {
     }
 }
 
-fn cie_illuminants() -> Result<Vec<Spectrum>> {
-    shared!("illuminants.csv")
+/// Parsed once: all likely lights are looked up one by one.
+fn cie_illuminants() -> Result<&'static [Spectrum]> {
+    static PARSED: OnceLock<Vec<Spectrum>> = OnceLock::new();
+    if let Some(parsed) = PARSED.get() {
+        return Ok(parsed);
+    }
+    let parsed = shared!("illuminants.csv")?;
+    Ok(PARSED.get_or_init(|| parsed))
 }
 
 fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
@@ -225,7 +233,7 @@ fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
         return black_body::black_body(temperature_k).map(Some);
     }
     let Some(cct_k) = name.strip_prefix("daylight:") else {
-        return Ok(cie_illuminants()?.into_iter().find(|cie| same_name(cie.name(), name)));
+        return Ok(cie_illuminants()?.iter().find(|cie| same_name(cie.name(), name)).cloned());
     };
     let cct_k = cct_k.parse().map_err(|_| Error::Spectrum {
         name: name.to_owned(),

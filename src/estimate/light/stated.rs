@@ -22,8 +22,9 @@ const LN_ODDS: f64 = 3.0;
 /// A light under which facets are at least as probable as that is not asked about, in standard deviations of how improbable facets of known sheets are:
 /// what is as usual as that needs no other light to explain it.
 const USUAL: f64 = 0.5;
-/// Lights are weighed by classes of spectra if they are ahead by so much under all spectra as one, and so many of them at most: what classes add
-/// differs from light to light by less than the rest of [`LN_ODDS`].
+/// Lights are searched if models that are linear say that facets may become so much more probable in them, and are weighed by classes of spectra if they are
+/// ahead by so much under all spectra as one, so many of them at most: what classes add differs from light to light by less than the rest of
+/// [`LN_ODDS`].
 pub(super) const LN_AHEAD: f64 = 1.0;
 const TOLD_APART: usize = 3;
 /// One of so many lights is tried first, as neighbours are alike.
@@ -112,13 +113,25 @@ pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior)
     if stated.solution.surprise() < USUAL {
         return None;
     }
-    let reflectance = Facets { data, gaussian: prior.broad() }.reflectance_at(&stated.solution.w);
+    let facets = Facets { data, gaussian: prior.broad() };
+    let (reflectance, (_, unknowns)) =
+        (facets.reflectance_at(&stated.solution.w), facets.split(&stated.solution.w));
+    let search = Search::new(data, prior);
     let least = stated.ln_evidence + LN_AHEAD;
     let ahead = |light: &Candidate| {
         let lit = data.in_light(&light.camera);
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
         let start = Facets { data: &lit, gaussian: prior.broad() }.set_out_from(&alike);
-        let one = Search::new(&lit, prior).sort(((), 0.0), Some(start), least)?;
+        let mut in_light = Search::new(&lit, prior);
+        // of lights far off the stated one the way there says little, of lights near by the way from what is seen alike
+        let change =
+            &stated.solution.at.residuals - lit.residuals(&reflectance, unknowns.as_slice()).residuals;
+        let is_hopeful = search.ln_gain_along(stated, &change)? > LN_AHEAD
+            || in_light.ln_gain_from((), &start, stated)? > LN_AHEAD;
+        if !is_hopeful {
+            return None;
+        }
+        let one = in_light.sort(((), 0.0), Some(start), least)?;
         (one.ln_evidence > least).then_some((lit, one))
     };
     let ahead = coarse_to_fine(others.lights(), ahead, |(_, one)| one.ln_evidence);
@@ -128,7 +141,7 @@ pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior)
     let by_classes = ahead.iter().filter_map(|(light, (lit, one))| {
         Some((light.name.clone(), Search::new(lit, prior).ln_evidence_by_classes(one)?))
     });
-    Likelier::of(by_classes, Search::new(data, prior).ln_evidence_by_classes(stated)?, LN_ODDS)
+    Likelier::of(by_classes, search.ln_evidence_by_classes(stated)?, LN_ODDS)
 }
 
 /// The reflectance that sends to the camera in another light what this one does: where to set out from.
