@@ -12,6 +12,7 @@ use super::hypotheses::Hypothesis;
 use super::imperfection::Discrepancy;
 use super::kinds::Kinds;
 use super::model::PhotographModel;
+use super::number::Number;
 use super::parts::Parts;
 use crate::estimate::gaussian::Gaussian;
 use crate::solve::posterior::{Linearised, Model};
@@ -91,6 +92,21 @@ impl Member<'_> {
         self.places[n]
     }
 
+    /// Which of all numbers is what the `n`-th of another model is, if this one has it: lamps have none of daylight's.
+    fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {
+        let ([scene, sheet, camera, _], own) = (other.layout(), self.model.layout());
+        let at = match n {
+            n if n < scene => n,
+            n if n < sheet => {
+                let Number { unknown, .. } = other.scene_unknowns()[n - scene];
+                own[0] + self.model.scene_unknowns().iter().position(|one| one.unknown == unknown)?
+            }
+            n if n < camera => own[1] + n - sheet,
+            n => own[2] + n - camera,
+        };
+        self.places.get(at).copied()
+    }
+
     /// Its own numbers among all.
     #[must_use]
     pub fn own(&self, w: &DVector<f64>) -> DVector<f64> {
@@ -128,8 +144,8 @@ impl<'a> JointModel<'a> {
                 n if n >= camera => same_camera.map(|other| &members[other]),
                 _ => None,
             };
-            let place = |n: usize| match is_shared(n) {
-                Some(other) => other.place(n),
+            let place = |n: usize| match is_shared(n).and_then(|other| other.place_like(&model, n)) {
+                Some(place) => place,
                 None if n < scene => n,
                 None => {
                     count += 1;
