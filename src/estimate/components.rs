@@ -151,6 +151,7 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
         residual_rms: residuals.norm() / (residuals.len() as f64).sqrt(),
         unexplained: residuals.norm() / DVector::from_column_slice(&sheet.values).norm(),
         day: None,
+        fluorescence: None,
         light: None,
         without_bounces: 0.0,
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),

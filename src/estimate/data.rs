@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::channels::{ChannelModel, Channels};
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
+use super::emission::{Emission, Sent};
 use super::measured::{Measured, usable_facets};
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -29,6 +30,8 @@ pub struct FacetData<'a> {
     count: usize,
     peak: f64,
     sums: SumRule,
+    /// What the sheet may send out itself; none where that is not asked.
+    emission: Option<Emission>,
 }
 
 /// The sum of all facet values: measured, and of the terms of each source.
@@ -76,6 +79,16 @@ pub struct SecondDerivatives {
     parts: DMatrix<f64>,
     slopes: DMatrix<f64>,
     curvatures: DMatrix<f64>,
+    emitted: Option<Emitted>,
+}
+
+/// What the sheet sends out at a point, and what light that is sent out makes of the terms, as reflectance does of direct light.
+struct Emitted {
+    sent: Sent,
+    /// `1 + pt` for each term and its pole: waveband by term.
+    terms: DMatrix<f64>,
+    /// Derivatives by reflectance.
+    slopes: DMatrix<f64>,
 }
 
 /// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
@@ -142,7 +155,76 @@ impl<'a> FacetData<'a> {
             count,
             peak,
             sums,
+            emission: None,
         })
+    }
+
+    /// The same data of a sheet that may send out light itself, the unknowns of which follow those of the scene. None where the exposure is what
+    /// makes sums alike, or a part of the surface is known.
+    #[must_use]
+    pub fn emitting(&self, emission: &Emission) -> Option<Self> {
+        self.may_emit().then(|| Self { emission: Some(emission.clone()), ..self.clone() })
+    }
+
+    fn may_emit(&self) -> bool {
+        self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
+    }
+
+    /// How residuals of a sheet that sends out nothing change with each of what it may send out, at its usual size; empty where that is not asked.
+    #[must_use]
+    pub fn changes_with(
+        &self,
+        emissions: &[Emission],
+        reflectance: &[f64],
+        unknowns: &[f64],
+    ) -> Vec<DVector<f64>> {
+        if !self.may_emit() {
+            return Vec::new();
+        }
+        let terms = self.scene.facets().terms_of(reflectance);
+        let amounts = self.scene.amounts(unknowns).values();
+        let values = self.channels.parts_of(&terms) * &amounts;
+        // datum by waveband, each sending out as much as white reflects
+        let by_band = self.channels.columns_of(&self.emitted_terms(&terms), &amounts, 0);
+        let residuals = |values: &DVector<f64>| self.left_over(self.exposure_of(values, || 1.0), values);
+        let before = residuals(&values);
+        let change = |emission: &Emission| &before - residuals(&(&values + &by_band * emission.usual()));
+        emissions.iter().map(change).collect()
+    }
+
+    /// What the sheet may send out itself; none where that is not asked.
+    #[must_use]
+    pub fn emission(&self) -> Option<&Emission> {
+        self.emission.as_ref()
+    }
+
+    /// Number of unknowns, those of what the sheet sends out included.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.scene.unknowns().len() + self.emission.as_ref().map_or(0, Emission::unknowns)
+    }
+
+    /// What the sheet sends out at a point, `terms` and `slopes` being those of what it reflects; none if nothing.
+    fn emitted(&self, unknowns: &[f64], terms: &DMatrix<f64>, slopes: &DMatrix<f64>) -> Option<Emitted> {
+        let emission = self.emission.as_ref().filter(|emission| emission.unknowns() > 0)?;
+        let mut of_slopes = slopes.clone();
+        of_slopes.column_iter_mut().zip(self.signed_poles()).for_each(|(mut column, pole)| column *= pole);
+        let sent = emission.at(&unknowns[self.scene.unknowns().len()..]);
+        Some(Emitted { sent, terms: self.emitted_terms(terms), slopes: of_slopes })
+    }
+
+    /// What light that is sent out makes of the terms.
+    fn emitted_terms(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut emitted = terms.clone();
+        for (mut column, pole) in emitted.column_iter_mut().zip(self.signed_poles()) {
+            column.apply(|t| *t = 1.0 + pole * *t);
+        }
+        emitted
+    }
+
+    /// Poles with their signs, one per term.
+    fn signed_poles(&self) -> Vec<f64> {
+        self.scene.facets().signed_poles().unwrap_or_default()
     }
 
     /// How many numbers are left, and of how many facet values.
@@ -219,7 +301,12 @@ impl<'a> FacetData<'a> {
     /// Deeb et al., first term of eq. (36).
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
-        let terms = self.scene.facets().terms_of(reflectance);
+        let mut terms = self.scene.facets().terms_of(reflectance);
+        if let Some(Emitted { sent, terms: of_emission, .. }) =
+            self.emitted(unknowns, &terms, &DMatrix::zeros(0, terms.ncols()))
+        {
+            terms += scaled_rows(&of_emission, sent.fraction.iter());
+        }
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
@@ -233,13 +320,28 @@ impl<'a> FacetData<'a> {
     /// expected of its logarithm is one more datum, which nothing but the exposure changes.
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
-        let [terms, slopes, curvatures] = self.scene.facets().derivatives_of(reflectance);
+        let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
+        let emitted = self.emitted(unknowns, &terms, &slopes);
+        if let Some(Emitted { sent, terms: of_emission, slopes: of_slopes }) = &emitted {
+            terms += scaled_rows(of_emission, sent.fraction.iter());
+            slopes += scaled_rows(of_slopes, sent.fraction.iter());
+            for (mut column, pole) in curvatures.column_iter_mut().zip(self.signed_poles()) {
+                column.iter_mut().zip(&sent.fraction).for_each(|(value, f)| *value *= 1.0 + f * pole);
+            }
+        }
         let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
         let values = &parts * &now;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
-        let mut jacobian = self.channels.columns_of(&slopes, &now, by_unknown.ncols());
-        jacobian.columns_mut(slopes.nrows(), by_unknown.ncols()).gemm(1.0, &parts, &by_unknown, 0.0);
+        let (bands, scene) = (slopes.nrows(), by_unknown.ncols());
+        let mut jacobian = self.channels.columns_of(&slopes, &now, self.unknowns());
+        jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
+        if let Some(Emitted { sent, terms, .. }) = &emitted {
+            for (n, by) in sent.slopes.column_iter().enumerate() {
+                let column = self.channels.parts_of(&scaled_rows(terms, by.iter())) * &now;
+                jacobian.column_mut(bands + scene + n).copy_from(&column);
+            }
+        }
         jacobian *= exposure;
         // What a relative change of the exposure does.
         let mut by_exposure = exposure * &values;
@@ -261,7 +363,7 @@ impl<'a> FacetData<'a> {
             residuals: self.left_over(exposure, &values),
             jacobian,
             exposure: FittedExposure { value: exposure, slopes: -exposure * relative, sd },
-            second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures },
+            second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures, emitted },
         }
     }
 
@@ -273,7 +375,27 @@ impl<'a> FacetData<'a> {
         let mixed = by_unknown
             .column_iter()
             .map(|amounts| at.exposure * self.channels.along(multipliers, &at.slopes, &amounts.into_owned()));
-        let mixed: Vec<_> = mixed.collect();
+        let mut mixed: Vec<_> = mixed.collect();
+        let scene = self.scene.unknowns().len();
+        let mut unknowns = DMatrix::zeros(self.unknowns(), self.unknowns());
+        unknowns
+            .view_mut((0, 0), (scene, scene))
+            .copy_from(&(at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers))));
+        if let Some(Emitted { sent, terms, slopes }) = &at.emitted {
+            let along = |terms: &DMatrix<f64>, amounts: &DVector<f64>| {
+                at.exposure * self.channels.along(multipliers, terms, amounts)
+            };
+            let by_fraction = along(terms, &now);
+            let count = sent.slopes.ncols();
+            unknowns.view_mut((scene, scene), (count, count)).copy_from(&sent.curvature(&by_fraction));
+            let of_slopes = along(slopes, &now);
+            mixed.extend(sent.slopes.column_iter().map(|by| by.component_mul(&of_slopes)));
+            for (n, amounts) in by_unknown.column_iter().enumerate() {
+                let both = sent.slopes.tr_mul(&along(terms, &amounts.into_owned()));
+                unknowns.view_mut((scene, n), (count, 1)).copy_from(&both);
+                unknowns.view_mut((n, scene), (1, count)).tr_copy_from(&both);
+            }
+        }
         Curvature {
             slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
             reflectance: at.exposure * self.channels.along(multipliers, &at.curvatures, &now),
@@ -282,7 +404,7 @@ impl<'a> FacetData<'a> {
             } else {
                 DMatrix::from_columns(&mixed)
             },
-            unknowns: at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers)),
+            unknowns,
         }
     }
 
@@ -357,4 +479,13 @@ impl<'a> FacetData<'a> {
         let all: Vec<f64> = by_reflectance.iter().copied().chain(by_unknown).collect();
         DVector::from_vec(all) / self.sum_of(terms, amounts).sum().max(f64::MIN_POSITIVE)
     }
+}
+
+/// Each row times a factor.
+fn scaled_rows<'f>(matrix: &DMatrix<f64>, factors: impl Iterator<Item = &'f f64> + Clone) -> DMatrix<f64> {
+    let mut scaled = matrix.clone();
+    for mut column in scaled.column_iter_mut() {
+        column.iter_mut().zip(factors.clone()).for_each(|(value, factor)| *value *= factor);
+    }
+    scaled
 }

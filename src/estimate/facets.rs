@@ -1,10 +1,14 @@
 //! The facets as a model of standard normal numbers: those behind a spectrum, then those behind the scene's unknowns.
 
+use std::ops::AddAssign;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
+use super::emission::Fall;
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
+use super::prior::Prior;
 use crate::solve::posterior::{Linearised, Model, information};
 
 /// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark sheet sends back some light of all
@@ -56,11 +60,22 @@ impl Facets<'_> {
         self.split(w).0.iter().map(|z| logistic(*z)).collect()
     }
 
-    /// Logits and the scene's unknowns at `w`.
+    /// Logits and the unknowns of scene and emission at `w`.
     pub fn split(&self, w: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let coordinates = self.gaussian.basis().ncols();
-        let logit = self.gaussian.logit_at(&w.rows(0, coordinates).into_owned());
-        (logit, w.rows(coordinates, w.len() - coordinates).into_owned())
+        let mut logit = self.gaussian.logit_at(&w.rows(0, coordinates).into_owned());
+        let unknowns = w.rows(coordinates, w.len() - coordinates).into_owned();
+        if let Some((_, Fall { amount, falling, .. })) = self.fall(&unknowns) {
+            logit.axpy(amount, falling, 1.0);
+        }
+        (logit, unknowns)
+    }
+
+    /// How logits fall towards what excites the sheet, and the place of that among the unknowns.
+    fn fall(&self, unknowns: &DVector<f64>) -> Option<(usize, Fall<'_>)> {
+        let scene = self.data.scene().unknowns().len();
+        let fall = self.data.emission()?.fall(&unknowns.as_slice()[scene..])?;
+        Some((scene + fall.place, fall))
     }
 
     fn about(&self, w: &DVector<f64>) -> ByLogit {
@@ -71,6 +86,12 @@ impl Facets<'_> {
         for (band, r) in reflectance.iter().enumerate() {
             jacobian.column_mut(band).scale_mut(r * (1.0 - r));
             exposure.slopes[band] *= r * (1.0 - r);
+        }
+        if let Some((place, Fall { sd, falling, .. })) = self.fall(&unknowns) {
+            let bands = logit.len();
+            let column = sd * jacobian.columns(0, bands) * falling;
+            jacobian.column_mut(bands + place).copy_from(&column);
+            exposure.slopes[bands + place] = sd * exposure.slopes.rows(0, bands).dot(falling);
         }
         let second = Second { reflectance, exposure, by_reflectance: second };
         ByLogit { residuals, jacobian, second }
@@ -87,21 +108,26 @@ impl SpectrumModel for Facets<'_> {
         self.about(w).jacobian.columns(0, bands).into_owned()
     }
 
-    /// Reflectances, unknowns in their own units, exposure.
+    /// Reflectances, unknowns of the scene in their own units, exposure; where it is asked what the sheet sends out, that as a fraction of white.
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
         let Residuals { exposure, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
-        let unknowns =
-            self.data.scene().unknowns().iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
-        reflectance.into_iter().chain(unknowns).chain([exposure]).collect()
+        let of_scene = self.data.scene().unknowns();
+        let sent = self.data.emission().map(|emission| emission.at(&unknowns.as_slice()[of_scene.len()..]));
+        let of_scene = of_scene.iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
+        let sent = sent.into_iter().flat_map(|sent| Vec::from(sent.fraction.data));
+        reflectance.into_iter().chain(of_scene).chain([exposure]).chain(sent).collect()
     }
 
     fn spread(&self, w: &DVector<f64>, at: &Linearised<Second>) -> Option<DMatrix<f64>> {
         let (logit, unknowns) = self.split(w);
         let (bands, coordinates) = self.gaussian.basis().shape();
         let exposure = &at.second.exposure;
-        let point = bands + unknowns.len() + 1;
+        let scene = self.data.scene().unknowns().len();
+        let sent = self.data.emission().map(|emission| emission.at(&unknowns.as_slice()[scene..]));
+        let place_of_exposure = bands + scene;
+        let point = place_of_exposure + 1 + sent.as_ref().map_or(0, |sent| sent.fraction.len());
         // Derivatives of the values by what is whitened: value by number.
         let mut slopes = DMatrix::zeros(point, at.jacobian.ncols());
         slopes.view_mut((0, 0), (bands, coordinates)).copy_from(self.gaussian.basis());
@@ -109,12 +135,20 @@ impl SpectrumModel for Facets<'_> {
             slopes[(bands + n, coordinates + n)] = expected.at(*w).1;
         }
         let of_exposure = DMatrix::from_row_slice(1, exposure.slopes.len(), exposure.slopes.as_slice());
-        slopes.row_mut(point - 1).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
+        if let Some((place, Fall { sd, falling, .. })) = self.fall(&unknowns) {
+            slopes.view_mut((0, coordinates + place), (bands, 1)).copy_from(&(sd * falling));
+        }
+        if let Some(sent) = sent {
+            slopes
+                .view_mut((place_of_exposure + 1, coordinates + scene), sent.slopes.shape())
+                .copy_from(&sent.slopes);
+        }
+        slopes.row_mut(place_of_exposure).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
         // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S these derivatives.
         let spread = information(&at.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
-        spread[(rows, point - 1)] = exposure.sd;
+        spread[(rows, place_of_exposure)] = exposure.sd;
         spread *= widened(self.rms(&at.residuals));
         for (mut column, z) in spread.column_iter_mut().zip(&logit) {
             let sd = column.norm();
@@ -133,7 +167,7 @@ impl SpectrumModel for Facets<'_> {
     }
 }
 
-/// All facets of a sample have one scene: there is but one hypothesis.
+/// All facets of a sample have one scene, and its sheet sends out light or does not: there is but one hypothesis.
 impl Family for FacetData<'_> {
     type Hypothesis = ();
     type Second = Second;
@@ -146,8 +180,12 @@ impl Family for FacetData<'_> {
         Some(Facets { data: self, gaussian })
     }
 
-    fn class_share_power(&self, (): ()) -> f64 {
-        1.0
+    fn ln_class_shares(&self, (): (), prior: &Prior) -> Vec<f64> {
+        let of_all = prior.ln_shares(1.0);
+        match self.emission() {
+            None => of_all,
+            Some(emission) => emission.ln_class_shares(of_all, prior),
+        }
     }
 
     fn tells_classes(&self) -> bool {
@@ -167,7 +205,7 @@ impl Model for Facets<'_> {
     type Second = Second;
 
     fn unknowns(&self) -> usize {
-        self.gaussian.basis().ncols() + self.data.scene().unknowns().len()
+        self.gaussian.basis().ncols() + self.data.unknowns()
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
@@ -185,16 +223,26 @@ impl Model for Facets<'_> {
         let Curvature { slopes, reflectance, mut mixed, unknowns } =
             self.data.curvature(&at.by_reflectance, multipliers);
         let basis = self.gaussian.basis();
-        let mut weighted = basis.clone();
+        let (mut weighted, mut by_logit) = (basis.clone(), DVector::zeros(basis.nrows()));
         // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
         for (band, r) in at.reflectance.iter().enumerate() {
             let change = r * (1.0 - r);
-            let by_logit = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
-            weighted.row_mut(band).scale_mut(by_logit);
+            by_logit[band] = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
+            weighted.row_mut(band).scale_mut(by_logit[band]);
             mixed.row_mut(band).scale_mut(change);
         }
         let (coordinates, count) = (basis.ncols(), unknowns.nrows());
-        let mut all = (basis.transpose() * weighted).resize(coordinates + count, coordinates + count, 0.0);
+        let mut all = (basis.transpose() * &weighted).resize(coordinates + count, coordinates + count, 0.0);
+        let mut unknowns = unknowns;
+        if let Some((place, Fall { sd, falling, .. })) = self.fall(&DVector::zeros(count)) {
+            // the fall moves logits as a coordinate of the spectrum does
+            let by_fall = sd * mixed.tr_mul(falling);
+            unknowns.row_mut(place).add_assign(&by_fall.transpose());
+            unknowns.column_mut(place).add_assign(&by_fall);
+            let of_logit = sd * falling.component_mul(&by_logit);
+            unknowns[(place, place)] += sd * of_logit.dot(falling);
+            mixed.column_mut(place).add_assign(&of_logit);
+        }
         let mixed = basis.tr_mul(&mixed);
         all.view_mut((0, coordinates), mixed.shape()).copy_from(&mixed);
         all.view_mut((coordinates, 0), (count, coordinates)).tr_copy_from(&mixed);

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::gaussian::Gaussian;
+use super::prior::Prior;
 use crate::solve::posterior::{Linearised, Model};
 
 /// A model whose first numbers are those of a spectrum; the others are the scene's.
@@ -35,8 +36,8 @@ pub trait Family {
     /// The model for spectra of a Gaussian; none if it is not finite.
     fn model<'m>(&'m self, hypothesis: Self::Hypothesis, gaussian: &'m Gaussian) -> Option<Self::Model<'m>>;
 
-    /// Power of the shares that classes of spectra have under a hypothesis; 1: those of the spectra that are known.
-    fn class_share_power(&self, hypothesis: Self::Hypothesis) -> f64;
+    /// Logarithms of the shares that classes of spectra have under a hypothesis, times how often that is true of each as far as it depends on the class.
+    fn ln_class_shares(&self, hypothesis: Self::Hypothesis, prior: &Prior) -> Vec<f64>;
 
     /// Whether there are channels enough to tell classes apart.
     fn tells_classes(&self) -> bool;

@@ -305,7 +305,7 @@ pub fn candidates<F: Family>(
     for linear in linears.into_iter().map(Rc::new) {
         let by_beyond = Rc::new(&linear.told * prior.beyond() * linear.told.transpose());
         let known = -0.5 * (linear.ln_determinant + linear.left);
-        let ln_shares = prior.ln_shares(family.class_share_power(linear.hypothesis));
+        let ln_shares = family.ln_class_shares(linear.hypothesis, prior);
         for (class, (of_prior, ln_share)) in prior.classes().iter().zip(ln_shares).enumerate() {
             let ln_share = linear.ln_share + ln_share;
             let told = LinearClass::new(&linear, of_prior);

@@ -5,10 +5,12 @@
 //! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
 //! facets are further from the model than their noise.
 
-use std::slice;
+use std::iter;
 
+use super::alternatives::Alternatives;
 use super::data::FacetData;
 use super::facets::{Facets, Second};
+use super::fluorescence::{self, Fluorescing};
 use super::light::{Likelier, Others, likelier};
 use super::mixture::Mixture;
 use super::prior::Prior;
@@ -22,9 +24,6 @@ use crate::solve::posterior::Iteration;
 /// nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
 const EXPOSURE_SUPPORTED: f64 = 0.5;
-
-/// The mean of all maxima in the one scene of a sample.
-type Found = Mixture<(), Second>;
 
 /// What happened, by runs.
 type Trace = Vec<Vec<Iteration>>;
@@ -52,32 +51,76 @@ pub fn estimate_in_stated_light(
     others: Option<&Others>,
 ) -> Result<(Estimate, Option<Likelier>)> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let (found, trace, sorted) = most_probable(data, prior, start).ok_or_else(not_finite)?;
-    let likelier = others.and_then(|others| likelier(data, &sorted, others, prior));
-    let Some((unknown, bound)) = impossible(data, &found) else {
-        return Ok((into_estimate(data, &found, &found, trace), likelier));
+    let sorted = Sortings::of(data, prior, start).ok_or_else(not_finite)?;
+    let likelier =
+        others.and_then(|others| likelier(data, (&sorted.plain, &sorted.fluorescing), others, prior));
+    let (found, trace) = sorted.most_probable(data, prior).ok_or_else(not_finite)?;
+    let Some((unknown, bound)) = impossible(data, &found.mixture) else {
+        return Ok((found.estimate(data, &found.mixture, trace), likelier));
     };
     // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
-    let on_bound = most_probable(&data.with_known(unknown, bound), prior, start).ok_or_else(not_finite)?;
-    let estimate = into_estimate(data, &on_bound.0, &found, [trace, on_bound.1].concat());
-    Ok((estimate, likelier))
+    let known = data.with_known(unknown, bound);
+    let on_bound = Sortings::of(&known, prior, start).and_then(|sorted| sorted.most_probable(&known, prior));
+    let (on_bound, more) = on_bound.ok_or_else(not_finite)?;
+    Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), likelier))
 }
 
-/// The mean of all maxima, whether or not all unknowns of the scene can be so, what happened, and the maximum under all spectra as one.
-fn most_probable(
-    data: &FacetData,
-    prior: &Prior,
-    start: Option<&[f64]>,
-) -> Option<(Found, Trace, Sorted<(), Second>)> {
-    let all = Facets { data, gaussian: prior.broad() };
-    let mut search = Search::new(data, prior);
-    let sorted = search.sort(((), 0.0), start.map(|start| all.set_out_from(start)), f64::NEG_INFINITY)?;
-    let mixture = search.mixture(slice::from_ref(&sorted))?;
-    Some((mixture, search.trace, sorted))
+/// Facets under all spectra as one: as those of a sheet that sends out nothing, then with whatever it may send out.
+struct Sortings<'a> {
+    plain: Sorted<(), Second>,
+    fluorescing: Vec<Fluorescing<'a>>,
+    trace: Trace,
+}
+
+/// The mean of all maxima, and what it is a mean over.
+struct Found<'a> {
+    mixture: Mixture<usize, Second>,
+    alternatives: Alternatives<'a>,
+}
+
+impl<'a> Sortings<'a> {
+    fn of(data: &FacetData<'a>, prior: &Prior, start: Option<&[f64]>) -> Option<Self> {
+        let all = Facets { data, gaussian: prior.broad() };
+        let mut search = Search::new(data, prior);
+        let start = start.map(|start| all.set_out_from(start));
+        let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
+        let fluorescing = fluorescence::may_be(data, &plain, prior);
+        Some(Self { plain, fluorescing, trace: search.trace })
+    }
+
+    /// The mean of all maxima, whether or not all unknowns of the scene can be so, and what happened.
+    fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Found<'a>, Trace)> {
+        let nothing = data.scene().emissions().first().filter(|_| !self.fluorescing.is_empty());
+        let plain = nothing.map_or_else(|| Some(data.clone()), |nothing| data.emitting(nothing))?;
+        let all = iter::once((plain, self.plain)).chain(self.fluorescing).enumerate();
+        let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
+            all.map(|(n, (data, sorted))| (data, sorted.as_hypothesis(n))).unzip();
+        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        let alternatives = Alternatives(alternatives);
+        let mut search = Search::new(&alternatives, prior);
+        let mixture = search.mixture(&sorted)?;
+        let trace = [self.trace, search.trace].concat();
+        Some((Found { mixture, alternatives }, trace))
+    }
+}
+
+impl Found<'_> {
+    /// As an estimate, as far off as another mixture says.
+    fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
+        let emission = |alternative: usize| self.alternatives.0[alternative].emission();
+        let excitation = |alternative| emission(alternative)?.excitation();
+        let Mixture { values, spread, shares, .. } = &self.mixture;
+        let shares = shares.iter().map(|(alternative, share)| (excitation(*alternative), *share));
+        let first = data.scene().facets().bands() + data.scene().unknowns().len() + 1;
+        let fluorescence = emission(0).and_then(|one| {
+            fluorescence::found(shares, (values, spread.as_ref()), &one.wavelengths_nm(), first)
+        });
+        Estimate { fluorescence, ..into_estimate(data, &self.mixture, off, trace) }
+    }
 }
 
 /// An unknown of the scene beyond its range, and the end of that.
-fn impossible(data: &FacetData, found: &Found) -> Option<(usize, f64)> {
+fn impossible(data: &FacetData, found: &Mixture<usize, Second>) -> Option<(usize, f64)> {
     let scene = data.scene();
     let values = &found.values[scene.facets().bands()..];
     let beyond = |(n, expected): (usize, &Expected)| Some((n, expected.bound_of(values[n])?));
@@ -94,7 +137,7 @@ pub(super) fn into_estimate<H>(
     let (bands, unknowns) = (data.scene().facets().bands(), data.scene().unknowns());
     let sd = |column: usize| off.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
     let w = &off.best.start.w;
-    let first = w.len() - unknowns.len();
+    let first = off.best.start.gaussian.basis().ncols();
     let of_unknowns = unknowns.iter().enumerate().map(|(n, expected)| {
         let (sd, prior_sd) = (sd(bands + n), expected.at(w[first + n]).1.abs());
         Fitted {
@@ -104,7 +147,7 @@ pub(super) fn into_estimate<H>(
             supported: sd < SUPPORTED * prior_sd,
         }
     });
-    let last = found.values.len() - 1;
+    let last = bands + unknowns.len();
     let exposure = found.values[last];
     let of_exposure = data.fits_exposure().then(|| Fitted {
         unknown: &EXPOSURE,
@@ -124,6 +167,7 @@ pub(super) fn into_estimate<H>(
         residual_rms: found.best.rms,
         unexplained: data.unexplained(&found.best.at.residuals),
         day: None,
+        fluorescence: None,
         light: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,

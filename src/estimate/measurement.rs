@@ -7,6 +7,7 @@
 use std::slice;
 
 use super::data::FacetData;
+use super::fluorescence::Fluorescence;
 use super::light::{self, Candidate, Likelier, Others};
 use super::measured::Measured;
 use super::photograph::day::Day;
@@ -190,7 +191,11 @@ impl<'a> Inference<'a> {
             estimate = estimate.in_stated_light(self.wavelengths_nm);
             estimate.findings.retain(|finding| !finding.is_unusual);
         }
-        let verdict = Verdict::of(&estimate, doubts, &self.stated.to_string());
+        doubts.extend(estimate.fluorescence.as_ref().and_then(Fluorescence::doubt));
+        let mut verdict = Verdict::of(&estimate, doubts, &self.stated.to_string());
+        if let Some(sentence) = estimate.fluorescence.as_ref().and_then(Fluorescence::brightener) {
+            verdict.because = format!("{}; {sentence}", verdict.because);
+        }
         Measurement { wavelengths_nm: self.wavelengths_nm.to_vec(), estimate, verdict, unmodelled: None }
     }
 

@@ -1,14 +1,17 @@
 //! From facet RGB to the spectrum. One method a file: [`map`] (the default), [`smooth`] (the paper's), and those of flat sheets
 //! that the paper compares with, [`park`] and [`khan`].
 
+mod alternatives;
 mod built_in;
 mod channels;
 pub mod classes;
 pub mod components;
 mod compress;
 pub mod data;
+pub mod emission;
 mod facets;
 mod family;
+pub mod fluorescence;
 pub mod gaussian;
 pub mod khan;
 pub mod light;
@@ -31,6 +34,7 @@ pub mod taking;
 pub mod unknowns;
 pub mod verdict;
 
+use fluorescence::Fluorescence;
 use nalgebra::DMatrix;
 use photograph::beliefs::Beliefs;
 use smooth_errors::smooth_errors;
@@ -100,6 +104,8 @@ pub struct Estimate {
     pub unexplained: f64,
     /// The kind of day on which the photograph was taken, where that is looked for.
     pub day: Option<photograph::day::Found>,
+    /// What the sheet sends out itself, if it probably does.
+    pub fluorescence: Option<Fluorescence>,
     /// The light, where nobody stated it.
     pub light: Option<light::FoundLight>,
     /// Probability that no light bounces between the panels, as far as that is weighed.

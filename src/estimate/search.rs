@@ -7,12 +7,14 @@
 use nalgebra::DVector;
 
 use super::family::{Family, SpectrumModel};
+use super::gaussian::Gaussian;
 use super::linear::{Candidate, Linear, Start, candidates};
 use super::mixture::{Beside, Maximum, Mixture};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, foreseen_cost, maximise};
+use crate::solve::forecast::{ScoreTest, foreseen_cost};
+use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, maximise};
 
 /// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are told apart within so
 /// many times the [tolerance](Family::tolerance).
@@ -68,6 +70,12 @@ pub struct Sorted<H, S> {
 }
 
 impl<H, S> Sorted<H, S> {
+    /// The same as another hypothesis.
+    pub fn as_hypothesis<T>(self, hypothesis: T) -> Sorted<T, S> {
+        let Self { ln_share, ln_evidence, solution, .. } = self;
+        Sorted { hypothesis, ln_share, ln_evidence, solution }
+    }
+
     /// Logarithm of its evidence and of how often it is true.
     pub fn ln_weight(&self) -> f64 {
         self.ln_share + self.ln_evidence
@@ -114,14 +122,14 @@ impl<'a, F: Family> Search<'a, F> {
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
     }
 
-    /// Logarithm of how many times as probable data may become, by the model linear about the maximum of a hypothesis, if that could move along
-    /// `change`, too.
-    pub fn ln_gain_along(
-        &self,
-        one: &Sorted<F::Hypothesis, F::Second>,
-        change: &DVector<f64>,
-    ) -> Option<f64> {
-        one.solution.ln_gain_along(change, self.coarse)
+    /// The Gaussian of all spectra.
+    pub fn broad(&self) -> &'a Gaussian {
+        self.prior.broad()
+    }
+
+    /// How much more probable data become where the model may move in one more way about the maximum of a hypothesis.
+    pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
+        ScoreTest::about(&one.solution, self.coarse)
     }
 
     /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about `start`, as they are under `one` of

@@ -53,6 +53,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         residual_rms: data.rms(&at.residuals),
         unexplained: data.unexplained(&at.residuals),
         day: None,
+        fluorescence: None,
         light: None,
         without_bounces: 0.0,
         iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),

@@ -120,7 +120,7 @@ impl<H: Copy> FromMeans<H> {
     /// Classes by their evidence where the searches end.
     fn starts<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Vec<Start<H>> {
         let &Self { hypothesis, means, noise: (most, last), limit, coordinates } = self;
-        let ln_shares = prior.ln_shares(family.class_share_power(hypothesis));
+        let ln_shares = family.ln_class_shares(hypothesis, prior);
         let of_class = |class: usize| {
             let gaussian = prior.classes()[class].gaussian();
             let moved = gaussian.leading(coordinates);
@@ -152,7 +152,7 @@ fn nearest_means<F: Family>(
     prior: &Prior,
     inflation: f64,
 ) -> Vec<usize> {
-    let ln_shares = prior.ln_shares(family.class_share_power(hypothesis));
+    let ln_shares = family.ln_class_shares(hypothesis, prior);
     let near = |(class, of_prior): (usize, &Class)| {
         let model = family.model(hypothesis, of_prior.gaussian())?;
         let misfit = model.residuals(&DVector::zeros(model.unknowns())) / inflation;

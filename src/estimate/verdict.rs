@@ -284,6 +284,7 @@ mod tests {
             residual_rms,
             unexplained: 0.0,
             day: None,
+            fluorescence: None,
             light: None,
             without_bounces: 0.0,
             iterations: 1,

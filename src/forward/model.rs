@@ -85,6 +85,13 @@ impl FacetModel {
         self.in_all_bands(reflectance, Family::at)
     }
 
+    /// Poles with their signs, one per term: light that the surface sends out itself makes `1 + pt` of a term `t = r/(1 − rp)`, as what it reflects of
+    /// direct light makes of r. None where parts of the surface are known.
+    #[must_use]
+    pub fn signed_poles(&self) -> Option<Vec<f64>> {
+        self.terms.signed_poles()
+    }
+
     /// RGB of every facet at exposure 1: facet by channel; of a fold in the order panel, row, column.
     ///
     /// # Source

@@ -46,6 +46,18 @@ impl Terms {
         matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))
     }
 
+    /// What light that the surface sends out itself makes of a term t: `1 + pt`, p being a pole with its sign; none where parts of the surface are
+    /// known, which send out nothing.
+    pub fn signed_poles(&self) -> Option<Vec<f64>> {
+        match self {
+            Self::One { poles, odd } => {
+                let odd = if *odd { poles.as_slice() } else { &[] };
+                Some(poles.iter().copied().chain(odd.iter().map(|pole| -pole)).collect())
+            }
+            Self::Card { .. } | Self::BesideKnown(_) => None,
+        }
+    }
+
     /// The first term of a waveband.
     pub fn first(&self, band: usize) -> usize {
         match self {

@@ -1,5 +1,7 @@
 //! The model of a scene of which not all is known.
 
+use std::borrow::Cow;
+
 use nalgebra::DVector;
 
 use super::photograph::eye;
@@ -25,17 +27,27 @@ impl Setting<'_> {
     /// As [`Setting::model_to_fit`].
     pub fn model_to_fit_within(&self, fit: &[&'static Unknown], tolerance: f64) -> Result<SceneModel> {
         // The model is proportional to the exposure, whatever the surface.
-        if fit.iter().all(|unknown| **unknown == EXPOSURE) {
-            return Ok(SceneModel::known(self.model()?));
-        }
-        match self {
-            Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit),
-            Self::Surface(surface) if surface.scene.fold_if_one()?.is_some() => {
-                let problem = "in light that is not the sun's and a uniform sky's nothing but the exposure is fitted; leave --fit out";
-                Err(Error::field("light", problem))
+        let model = if fit.iter().all(|unknown| **unknown == EXPOSURE) {
+            SceneModel::known(self.model()?)
+        } else {
+            match self {
+                Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit)?,
+                Self::Surface(surface) if surface.scene.fold_if_one()?.is_some() => {
+                    let problem = "in light that is not the sun's and a uniform sky's nothing but the exposure is fitted; leave --fit out";
+                    return Err(Error::field("light", problem));
+                }
+                Self::Surface(_) => return Err(needs_fold()),
             }
-            Self::Surface(_) => Err(needs_fold()),
-        }
+        };
+        let optics = match self {
+            Self::Fold(fold) => Cow::Borrowed(fold.optics()?),
+            Self::Surface(surface) => Cow::Owned(surface.scene.optics()?),
+        };
+        // in several lights a sheet sends out several amounts
+        Ok(match optics.illuminants.as_slice() {
+            [one] => model.under(optics.grid.wavelengths_nm(), &one.power),
+            _ => model,
+        })
     }
 }
 

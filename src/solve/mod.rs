@@ -4,6 +4,7 @@ mod bounds;
 mod conjugate_gradients;
 mod dot;
 mod eigen;
+pub mod forecast;
 pub mod interior_point;
 pub mod posterior;
 

@@ -109,21 +109,6 @@ impl<S> Solution<S> {
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
-    /// Logarithm of how many times as probable the maximum becomes where the model may move along `change`, too, as far as it likes: 0 where
-    /// the data would have it move the other way. The linear model says so, without a search.
-    ///
-    /// # Source
-    /// The score test: C. R. Rao, *Mathematical Proceedings of the Cambridge Philosophical Society* 44 (1948), p. 50.
-    #[must_use]
-    pub fn ln_gain_along(&self, change: &DVector<f64>, inflation: f64) -> Option<f64> {
-        let weight = inflation.powi(-2);
-        let slope = weight * change.dot(&self.at.residuals);
-        let by_unknowns = weight * self.at.jacobian.tr_mul(change);
-        let undone = Cholesky::new(gauss_newton(&self.at.jacobian, weight))?.solve(&by_unknowns);
-        let bend = weight * change.norm_squared() - by_unknowns.dot(&undone);
-        Some(if slope > 0.0 && bend > 0.0 { 0.5 * slope * slope / bend } else { 0.0 })
-    }
-
     /// Twice what was minimised, the noise `inflation` times its size.
     #[must_use]
     pub fn cost(&self, inflation: f64) -> f64 {
@@ -159,14 +144,6 @@ impl From<usize> for Limits {
 #[must_use]
 pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Cholesky::new(gauss_newton(jacobian, 1.0))
-}
-
-/// Twice what is minimised, at the minimum of the model linear about `w`; none if the model is not finite.
-pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, inflation: f64) -> Option<f64> {
-    let (at, weight) = (model.linearise(w), inflation.powi(-2));
-    let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
-    let step = Cholesky::new(gauss_newton(&at.jacobian, weight))?.solve(&descent);
-    Some(cost(weight, w, &at.residuals) - descent.dot(&step))
 }
 
 /// The noise at the start: a third of the misfit there, but no less than `least`, all in units of the true noise.
@@ -236,12 +213,12 @@ pub fn maximise<M: Model>(
 }
 
 /// Twice what is minimised.
-fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
+pub(super) fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
     weight * residuals.norm_squared() + w.norm_squared()
 }
 
 /// The lower triangle of `I + weight·JᵀJ`: no more of it is made use of.
-fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
+pub(super) fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
     let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
     let mut hessian = DMatrix::identity(count, count);
     for first in (0..count).step_by(COLUMNS) {
@@ -414,43 +391,6 @@ mod tests {
         fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
             Some(DMatrix::from_element(1, 1, multipliers[0] * at))
         }
-    }
-
-    /// A straight line through the origin: one unknown more that moves the data alike lowers the cost by what a fit of both finds.
-    struct Line;
-
-    impl Model for Line {
-        type Second = ();
-
-        fn unknowns(&self) -> usize {
-            1
-        }
-
-        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-            DVector::from_vec(vec![3.0 - 2.0 * w[0], 1.0 - w[0]])
-        }
-
-        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
-            let jacobian = DMatrix::from_column_slice(2, 1, &[2.0, 1.0]);
-            Linearised { residuals: self.residuals(w), jacobian, second: () }
-        }
-
-        fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
-            None
-        }
-    }
-
-    #[test]
-    fn what_one_more_unknown_would_bring_is_known_before_it_is_fitted() {
-        let found = maximise(&Line, DVector::zeros(1), (1.0, 1.0), 1e-9, 100);
-        let change = DVector::from_vec(vec![1.0, 0.0]);
-        let gain = found.ln_gain_along(&change, 1.0).unwrap();
-        // with the first datum free only the second is left: ½(1 − w)² + ½w² is least at w = ½
-        let before = 0.5 * cost(1.0, &found.w, &found.at.residuals);
-        assert!((gain - (before - 0.25)).abs() < 1e-12, "{gain}");
-        assert_eq!(found.ln_gain_along(&-change, 1.0), Some(0.0));
-        let foreseen = foreseen_cost(&Line, &DVector::from_element(1, -5.0), 1.0).unwrap();
-        assert!((foreseen - found.cost(1.0)).abs() < 1e-9, "{foreseen}");
     }
 
     /// Precise data leave a curved valley, `a·w₀² + w₁ = data`, down which the prior leads.

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
+use super::fluorescence::FluorescenceRecord;
 use super::light_found::FoundLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
@@ -58,6 +59,18 @@ pub struct EstimateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub total_reflectance: Option<Vec<f64>>,
+    /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it reflects and what it sends out itself under
+    /// the light of the scene, as an instrument with this light says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor: Option<Vec<f64>>,
+    /// Its standard deviation, one per wavelength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor_sd: Option<Vec<f64>>,
+    /// What the sheet sends out itself, if it probably does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluorescence: Option<FluorescenceRecord>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
@@ -319,6 +332,13 @@ impl Sample {
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate.total_reflectance", estimate.total.iter().flatten())?;
+        let fluorescence = estimate.fluorescence.as_ref();
+        finite(
+            "estimate.total_radiance_factor",
+            fluorescence
+                .into_iter()
+                .flat_map(|found| found.total_radiance_factor.iter().chain(&found.total_radiance_factor_sd)),
+        )?;
         finite("estimate", [&estimate.exposure, &estimate.residual_rms])?;
         finite("estimate.fit", estimate.fitted.iter().flat_map(|fitted| [&fitted.value, &fitted.sd]))?;
         let covariance = estimate.covariance().filter(|_| with_covariance);
@@ -336,6 +356,9 @@ impl Sample {
             termination: Some((&estimate.termination).into()),
             reflectance_sd,
             total_reflectance: estimate.total.clone(),
+            total_radiance_factor: fluorescence.map(|found| found.total_radiance_factor.clone()),
+            total_radiance_factor_sd: fluorescence.map(|found| found.total_radiance_factor_sd.clone()),
+            fluorescence: fluorescence.map(FluorescenceRecord::of).transpose()?,
             fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
             joined: joined.to_vec(),
             day: estimate

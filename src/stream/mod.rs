@@ -11,6 +11,7 @@ mod estimate;
 mod facets;
 mod failures;
 mod fields;
+mod fluorescence;
 mod found;
 mod geometry;
 mod history;

@@ -1,4 +1,4 @@
-//! Facets of an ideal fold in a light that nobody stated: one family of models, of which each light is a hypothesis.
+//! Facets of an ideal fold in a light that nobody stated, which is one of several.
 
 use std::iter;
 
@@ -7,10 +7,9 @@ use nalgebra::DVector;
 use super::{Candidate, FoundLight};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
+use crate::estimate::alternatives::Alternatives;
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
-use crate::estimate::family::Family;
-use crate::estimate::gaussian::Gaussian;
 use crate::estimate::map::into_estimate;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
@@ -20,43 +19,6 @@ use crate::estimate::search::{Search, Sorted};
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Under so many lights classes of spectra are told apart at most.
 const TOLD_APART: usize = 48;
-
-/// The same facets in each light.
-struct InLights<'a>(Vec<FacetData<'a>>);
-
-impl Family for InLights<'_> {
-    type Hypothesis = usize;
-    type Second = Second;
-    type Model<'m>
-        = Facets<'m>
-    where
-        Self: 'm;
-
-    fn model<'m>(&'m self, light: usize, gaussian: &'m Gaussian) -> Option<Facets<'m>> {
-        self.0.get(light).map(|data| Facets { data, gaussian })
-    }
-
-    fn class_share_power(&self, _: usize) -> f64 {
-        self.0[0].class_share_power(())
-    }
-
-    fn tells_classes(&self) -> bool {
-        self.0[0].tells_classes()
-    }
-
-    fn peak(&self) -> f64 {
-        self.0[0].peak()
-    }
-
-    fn tolerance(&self) -> f64 {
-        self.0[0].tolerance()
-    }
-
-    /// One alone is a light that is known.
-    fn has_many_hypotheses(&self) -> bool {
-        self.0.len() > 1
-    }
-}
 
 /// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out from.
 ///
@@ -69,7 +31,7 @@ pub fn estimate(
     start: Option<&[f64]>,
 ) -> Result<Estimate> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let family = InLights(lights.iter().map(|light| data.in_light(&light.camera)).collect());
+    let family = Alternatives(lights.iter().map(|light| data.in_light(&light.camera)).collect());
     let mut search = Search::new(&family, prior);
     let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
     let sorted = sorted(&mut search, lights, start);
@@ -85,7 +47,7 @@ pub fn estimate(
 
 /// Lights by their evidence under all spectra, each from where its neighbour led, those that are out of the question left out.
 fn sorted(
-    search: &mut Search<InLights>,
+    search: &mut Search<Alternatives>,
     lights: &[Candidate],
     start: Option<DVector<f64>>,
 ) -> Vec<Sorted<usize, Second>> {

@@ -12,6 +12,7 @@ use super::Candidate;
 use crate::camera::CameraResponse;
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
+use crate::estimate::fluorescence::Fluorescing;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::verdict::Doubt;
@@ -108,8 +109,14 @@ impl fmt::Display for Likelier {
     }
 }
 
-/// The light in which facets are much more probable than in the one that was `stated`, if there is any among `others`.
-pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior) -> Option<Likelier> {
+/// The light in which facets are much more probable than in the one that was `stated`, in which the sheet may fluoresce, if there is any among
+/// `others`.
+pub fn likelier(
+    data: &FacetData,
+    (stated, fluorescing): (&Told, &[Fluorescing]),
+    others: &Others,
+    prior: &Prior,
+) -> Option<Likelier> {
     if stated.solution.surprise() < USUAL {
         return None;
     }
@@ -117,7 +124,9 @@ pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior)
     let (reflectance, (_, unknowns)) =
         (facets.reflectance_at(&stated.solution.w), facets.split(&stated.solution.w));
     let search = Search::new(data, prior);
-    let least = stated.ln_evidence + LN_AHEAD;
+    let score_test = search.score_test(stated)?;
+    let least =
+        fluorescing.iter().map(|(_, one)| one.ln_evidence).fold(stated.ln_evidence, f64::max) + LN_AHEAD;
     let ahead = |light: &Candidate| {
         let lit = data.in_light(&light.camera);
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
@@ -126,7 +135,7 @@ pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior)
         // of lights far off the stated one the way there says little, of lights near by the way from what is seen alike
         let change =
             &stated.solution.at.residuals - lit.residuals(&reflectance, unknowns.as_slice()).residuals;
-        let is_hopeful = search.ln_gain_along(stated, &change)? > LN_AHEAD
+        let is_hopeful = score_test.ln_gain_along(&change) > LN_AHEAD
             || in_light.ln_gain_from((), &start, stated)? > LN_AHEAD;
         if !is_hopeful {
             return None;
@@ -141,7 +150,13 @@ pub fn likelier(data: &FacetData, stated: &Told, others: &Others, prior: &Prior)
     let by_classes = ahead.iter().filter_map(|(light, (lit, one))| {
         Some((light.name.clone(), Search::new(lit, prior).ln_evidence_by_classes(one)?))
     });
-    Likelier::of(by_classes, search.ln_evidence_by_classes(stated)?, LN_ODDS)
+    let by_bands = fluorescing
+        .iter()
+        .filter_map(|(emitting, one)| Search::new(emitting, prior).ln_evidence_by_classes(one));
+    let ln_stated = by_bands.fold(search.ln_evidence_by_classes(stated)?, |sum, own| {
+        sum.max(own) + (-(sum - own).abs()).exp().ln_1p()
+    });
+    Likelier::of(by_classes, ln_stated, LN_ODDS)
 }
 
 /// The reflectance that sends to the camera in another light what this one does: where to set out from.

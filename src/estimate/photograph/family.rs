@@ -8,6 +8,7 @@ use super::joint::{JointModel, Member, Photograph};
 use super::model::Point;
 use super::parts::Parts;
 use crate::estimate::Fitted;
+use crate::estimate::emission::Fall;
 use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::Maximum;
@@ -105,8 +106,14 @@ impl<'a> Family for Photographs<'a> {
     }
 
     /// Computed pictures are of spectra that are known.
-    fn class_share_power(&self, hypothesis: Hypothesis) -> f64 {
-        if hypothesis.imperfection.is_ideal() { 1.0 } else { self.beliefs().class_share_power }
+    fn ln_class_shares(&self, hypothesis: Hypothesis, prior: &Prior) -> Vec<f64> {
+        let is_ideal = hypothesis.imperfection.is_ideal();
+        let of_all = prior.ln_shares(if is_ideal { 1.0 } else { self.beliefs().class_share_power });
+        let emissions = self.0.first().map(Photograph::emissions);
+        match hypothesis.emission.zip(emissions).and_then(|(place, all)| all.get(place)) {
+            Some(emission) => emission.ln_class_shares(of_all, prior),
+            None => of_all,
+        }
     }
 
     fn tells_classes(&self) -> bool {
@@ -136,13 +143,16 @@ impl SpectrumModel for JointModel<'_> {
         at.jacobian.columns(0, coordinates) * coordinates_of
     }
 
-    /// 45:0 reflectance, then albedo.
+    /// 45:0 reflectance, then albedo, then what the sheet sends out itself as a fraction of white.
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let first = self.first();
-        let Point { albedo, departure, .. } = first.model.point(&first.own(w));
+        let own = first.own(w);
+        let Point { albedo, departure, .. } = first.model.point(&own);
         let [slope, offset] = departure.reflectance;
         let reflectance = albedo.iter().map(|albedo| (slope * albedo + offset).clamp(0.0, 1.0));
-        reflectance.chain(albedo.iter().copied()).collect()
+        let sent =
+            first.model.fraction_sent(&own).map_or_else(|| vec![0.0; albedo.len()], |(f, _)| f.data.into());
+        reflectance.chain(albedo.iter().copied()).chain(sent).collect()
     }
 
     fn spread(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
@@ -186,10 +196,23 @@ impl JointModel<'_> {
 
 /// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, the numbers of the `first` being `w`.
 fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
-    let [scene, sheet, camera, _] = first.model.layout();
+    let [scene, sheet, camera, emission, _] = first.model.layout();
     let basis = first.model.gaussian().basis();
     let bands = point.albedo.len();
-    let mut slopes = DMatrix::zeros(2 * bands, unknowns);
+    let mut slopes = DMatrix::zeros(3 * bands, unknowns);
+    if let Some((_, by_number)) = first.model.fraction_sent(w) {
+        for (n, column) in by_number.column_iter().enumerate() {
+            slopes.view_mut((2 * bands, first.place(emission + n)), (bands, 1)).copy_from(&column);
+        }
+    }
+    if let Some(Fall { place, sd, falling, .. }) = first.model.fall(w) {
+        let place = first.place(emission + place);
+        for (band, albedo) in point.albedo.iter().enumerate() {
+            let change = albedo * (1.0 - albedo) * sd * falling[band];
+            slopes[(band, place)] = point.departure.reflectance[0] * change;
+            slopes[(bands + band, place)] = change;
+        }
+    }
     for (band, albedo) in point.albedo.iter().enumerate() {
         for n in 0..scene {
             let change = albedo * (1.0 - albedo) * basis[(band, n)];

@@ -18,6 +18,9 @@ pub struct Hypothesis {
     pub day: Day,
     /// What is not as it was stated, if anything is.
     pub mistake: Option<Mistake>,
+    /// What the sheet sends out itself, as a place among [all that it may](crate::estimate::emission::Emission::all), nothing being the first; none where
+    /// that is not asked.
+    pub emission: Option<usize>,
 }
 
 /// What may be another thing altogether than was stated. Angle and exposure are never exact in photographs as people take them, where mistakes
@@ -79,7 +82,7 @@ impl Hypothesis {
     /// A photograph as people take them, of this kind of sheet.
     #[must_use]
     pub fn usual(kind: Kind) -> Self {
-        Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None }
+        Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None, emission: None }
     }
 
     /// One as people take them under another sky than a clear day's.
@@ -93,7 +96,7 @@ impl Hypothesis {
     pub fn ideal(mistake: Option<Mistake>) -> Self {
         // the sky of a computed scene is white rather than blue
         let day = if mistake == Some(Mistake::Sky) { Day::Hazy } else { Day::Clear };
-        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day, mistake }
+        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day, mistake, emission: None }
     }
 
     /// Logarithm of how often it is true of photographs of which this was stated.

@@ -14,6 +14,7 @@ use super::kinds::Kinds;
 use super::model::PhotographModel;
 use super::number::Number;
 use super::parts::Parts;
+use crate::estimate::emission::Emission;
 use crate::estimate::gaussian::Gaussian;
 use crate::solve::posterior::{Linearised, Model};
 
@@ -27,6 +28,8 @@ pub struct Photograph<'a> {
     values: DMatrix<f64>,
     /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first asked for.
     whitenings: Rc<[[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4]>,
+    /// What its sheet may send out itself, made when it is first asked for.
+    emissions: OnceCell<Vec<Emission>>,
 }
 
 /// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part of a fold in the sun.
@@ -39,7 +42,8 @@ impl<'a> Photograph<'a> {
         let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
             let values = parts.values.clone();
             let kinds = Rc::new(kinds);
-            Self { parts, kinds, values, whitenings: Rc::default() }.relative_to(parts.values.clone())
+            Self { parts, kinds, values, whitenings: Rc::default(), emissions: OnceCell::new() }
+                .relative_to(parts.values.clone())
         };
         of.iter().zip(Kinds::of(of)).map(photograph).collect()
     }
@@ -58,7 +62,14 @@ impl<'a> Photograph<'a> {
     #[must_use]
     pub fn in_light_of(&self, parts: &'a Parts) -> Self {
         let Self { kinds, values, whitenings, .. } = self;
-        Self { parts, kinds: Rc::clone(kinds), values: values.clone(), whitenings: Rc::clone(whitenings) }
+        let (kinds, whitenings) = (Rc::clone(kinds), Rc::clone(whitenings));
+        Self { parts, kinds, values: values.clone(), whitenings, emissions: OnceCell::new() }
+    }
+
+    /// What its sheet may send out itself in the light that was stated, nothing first.
+    pub fn emissions(&self) -> &[Emission] {
+        let eye = &self.parts.eye;
+        self.emissions.get_or_init(|| Emission::all(&eye.wavelengths_nm, eye.sun.as_slice()))
     }
 
     /// What makes residuals standard normal; none if facets are not finite.
@@ -94,7 +105,7 @@ impl Member<'_> {
 
     /// Which of all numbers is what the `n`-th of another model is, if this one has it: lamps have none of daylight's.
     fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {
-        let ([scene, sheet, camera, _], own) = (other.layout(), self.model.layout());
+        let ([scene, sheet, camera, emission, _], own) = (other.layout(), self.model.layout());
         let at = match n {
             n if n < scene => n,
             n if n < sheet => {
@@ -102,7 +113,8 @@ impl Member<'_> {
                 own[0] + self.model.scene_unknowns().iter().position(|one| one.unknown == unknown)?
             }
             n if n < camera => own[1] + n - sheet,
-            n => own[2] + n - camera,
+            n if n < emission => own[2] + n - camera,
+            n => own[3] + n - emission,
         };
         self.places.get(at).copied()
     }
@@ -134,12 +146,13 @@ impl<'a> JointModel<'a> {
         for (photograph, one) in photographs.iter().enumerate() {
             let (parts, whitening) =
                 (one.parts, one.whitening(hypothesis.imperfection.discrepancy, hypothesis.day)?);
-            let model = PhotographModel::new(parts, &one.kinds, hypothesis, gaussian, whitening);
+            let emission = hypothesis.emission.and_then(|place| one.emissions().get(place));
+            let model = PhotographModel::new(parts, &one.kinds, (hypothesis, emission), gaussian, whitening);
             let same_camera =
                 photographs[..photograph].iter().position(|other| other.parts.eye.is(&parts.eye));
-            let [scene, sheet, camera, end] = model.layout();
+            let [scene, sheet, camera, emission, end] = model.layout();
             let is_shared = |n: usize| match n {
-                n if n < scene || (sheet..camera).contains(&n) => members.first(),
+                n if n < scene || n >= emission || (sheet..camera).contains(&n) => members.first(),
                 n if n < sheet && model.scene_unknowns()[n - scene].unknown.is_of_sheet() => members.first(),
                 n if n >= camera => same_camera.map(|other| &members[other]),
                 _ => None,

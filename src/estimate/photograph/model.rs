@@ -2,6 +2,7 @@
 //! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
 
 use std::borrow::Cow;
+use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 
@@ -18,6 +19,7 @@ use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheets::Departure;
 use super::sums::{add, add_product, columns};
+use crate::estimate::emission::{Emission, Fall, Sent};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Known;
@@ -25,12 +27,16 @@ use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
+/// Albedo below which light that a sheet sends out is not told from what it reflects of more light: darker sheets hardly light themselves.
+const DARKEST: f64 = 0.01;
 
 /// The model under one hypothesis and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
     kinds: &'a Kinds<'a>,
     hypothesis: Hypothesis,
+    /// What the sheet sends out itself; none if nothing.
+    emission: Option<&'a Emission>,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
     /// What was stated of the photograph, as far as it is believed.
@@ -58,7 +64,7 @@ impl<'a> PhotographModel<'a> {
     pub fn new(
         parts: &'a Parts,
         kinds: &'a Kinds,
-        hypothesis: Hypothesis,
+        (hypothesis, emission): (Hypothesis, Option<&'a Emission>),
         gaussian: &'a Gaussian,
         whitening: &'a Whitening,
     ) -> Self {
@@ -70,6 +76,7 @@ impl<'a> PhotographModel<'a> {
             parts,
             kinds,
             hypothesis,
+            emission: emission.filter(|emission| emission.unknowns() > 0),
             gaussian,
             whitening,
             told,
@@ -84,13 +91,15 @@ impl<'a> PhotographModel<'a> {
         &self.numbers
     }
 
-    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, and how many numbers there are.
+    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, what the sheet sends out itself, and how many
+    /// numbers there are.
     #[must_use]
-    pub fn layout(&self) -> [usize; 4] {
+    pub fn layout(&self) -> [usize; 5] {
         let scene = self.gaussian.basis().ncols();
         let sheet = scene + self.numbers.len();
         let camera = sheet + self.kinds.variation_count();
-        [scene, sheet, camera, camera + self.parts.eye.errors.len()]
+        let emission = camera + self.parts.eye.errors.len();
+        [scene, sheet, camera, emission, emission + self.emission.map_or(0, Emission::unknowns)]
     }
 
     /// Conditions at `w`.
@@ -139,7 +148,71 @@ impl<'a> PhotographModel<'a> {
         conditions
     }
 
-    fn terms(&self, albedo: &[f64]) -> Terms {
+    /// Terms for an albedo, and what the sheet sends out itself: it looks as one without does in light that is (1 + f / albedo) times as strong.
+    fn terms(&self, w: &DVector<f64>, albedo: &[f64]) -> Terms {
+        let mut terms = self.reflected_terms(albedo);
+        if let Some(sent) = self.sent(w) {
+            let Terms { values, slopes } = &mut terms;
+            for (n, (albedo, f)) in albedo.iter().zip(&sent.fraction).enumerate() {
+                let (of_light, slope) = of_albedo(*albedo, *f);
+                let change = slope * values.column(n);
+                slopes.column_mut(n).scale_mut(of_light);
+                slopes.column_mut(n).add_assign(&change);
+                values.column_mut(n).scale_mut(of_light);
+            }
+        }
+        terms
+    }
+
+    /// What the sheet sends out itself at `w`; none if nothing.
+    fn sent(&self, w: &DVector<f64>) -> Option<Sent> {
+        Some(self.emission?.at(self.of_emission(w)))
+    }
+
+    /// The numbers of what the sheet sends out itself.
+    fn of_emission<'w>(&self, w: &'w DVector<f64>) -> &'w [f64] {
+        let [.., emission, end] = self.layout();
+        &w.as_slice()[emission..end]
+    }
+
+    /// The fraction of white that the sheet sends out at `w`, and how it moves with the numbers of that: waveband by number. None if nothing.
+    #[must_use]
+    pub fn fraction_sent(&self, w: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let Sent { fraction, slopes, .. } = self.sent(w)?;
+        Some((fraction, slopes))
+    }
+
+    /// How logits fall towards what makes the sheet fluoresce, if they do.
+    #[must_use]
+    pub fn fall(&self, w: &DVector<f64>) -> Option<Fall<'a>> {
+        self.emission?.fall(self.of_emission(w))
+    }
+
+    /// Derivatives of the terms by the numbers of what the sheet sends out itself, node by waveband; none if nothing.
+    fn terms_by_emission(
+        &self,
+        w: &DVector<f64>,
+        albedo: &[f64],
+        terms: &Terms,
+    ) -> Option<Vec<DMatrix<f64>>> {
+        let sent = self.sent(w)?;
+        let reflected = self.reflected_terms(albedo).values;
+        let fall = self.fall(w);
+        let by = |(k, slopes): (usize, nalgebra::DVectorView<f64>)| match &fall {
+            Some(Fall { place, sd, falling, .. }) if *place == k => {
+                let change = |n: usize| albedo[n] * (1.0 - albedo[n]) * sd * falling[n];
+                DMatrix::from_fn(reflected.nrows(), albedo.len(), |node, n| {
+                    terms.slopes[(node, n)] * change(n)
+                })
+            }
+            _ => DMatrix::from_fn(reflected.nrows(), albedo.len(), |node, n| {
+                reflected[(node, n)] * slopes[n] / albedo[n].max(DARKEST)
+            }),
+        };
+        Some(sent.slopes.column_iter().enumerate().map(by).collect())
+    }
+
+    fn reflected_terms(&self, albedo: &[f64]) -> Terms {
         let count = self.coefficients.nrows();
         if self.hypothesis.has_bounces() {
             let (values, slopes) = chebyshev(albedo, count);
@@ -161,14 +234,18 @@ impl<'a> PhotographModel<'a> {
 
     /// Logits of albedo.
     fn logit(&self, w: &DVector<f64>) -> DVector<f64> {
-        self.gaussian.logit_at(&w.rows(0, self.gaussian.basis().ncols()).into_owned())
+        let mut logit = self.gaussian.logit_at(&w.rows(0, self.gaussian.basis().ncols()).into_owned());
+        if let Some(Fall { amount, falling, .. }) = self.fall(w) {
+            logit.axpy(amount, falling, 1.0);
+        }
+        logit
     }
 
     /// What `w` means.
     #[must_use]
     pub fn point(&self, w: &DVector<f64>) -> Point {
         let conditions = self.conditions(w);
-        let [_, sheet, camera, _] = self.layout();
+        let [_, sheet, camera, ..] = self.layout();
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
@@ -185,7 +262,7 @@ impl<'a> PhotographModel<'a> {
 
     /// What the facets have more than those of a Lambertian sheet.
     fn beyond(&self, w: &DVector<f64>) -> Radiance {
-        let [_, sheet, camera, _] = self.layout();
+        let [_, sheet, camera, ..] = self.layout();
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         self.departure(&self.conditions(w), &variations).radiance
     }
@@ -193,9 +270,9 @@ impl<'a> PhotographModel<'a> {
     /// How the camera sees with the errors of its curves at `w`: waveband by channel.
     fn sensitivities(&self, w: &DVector<f64>) -> DMatrix<f64> {
         let Parts { eye, .. } = self.parts;
-        let [.., camera, _] = self.layout();
+        let [_, _, camera, emission, _] = self.layout();
         let mut sensitivities = eye.sensitivities.clone();
-        for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..]) {
+        for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..emission]) {
             let curve = &mut sensitivities.as_mut_slice()[channel * error.len()..];
             curve
                 .iter_mut()
@@ -208,7 +285,7 @@ impl<'a> PhotographModel<'a> {
     /// The facets at `w`.
     fn predicted(&self, w: &DVector<f64>) -> Predicted<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let (terms, sensitivities) = (self.terms(&albedo), self.sensitivities(w));
+        let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         predictor.facets(&self.conditions(w), &self.beyond(w))
     }
@@ -272,7 +349,7 @@ impl<'a> PhotographModel<'a> {
     pub fn by_told(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
         self.hypothesis.imperfection.is_ideal().then_some(())?;
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let (terms, sensitivities) = (self.terms(&albedo), self.sensitivities(w));
+        let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let (conditions, beyond) = (self.conditions(w), self.beyond(w));
         let here = predictor.facets(&conditions, &beyond);
@@ -342,6 +419,12 @@ impl<'a> PhotographModel<'a> {
     }
 }
 
+/// How many times as strong light looks to a sheet of an albedo that sends out a fraction f of white itself, and the derivative by albedo.
+fn of_albedo(albedo: f64, f: f64) -> (f64, f64) {
+    let from = albedo.max(DARKEST);
+    (1.0 + f / from, if albedo > DARKEST { -f / (from * from) } else { 0.0 })
+}
+
 /// Values in the order of residuals, channel by channel.
 fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
     DVector::from_column_slice(values.as_slice())
@@ -351,7 +434,7 @@ impl Model for PhotographModel<'_> {
     type Second = ();
 
     fn unknowns(&self) -> usize {
-        self.layout()[3]
+        self.layout()[4]
     }
 
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
@@ -360,14 +443,14 @@ impl Model for PhotographModel<'_> {
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let terms = self.terms(&albedo);
+        let terms = self.terms(w, &albedo);
         let beyond = self.beyond(w);
         let sensitivities = self.sensitivities(w);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let conditions = self.conditions(w);
         let here = predictor.facets(&conditions, &beyond);
         let Predicted { values, lens, lights, .. } = &here;
-        let [scene, sheet, camera, end] = self.layout();
+        let [scene, sheet, camera, emission, end] = self.layout();
         let mut jacobian = DMatrix::zeros(values.len(), end);
         self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &here);
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
@@ -389,7 +472,12 @@ impl Model for PhotographModel<'_> {
             jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
         if !imperfection.is_ideal() {
-            self.by_curves(&mut jacobian.columns_mut(camera, end - camera), &terms.values, &here);
+            self.by_curves(&mut jacobian.columns_mut(camera, emission - camera), &terms.values, &here);
+        }
+        if let Some(by_emission) = self.terms_by_emission(w, &albedo, &terms) {
+            for (n, change) in (emission..end).zip(by_emission) {
+                jacobian.column_mut(n).copy_from_slice(here.with_terms(&change).as_slice());
+            }
         }
         Linearised {
             residuals: self.whitening.of(&in_order(&(&self.parts.values - values))),

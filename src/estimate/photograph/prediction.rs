@@ -56,6 +56,19 @@ pub struct Predictor<'a, 'b> {
     pub sensitivities: &'b DMatrix<f64>,
 }
 
+impl Predicted<'_> {
+    /// What the same light would give with these terms alone, node by waveband: facet by channel.
+    pub fn with_terms(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut radiances = DMatrix::zeros(self.radiances.nrows(), self.radiances.ncols());
+        for light in &self.lights {
+            let mut to_channels = DMatrix::zeros(terms.nrows(), light.weights.ncols());
+            add_product(&mut to_channels, terms, &light.weights);
+            add_product(&mut radiances, &light.radiance, &to_channels);
+        }
+        self.lens.seen(radiances)
+    }
+}
+
 impl<'a> Predictor<'a, '_> {
     /// The facets of a sheet that sends `beyond` more than a Lambertian one.
     pub fn facets(&self, conditions: &Conditions, beyond: &Radiance) -> Predicted<'a> {

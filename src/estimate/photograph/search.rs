@@ -12,13 +12,15 @@ use super::joint::Photograph;
 use super::kinds::Kind;
 use super::parts::Parts;
 use crate::error::{Error, Result};
+use crate::estimate::emission::Excitation;
 use crate::estimate::family::Family;
+use crate::estimate::fluorescence::{self, Fluorescence, is_hopeful};
 use crate::estimate::mixture::Mixture;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
-use crate::solve::posterior::Iteration;
+use crate::solve::posterior::{Iteration, Model};
 
 /// Ideal folds that come so near to the best of real sheets, as the logarithm of a share of its evidence, are weighed against these anew.
 const LN_EVIDENCE_NEAR: f64 = -5.0;
@@ -69,7 +71,10 @@ fn under(
     let family = relative_to_predictions(Photographs::of(parts), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let sorted = sorted(&mut search, &family.0.first()?.parts.told, all, &dull_days(&family.0));
+    let mut sorted = sorted(&mut search, &family.0.first()?.parts.told, all, &dull_days(&family.0));
+    if let [only] = family.0.as_slice() {
+        add_fluorescing(&mut search, (&family, only), &mut sorted);
+    }
     // no light bounces between panels that are no fold
     let without_bounces = probability(&sorted, |one| !one.has_bounces());
     let folds = folds(sorted);
@@ -79,7 +84,9 @@ fn under(
     let of = |(photograph, seen): (&Photograph, Seen)| {
         let (findings, skipped) =
             (all_findings(photograph, &found, &seen, day), skipped(&seen.fitted, search.skipped));
-        Estimate { findings, day, without_bounces, skipped, ..of_photograph(&found, seen, &search.trace) }
+        let fluorescence = fluorescence(photograph, &found);
+        let estimate = of_photograph(&found, seen, &search.trace);
+        Estimate { findings, day, without_bounces, skipped, fluorescence, ..estimate }
     };
     Some(SheetEstimate {
         photographs: family.0.iter().zip(seen).map(of).collect(),
@@ -175,6 +182,45 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
+/// Adds a fold of a sheet that is brightened, if that may be so: whichever fold has most evidence. The others then are of a sheet that is known to
+/// send out nothing. Of dyes that visible light excites nothing is asked: what real sheets do beyond all kinds that are known looks like them.
+fn add_fluorescing(
+    search: &mut Search<Photographs>,
+    (family, photograph): (&Photographs, &Photograph),
+    all: &mut Vec<Tried>,
+) -> Option<()> {
+    let best = all.iter().find(|one| one.hypothesis.has_bounces())?;
+    let (w, ln_best) = (best.solution.w.clone(), best.ln_weight());
+    let place =
+        photograph.emissions().iter().position(|one| one.excitation() == Some(Excitation::Ultraviolet))?;
+    let brightened = Hypothesis { emission: Some(place), ..best.hypothesis };
+    let model = family.model(brightened, search.broad())?;
+    let start = w.clone().resize_vertically(model.unknowns(), 0.0);
+    let change = &best.solution.at.residuals - model.residuals(&start);
+    drop(model);
+    let broad = search.broad();
+    let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
+    if !is_hopeful(&search.score_test(best)?, &change, &photograph.emissions()[place], &logit) {
+        return None;
+    }
+    let ln_share = best.ln_share;
+    let found = search.sort((brightened, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS)?;
+    let folds = all.iter_mut().filter(|one| one.hypothesis.has_bounces());
+    folds.for_each(|one| one.hypothesis.emission = Some(0));
+    all.push(found);
+    all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    Some(())
+}
+
+/// What the sheet of a photograph is found to send out itself, if it probably does.
+fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Option<Fluorescence> {
+    let excitation = |hypothesis: &Hypothesis| photograph.emissions().get(hypothesis.emission?)?.excitation();
+    let shares = found.shares.iter().map(|(hypothesis, share)| (excitation(hypothesis), *share));
+    let wavelengths_nm = &photograph.parts.eye.wavelengths_nm;
+    let first = 2 * wavelengths_nm.len();
+    fluorescence::found(shares, (&found.values, found.spread.as_ref()), wavelengths_nm, first)
+}
+
 /// Probability of hypotheses, of which those of most evidence come first.
 fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     let ln_most = all.first().map_or(0.0, Tried::ln_weight);
@@ -232,11 +278,11 @@ fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
 
 /// The mean of all maxima as the estimate of a photograph.
 fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Iteration>]) -> Estimate {
-    let bands = found.values.len() / 2;
+    let bands = found.values.len() / 3;
     let is_ideal = found.best.start.hypothesis.imperfection.is_ideal();
     // shares may add up to a rounding more than 1
     let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
-    let (reflectance, albedo) = found.values.split_at(bands);
+    let (reflectance, albedo) = found.values[..2 * bands].split_at(bands);
     Estimate {
         total: (!is_ideal).then(|| within(albedo)),
         reflectance: within(reflectance),
@@ -248,6 +294,7 @@ fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Itera
         residual_rms: rms(&seen.residuals),
         unexplained: seen.unexplained,
         day: None,
+        fluorescence: None,
         light: None,
         without_bounces: 0.0,
         iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,

@@ -1,10 +1,13 @@
 //! A facet model whose sources come in amounts that depend on unknowns.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::factor::Jet;
 use super::{Factor, Normal, Unknown};
 use crate::camera::CameraResponse;
+use crate::estimate::emission::Emission;
 use crate::forward::FacetModel;
 
 /// An unknown of a scene, and what is known of it before a picture is taken.
@@ -53,6 +56,8 @@ pub struct SceneModel {
     unknowns: Vec<Expected>,
     /// Source by unknown.
     factors: Vec<Vec<Factor>>,
+    /// What the sheet may send out itself in its light, nothing first; empty where that is not asked.
+    emissions: Arc<[Emission]>,
 }
 
 impl SceneModel {
@@ -60,13 +65,25 @@ impl SceneModel {
     #[must_use]
     pub fn known(facets: FacetModel) -> Self {
         let factors = vec![Vec::new(); facets.sources().len()];
-        Self { facets, unknowns: Vec::new(), factors }
+        Self::new(facets, Vec::new(), factors)
     }
 
     /// A scene with unknowns: `factors` has a row for each source of `facets`, with one factor per unknown.
     #[must_use]
     pub fn new(facets: FacetModel, unknowns: Vec<Expected>, factors: Vec<Vec<Factor>>) -> Self {
-        Self { facets, unknowns, factors }
+        Self { facets, unknowns, factors, emissions: Arc::default() }
+    }
+
+    /// The same scene, in which the sheet may fluoresce under light of this relative power.
+    #[must_use]
+    pub fn under(self, wavelengths_nm: &[f64], power: &[f64]) -> Self {
+        Self { emissions: Emission::all(wavelengths_nm, power).into(), ..self }
+    }
+
+    /// What the sheet may send out itself, nothing first; empty where that is not asked.
+    #[must_use]
+    pub fn emissions(&self) -> &[Emission] {
+        &self.emissions
     }
 
     /// The model, each source in the amount 1.
@@ -84,7 +101,7 @@ impl SceneModel {
     /// The same scene with another light in the place of each of its sources' own, as the camera responds to it.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
-        Self { facets: self.facets.in_light(camera), ..self.clone() }
+        Self { facets: self.facets.in_light(camera), emissions: Arc::default(), ..self.clone() }
     }
 
     /// The same scene with one unknown known to have this value.

@@ -1,0 +1,44 @@
+//! The same facets under each of several things that may be so: one family of models, of which each is a hypothesis.
+
+use super::data::FacetData;
+use super::facets::{Facets, Second};
+use super::family::Family;
+use super::gaussian::Gaussian;
+use super::prior::Prior;
+
+/// The facets as data of each alternative, at least one. What they take of the bounces is the same in all.
+pub struct Alternatives<'a>(pub Vec<FacetData<'a>>);
+
+impl Family for Alternatives<'_> {
+    type Hypothesis = usize;
+    type Second = Second;
+    type Model<'m>
+        = Facets<'m>
+    where
+        Self: 'm;
+
+    fn model<'m>(&'m self, alternative: usize, gaussian: &'m Gaussian) -> Option<Facets<'m>> {
+        self.0.get(alternative).map(|data| Facets { data, gaussian })
+    }
+
+    fn ln_class_shares(&self, alternative: usize, prior: &Prior) -> Vec<f64> {
+        self.0[alternative].ln_class_shares((), prior)
+    }
+
+    fn tells_classes(&self) -> bool {
+        self.0[0].tells_classes()
+    }
+
+    fn peak(&self) -> f64 {
+        self.0[0].peak()
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.0[0].tolerance()
+    }
+
+    /// One alone is no alternative.
+    fn has_many_hypotheses(&self) -> bool {
+        self.0.len() > 1
+    }
+}

@@ -1,0 +1,149 @@
+//! Whether a sheet fluoresces: which bands it may have is foreseen by a linear model, so that sheets that facets say nothing of take no searches.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::data::FacetData;
+use super::emission::{Emission, Excitation};
+use super::facets::{Facets, Second};
+use super::prior::Prior;
+use super::search::{Search, Sorted};
+use super::verdict::Doubt;
+use crate::solve::forecast::ScoreTest;
+
+/// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual size at least: less changes nothing.
+const LN_EVIDENCE_LEAST: f64 = -2.0;
+const LEAST_SIZE: f64 = 0.25;
+/// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question.
+const LN_EVIDENCE_HOPELESS: f64 = -12.0;
+/// Probability from which on a sheet is said to fluoresce.
+const PROBABLE: f64 = 0.5;
+
+/// What a sheet sends out itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fluorescence {
+    /// How probable it is that it sends out anything.
+    pub probability: f64,
+    /// What most probably excites it.
+    pub excited_by: Excitation,
+    /// Where most is sent out, nm.
+    pub peak_nm: f64,
+    /// The fraction of white there under the light of the scene, and its standard deviation.
+    pub size: f64,
+    /// Standard deviation of the size.
+    pub size_sd: f64,
+    /// Total radiance factor in every waveband, what is reflected and what is sent out under the light of the scene.
+    pub total_radiance_factor: Vec<f64>,
+    /// Its standard deviation.
+    pub total_radiance_factor_sd: Vec<f64>,
+}
+
+impl Fluorescence {
+    /// What it says against an estimate: light that bounces excites what visible light excites, too, which is not estimated.
+    #[must_use]
+    pub fn doubt(&self) -> Option<Doubt> {
+        let remedy = "measure it with a bispectral instrument, or another sheet";
+        let because = || {
+            format!("this sheet fluoresces at about {:.0} nm; vfold can't measure it", self.rounded_peak_nm())
+        };
+        (self.excited_by == Excitation::Visible).then(|| Doubt::new(because(), remedy))
+    }
+
+    /// What a brightener does, in words.
+    #[must_use]
+    pub fn brightener(&self) -> Option<String> {
+        let Self { probability, size, size_sd, .. } = self;
+        (self.excited_by == Excitation::Ultraviolet).then(|| {
+            format!(
+                "with a probability of {:.0} % the sheet is brightened: at about {:.0} nm it sends out {size:.2} ± {size_sd:.2} of white under this light",
+                100.0 * probability,
+                self.rounded_peak_nm()
+            )
+        })
+    }
+
+    /// Nobody sees a peak closer than that.
+    fn rounded_peak_nm(&self) -> f64 {
+        10.0 * (self.peak_nm / 10.0).round()
+    }
+}
+
+/// Whether a sheet of these logits may have a band, as far as a linear model foresees from how residuals change with it.
+pub fn is_hopeful(
+    test: &ScoreTest,
+    change: &DVector<f64>,
+    emission: &Emission,
+    logit: &DVector<f64>,
+) -> bool {
+    test.ln_gain_by(LEAST_SIZE, change) + emission.ln_share(logit) > LN_EVIDENCE_LEAST
+}
+
+/// Facets as data of a sheet that fluoresces, and their maximum under all spectra.
+pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
+
+/// The facets with each of the bands that the sheet may have, `plain` being their maximum without; hardly ever is there one.
+pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
+    let [_, bands @ ..] = data.scene().emissions() else { return Vec::new() };
+    let Some(test) = Search::new(data, prior).score_test(plain) else { return Vec::new() };
+    let facets = Facets { data, gaussian: prior.broad() };
+    let (logit, unknowns) = facets.split(&plain.solution.w);
+    let reflectance = facets.reflectance_at(&plain.solution.w);
+    let changes = data.changes_with(bands, &reflectance, unknowns.as_slice());
+    let hopeful =
+        |(emission, change): &(&Emission, DVector<f64>)| is_hopeful(&test, change, emission, &logit);
+    let mut best = plain.ln_evidence;
+    let mut all = Vec::new();
+    for (emission, _) in bands.iter().zip(changes).filter(hopeful) {
+        let Some(emitting) = data.emitting(emission) else { continue };
+        let numbers = plain.solution.w.len() + emission.unknowns();
+        let start = plain.solution.w.clone().resize_vertically(numbers, 0.0);
+        let mut search = Search::new(&emitting, prior);
+        if let Some(sorted) = search.sort(((), 0.0), Some(start), best + LN_EVIDENCE_HOPELESS) {
+            best = best.max(sorted.ln_evidence);
+            all.push((emitting, sorted));
+        }
+    }
+    all.retain(|(_, sorted)| sorted.ln_evidence >= best + LN_EVIDENCE_HOPELESS);
+    all
+}
+
+/// What a sheet is found to send out.
+///
+/// # Arguments
+/// - `shares`: what excites each thing that may be so, and how probable that is;
+/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what is sent out as a fraction of white.
+///
+/// None if it probably sends out nothing.
+pub fn found(
+    shares: impl Iterator<Item = (Option<Excitation>, f64)>,
+    (values, spread): (&[f64], Option<&DMatrix<f64>>),
+    wavelengths_nm: &[f64],
+    first: usize,
+) -> Option<Fluorescence> {
+    let (mut by_ultraviolet, mut by_light) = (0.0, 0.0);
+    for (excited_by, share) in shares {
+        match excited_by {
+            Some(Excitation::Ultraviolet) => by_ultraviolet += share,
+            Some(Excitation::Visible) => by_light += share,
+            None => {}
+        }
+    }
+    let probability = by_ultraviolet + by_light;
+    if probability < PROBABLE {
+        return None;
+    }
+    let count = wavelengths_nm.len();
+    let sent = &values[first..first + count];
+    let peak = (0..count).max_by(|a, b| sent[*a].total_cmp(&sent[*b]))?;
+    let sd = |of: &dyn Fn(&DMatrix<f64>) -> f64| spread.map_or(f64::INFINITY, of);
+    let sd_of_total = |band: usize| sd(&|all| (all.column(band) + all.column(first + band)).norm());
+    Some(Fluorescence {
+        // shares may add up to a rounding more than 1
+        probability: probability.min(1.0),
+        excited_by: if by_ultraviolet > by_light { Excitation::Ultraviolet } else { Excitation::Visible },
+        peak_nm: wavelengths_nm[peak],
+        size: sent[peak],
+        size_sd: sd(&|all| all.column(first + peak).norm()),
+        total_radiance_factor: (0..count).map(|band| values[band] + sent[band]).collect(),
+        total_radiance_factor_sd: (0..count).map(sd_of_total).collect(),
+    })
+}

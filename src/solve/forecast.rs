@@ -1,0 +1,109 @@
+//! What a further search would bring, by the model linear about a point: no search is made.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::posterior::{Model, Solution, cost, gauss_newton};
+
+/// About a maximum, how much more probable data become where the model may move in one more way.
+///
+/// # Source
+/// The score test: C. R. Rao, *Mathematical Proceedings of the Cambridge Philosophical Society* 44 (1948), p. 50.
+pub struct ScoreTest<'a> {
+    weight: f64,
+    residuals: &'a DVector<f64>,
+    jacobian: &'a DMatrix<f64>,
+    information: Cholesky<f64, Dyn>,
+}
+
+impl<'a> ScoreTest<'a> {
+    /// About a solution, the noise `inflation` times its size; none if the model is not finite.
+    #[must_use]
+    pub fn about<S>(solution: &'a Solution<S>, inflation: f64) -> Option<Self> {
+        let (weight, at) = (inflation.powi(-2), &solution.at);
+        let information = Cholesky::new(gauss_newton(&at.jacobian, weight))?;
+        Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
+    }
+
+    /// Logarithm of how many times as probable the maximum becomes where the model may move along `change`, too, as far as it likes: 0 where
+    /// the data would have it move the other way.
+    #[must_use]
+    pub fn ln_gain_along(&self, change: &DVector<f64>) -> f64 {
+        let slope = self.slope(change);
+        if slope <= 0.0 { 0.0 } else { ln_gain(slope, self.bend(change), 0.0) }
+    }
+
+    /// The same where it moves by so many times the change at least, which the data may be against.
+    #[must_use]
+    pub fn ln_gain_by(&self, least: f64, change: &DVector<f64>) -> f64 {
+        ln_gain(self.slope(change), self.bend(change), least)
+    }
+
+    fn slope(&self, change: &DVector<f64>) -> f64 {
+        self.weight * change.dot(self.residuals)
+    }
+
+    fn bend(&self, change: &DVector<f64>) -> f64 {
+        let by_unknowns = self.weight * self.jacobian.tr_mul(change);
+        self.weight * change.norm_squared() - by_unknowns.dot(&self.information.solve(&by_unknowns))
+    }
+}
+
+/// What is gained at the best of all moves of at least so many times a change.
+fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
+    let times = if bend > 0.0 { (slope / bend).max(least) } else { least };
+    times * (slope - 0.5 * times * bend)
+}
+
+/// Twice what is minimised, at the minimum of the model linear about `w`; none if the model is not finite.
+pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, inflation: f64) -> Option<f64> {
+    let (at, weight) = (model.linearise(w), inflation.powi(-2));
+    let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
+    let step = Cholesky::new(gauss_newton(&at.jacobian, weight))?.solve(&descent);
+    Some(cost(weight, w, &at.residuals) - descent.dot(&step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::posterior::{Linearised, maximise};
+
+    /// A straight line through the origin.
+    struct Line;
+
+    impl Model for Line {
+        type Second = ();
+
+        fn unknowns(&self) -> usize {
+            1
+        }
+
+        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+            DVector::from_vec(vec![3.0 - 2.0 * w[0], 1.0 - w[0]])
+        }
+
+        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+            let jacobian = DMatrix::from_column_slice(2, 1, &[2.0, 1.0]);
+            Linearised { residuals: self.residuals(w), jacobian, second: () }
+        }
+
+        fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
+            None
+        }
+    }
+
+    #[test]
+    fn what_one_more_unknown_would_bring_is_known_before_it_is_fitted() {
+        let found = maximise(&Line, DVector::zeros(1), (1.0, 1.0), 1e-9, 100);
+        let change = DVector::from_vec(vec![1.0, 0.0]);
+        let test = ScoreTest::about(&found, 1.0).unwrap();
+        let gain = test.ln_gain_along(&change);
+        // with the first datum free only the second is left: ½(1 − w)² + ½w² is least at w = ½
+        let before = 0.5 * found.cost(1.0);
+        assert!((gain - (before - 0.25)).abs() < 1e-12, "{gain}");
+        assert!(test.ln_gain_along(&-&change).abs() < f64::MIN_POSITIVE);
+        assert!((test.ln_gain_by(0.1, &change) - gain).abs() < 1e-12);
+        assert!(test.ln_gain_by(1.0, &-&change) < 0.0);
+        let foreseen = foreseen_cost(&Line, &DVector::from_element(1, -5.0), 1.0).unwrap();
+        assert!((foreseen - found.cost(1.0)).abs() < 1e-9, "{foreseen}");
+    }
+}

@@ -1,0 +1,36 @@
+//! What an estimate says of light that the sheet sends out itself.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fields::finite;
+use crate::error::Result;
+use crate::estimate::fluorescence::Fluorescence;
+
+/// Light that the sheet sends out where it takes in light of shorter wavelengths, under the light of the scene.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FluorescenceRecord {
+    /// Probability that there is any.
+    #[schemars(range(min = 0, max = 1))]
+    pub probability: f64,
+    /// Wavelength at which most is sent out, nm.
+    pub peak_nm: f64,
+    /// What is sent out there, as a fraction of a white that reflects all light.
+    #[schemars(range(min = 0))]
+    pub size: f64,
+    /// Standard deviation of the size.
+    #[schemars(range(min = 0))]
+    pub size_sd: f64,
+}
+
+impl FluorescenceRecord {
+    /// That of a sheet.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn of(found: &Fluorescence) -> Result<Self> {
+        let &Fluorescence { probability, peak_nm, size, size_sd, .. } = found;
+        finite("estimate.fluorescence", [&probability, &size, &size_sd])?;
+        Ok(Self { probability, peak_nm, size, size_sd })
+    }
+}
