@@ -12,6 +12,7 @@ auto\t'All that sets a real sheet apart from an ideal one, bounded by priors'
 none\t'Nothing: the scene is believed as it is told'"
 complete -c vestimate -l join -d 'Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id up to its last - or _' -r
 complete -c vestimate -l illuminants -d 'What an unknown light may be: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
+complete -c vestimate -l known-fold -d 'A fold of a sheet whose reflectance is known, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It tells the light and, of computed facets, the exposure' -r
 complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
 complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; of more than seven samples, up to sixty, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F

@@ -281,6 +281,12 @@ impl<'a> FacetData<'a> {
         Self { scene: Cow::Owned(self.scene.in_light(camera)), channels, ..self.clone() }
     }
 
+    /// The same data with something known of the logarithm of the exposure, if nothing was.
+    #[must_use]
+    pub fn expecting(self, exposure: Normal) -> Self {
+        Self { exposure: self.exposure.or_expected(Some(exposure)), ..self }
+    }
+
     /// Whether the exposure is found from the facets.
     #[must_use]
     pub fn fits_exposure(&self) -> bool {

@@ -40,6 +40,18 @@ impl Gaussian {
         Self { mean, basis }
     }
 
+    /// About the logits of a reflectance that is off by these `errors` of it, independent of each other: one a row, waveband by waveband.
+    #[must_use]
+    pub fn about(reflectance: &[f64], errors: &DMatrix<f64>) -> Self {
+        let mean = DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r)));
+        let mut basis = errors.transpose();
+        for (mut row, z) in basis.row_iter_mut().zip(&mean) {
+            let r = logistic(*z);
+            row /= r * (1.0 - r);
+        }
+        Self { mean, basis }
+    }
+
     /// The same Gaussian, `scale` times as wide.
     #[must_use]
     pub fn scaled(&self, scale: f64) -> Self {

@@ -8,10 +8,10 @@ use std::slice;
 
 use super::data::FacetData;
 use super::fluorescence::Fluorescence;
-use super::light::{self, Candidate, Likelier, Others};
+use super::light::{self, Candidate, Likelier, Others, Shown};
 use super::measured::Measured;
 use super::photograph::day::Day;
-use super::photograph::{self, Parts, SheetEstimate, Unmodelled};
+use super::photograph::{self, Parts, SheetEstimate, Told, Unmodelled};
 use super::prior::Prior;
 use super::shading::Shading;
 use super::shadow::Shadow;
@@ -51,6 +51,8 @@ pub struct Inference<'a> {
     pub lights: &'a [Candidate],
     /// What else the light that was stated may be; none if nobody stated one, or several.
     pub other_lights: Option<&'a Others>,
+    /// What a fold of a known sheet shows of light and exposure, if there is one.
+    pub shown: Option<&'a Shown>,
     /// The facets of a panel, if the surface is a fold.
     pub panel: Option<FacetGrid>,
 }
@@ -103,7 +105,11 @@ impl<'a> Inference<'a> {
         exposure: Exposure,
         is_photograph: bool,
     ) -> Result<FacetData<'a>> {
-        let exposure = if is_photograph { exposure.of_photograph() } else { exposure };
+        let exposure = if is_photograph {
+            exposure.of_photograph()
+        } else {
+            exposure.or_expected(self.shown.and_then(|shown| shown.exposure))
+        };
         FacetData::new(self.model, measured, exposure, CUTOFF)
     }
 
@@ -122,10 +128,16 @@ impl<'a> Inference<'a> {
         let Some(photograph) = facets.photograph else {
             return self.of_computed(facets, data);
         };
-        let mut doubts = self.doubts_of_taking(photograph);
+        let mut doubts: Vec<Doubt> = self.doubt_of_known().into_iter().collect();
+        doubts.extend(self.doubts_of_taking(photograph));
         let parts = match &photograph.parts {
             Some(Ok(parts)) if !self.lights.is_empty() => {
-                let estimate = light::estimate_photograph(parts, self.lights, self.prior)?;
+                let estimate = light::estimate_photograph(
+                    parts,
+                    self.lights,
+                    self.shown.and_then(|shown| shown.ways.as_ref()),
+                    self.prior,
+                )?;
                 return Ok(self.judged(facets, estimate, doubts));
             }
             Some(Ok(parts)) => parts,
@@ -136,7 +148,10 @@ impl<'a> Inference<'a> {
             }
             Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
-        let mut real = photograph::estimate(slice::from_ref(parts), self.prior)?;
+        let shown = self.shown.and_then(|shown| shown.daylight);
+        let lit =
+            shown.map(|shown| Parts { told: Told { shown: Some(shown), ..parts.told }, ..parts.clone() });
+        let mut real = photograph::estimate(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         let day = real.day.map(|found| found.day);
         let likelier = self
@@ -160,7 +175,7 @@ impl<'a> Inference<'a> {
             [] => map::estimate_in_stated_light(data, self.prior, self.start, self.other_lights)?,
             lights => (light::estimate(data, lights, self.prior, self.start)?, None),
         };
-        let doubts = self.doubt_of_light(likelier).into_iter();
+        let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(likelier)).into_iter();
         let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
         Ok(self.judged(facets, estimate, doubts))
     }
@@ -177,6 +192,11 @@ impl<'a> Inference<'a> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
         let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));
         of_shadows.chain(of_taking.into_iter().flatten()).collect()
+    }
+
+    /// What a known fold says against the light that was stated.
+    fn doubt_of_known(&self) -> Option<Doubt> {
+        self.shown?.doubt(self.stated.lights.first().map(String::as_str))
     }
 
     /// What another light that is likelier says against the one that was stated.

@@ -70,6 +70,15 @@ impl Exposure {
         }
     }
 
+    /// The same where something is known of its logarithm, if it is.
+    #[must_use]
+    pub fn or_expected(self, known: Option<Normal>) -> Self {
+        match (self, known) {
+            (Self::Free, Some(known)) => Self::Expected(known),
+            _ => self,
+        }
+    }
+
     /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](Beliefs::exposure).
     #[must_use]
     pub fn of_photograph(self) -> Self {

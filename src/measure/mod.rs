@@ -199,6 +199,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         stated: &if lights.is_empty() { stated } else { stated.but_light() },
         lights: &lights,
         other_lights: others.as_ref(),
+        shown: None,
         panel: Some(fold.fold.facets()),
     };
     let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);

@@ -158,6 +158,7 @@ impl<'a> PhotographedFold<'a> {
             sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
             day: Day::Clear,
+            shown: None,
         };
         let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
         let even = self.exact(ModeLight::Sky(1.0));

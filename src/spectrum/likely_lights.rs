@@ -20,33 +20,38 @@ pub struct LikelyLight {
 struct Kind {
     share: f64,
     is_any_daylight: bool,
-    lights: fn() -> Vec<(String, Option<f64>)>,
+    /// With reciprocal temperatures so far apart, 1e-6/K.
+    lights: fn(usize) -> Vec<(String, Option<f64>)>,
 }
 
 /// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are told from neither by facets of one part in a thousand.
 const STEP_MIRED: usize = 10;
+/// The same of a sheet that is known.
+const FINE_STEP_MIRED: usize = 2;
 
 /// Nothing is known of where people fold sheets but that it is by day as often as not: round shares, none of them fitted.
 const KINDS: [Kind; 5] = [
     Kind {
         share: 0.4,
         is_any_daylight: true,
-        lights: || of_temperatures(80, 250, |cct_k| format!("daylight:{cct_k}")),
+        lights: |step_mired| {
+            of_temperatures((80..=250).step_by(step_mired), |cct_k| format!("daylight:{cct_k}"))
+        },
     },
     Kind {
         share: 0.1,
         is_any_daylight: true,
-        lights: || without_temperature(["sun:30deg", "sun:55deg", "sun:70deg", "sun:80deg"]),
+        lights: |_| without_temperature(["sun:30deg", "sun:55deg", "sun:70deg", "sun:80deg"]),
     },
     Kind {
         share: 0.15,
         is_any_daylight: false,
-        lights: || of_temperatures(250, 400, |cct_k| format!("{cct_k}K")),
+        lights: |step_mired| of_temperatures((250..=400).step_by(step_mired), |cct_k| format!("{cct_k}K")),
     },
     Kind {
         share: 0.2,
         is_any_daylight: false,
-        lights: || {
+        lights: |_| {
             let bulbs = ["B1", "B2", "B3", "B4", "B5", "BH1", "RGB1", "V1", "V2"];
             without_temperature(bulbs.map(|name| format!("LED-{name}")))
         },
@@ -54,20 +59,19 @@ const KINDS: [Kind; 5] = [
     Kind {
         share: 0.15,
         is_any_daylight: false,
-        lights: || without_temperature((1..=12).map(|n| format!("FL{n}"))),
+        lights: |_| without_temperature((1..=12).map(|n| format!("FL{n}"))),
     },
 ];
 
 fn of_temperatures(
-    first_mired: usize,
-    last_mired: usize,
+    mired: impl Iterator<Item = usize>,
     name: impl Fn(f64) -> String,
 ) -> Vec<(String, Option<f64>)> {
     let light = |mired: usize| {
         let cct_k = (1e6 / mired as f64).round();
         (name(cct_k), Some(cct_k))
     };
-    (first_mired..=last_mired).step_by(STEP_MIRED).map(light).collect()
+    mired.map(light).collect()
 }
 
 fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Vec<(String, Option<f64>)> {
@@ -89,8 +93,20 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn likely_lights() -> Result<Vec<LikelyLight>> {
+    lights_apart(STEP_MIRED)
+}
+
+/// The same nearer to each other than facets of a known sheet tell.
+///
+/// # Errors
+/// As [`likely_lights`].
+pub fn finely_likely_lights() -> Result<Vec<LikelyLight>> {
+    lights_apart(FINE_STEP_MIRED)
+}
+
+fn lights_apart(step_mired: usize) -> Result<Vec<LikelyLight>> {
     let of_kind = |kind: &Kind| {
-        let lights = (kind.lights)();
+        let lights = (kind.lights)(step_mired);
         let share = kind.share / lights.len() as f64;
         let is_any_daylight = kind.is_any_daylight;
         let light = move |(name, cct_k): (String, Option<f64>)| {

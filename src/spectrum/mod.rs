@@ -29,7 +29,7 @@ pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use kinds::Sensitivities;
 pub use library::{camera_by_exif, is_other_camera, other_measurements};
-pub use likely_lights::{LikelyLight, equally_likely, likely_lights};
+pub use likely_lights::{LikelyLight, equally_likely, finely_likely_lights, likely_lights};
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 

@@ -21,6 +21,7 @@ mod flat_sheets;
 mod ill_posed;
 mod install;
 mod joint;
+mod known_fold;
 mod levels;
 mod measure;
 mod no_fold;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use vfold::Result;
-use vfold::estimate::light::{Candidate, Others};
+use vfold::estimate::light::{Candidate, Others, Shown};
 use vfold::estimate::measurement::Inference;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::taking::Stated;
@@ -31,6 +31,8 @@ pub struct Context {
     pub lights: Vec<Candidate>,
     /// What else a light that was stated may be.
     pub other_lights: Option<Arc<Others>>,
+    /// What a known fold shows of light and exposure.
+    pub shown: Option<Shown>,
 }
 
 /// The method on the wavelengths of a scene.
@@ -49,7 +51,7 @@ impl Context {
         method: SceneMethod,
         start: Option<Vec<f64>>,
         fit: &[&'static Unknown],
-        (lights, other_lights): (Vec<Candidate>, Option<Arc<Others>>),
+        (lights, other_lights, shown): (Vec<Candidate>, Option<Arc<Others>>, Option<Shown>),
     ) -> Result<Self> {
         let stated = stated(&scene.optics()?, scene.is_daylight_assumed()?);
         let setting = Setting::of(scene)?;
@@ -65,6 +67,7 @@ impl Context {
             stated: if lights.is_empty() { stated } else { stated.but_light() },
             lights,
             other_lights,
+            shown,
         })
     }
 
@@ -79,6 +82,7 @@ impl Context {
             stated: &self.stated,
             lights: &self.lights,
             other_lights: self.other_lights.as_deref(),
+            shown: self.shown.as_ref(),
             panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
         }
     }

@@ -17,7 +17,9 @@ use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
 use vfold::forward::FacetValues;
 use vfold::scene::{Setting, other_lights, photographed};
-use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, equally_likely, likely_lights};
+use vfold::spectrum::{
+    Outside, Spectrum, WavelengthGrid, equally_likely, finely_likely_lights, likely_lights,
+};
 use vfold::stream::{
     CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
 };
@@ -26,6 +28,7 @@ use vfold::{Error, Result};
 use super::Args;
 use super::context::{Context, SceneMethod};
 use super::flat::FlatEstimator;
+use super::known_fold::KnownFold;
 use super::said::{self, Deviations};
 use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
 
@@ -56,6 +59,8 @@ pub struct Estimator<'a> {
     fit: Vec<&'static Unknown>,
     /// Whether the light is to be found, whatever scenes say of it.
     forgets_light: bool,
+    /// What tells the light beside them.
+    known_fold: Option<KnownFold>,
     /// The prior of the scene before, with its wavelengths, nm.
     last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
     /// What else the light of the scene before may be.
@@ -144,12 +149,17 @@ impl Transform for Estimator<'_> {
             None => None,
         };
         let lit = lit.as_ref().unwrap_or(scene);
-        let others = other_lights(&lit.optics()?, lit.is_daylight_assumed()?);
-        Context::new(lit, method, start, &self.fit, (lights, self.shared(others)))
+        let others = self.shared(other_lights(&lit.optics()?, lit.is_daylight_assumed()?));
+        let (lights, shown) = match &self.known_fold {
+            Some(known) => known.shown(self, (lit, &method), (lights, others.as_deref()))?,
+            None => (lights, None),
+        };
+        Context::new(lit, method, start, &self.fit, (lights, others, shown))
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
         let (rgb, noise, exposure) = (sample.facet_rgb()?, self.noise(sample)?, self.exposure_of(sample)?);
+        self.known_fold.iter().try_for_each(|known| known.check(sample, exposure))?;
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
@@ -198,6 +208,7 @@ impl<'a> Estimator<'a> {
             method: method(args)?,
             fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
+            known_fold: KnownFold::of(args)?,
             last_prior: Mutex::default(),
             last_others: Mutex::default(),
         })
@@ -278,6 +289,10 @@ impl<'a> Estimator<'a> {
         }
         let lights = match &self.args.illuminants {
             Some(spec) => equally_likely(self.args.common.illuminants(spec)?),
+            // a known sheet tells lights apart that are nearer to each other
+            None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
+                finely_likely_lights()?
+            }
             None => likely_lights()?,
         };
         Candidate::all(&lights, grid, &camera.sensitivities)
@@ -302,6 +317,11 @@ impl<'a> Estimator<'a> {
     /// Whether the flags say that a photograph may be one of a real sheet.
     pub fn asks_for_auto(&self) -> bool {
         self.args.fit.contains(&&AUTO)
+    }
+
+    /// What is fitted of an ideal fold.
+    pub fn fit(&self) -> &[&'static Unknown] {
+        &self.fit
     }
 
     /// Whether what is fitted is up to the photograph.

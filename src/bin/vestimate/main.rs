@@ -5,6 +5,7 @@ mod drawing;
 mod estimator;
 mod flat;
 mod join;
+mod known_fold;
 mod plan;
 mod said;
 mod settings;
@@ -72,6 +73,10 @@ struct Args {
     /// fluorescent lamps]
     #[arg(long, value_name = "FILE")]
     illuminants: Option<String>,
+    /// A fold of a sheet whose reflectance is known, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It
+    /// tells the light and, of computed facets, the exposure
+    #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec, conflicts_with_all = ["join", "plan"])]
+    known_fold: Option<(String, String)>,
     /// Panel 1 is a card of this reflectance [default: what the scene says]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,

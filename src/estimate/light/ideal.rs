@@ -31,7 +31,7 @@ pub fn estimate(
     start: Option<&[f64]>,
 ) -> Result<Estimate> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let family = Alternatives(lights.iter().map(|light| data.in_light(&light.camera)).collect());
+    let family = Alternatives(lights.iter().map(|light| light.on(data)).collect());
     let mut search = Search::new(&family, prior);
     let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
     let sorted = sorted(&mut search, lights, start);

@@ -5,6 +5,7 @@
 //! classes of spectra.
 
 mod ideal;
+mod known;
 mod photograph;
 mod stated;
 mod stated_photograph;
@@ -12,12 +13,15 @@ mod stated_photograph;
 use std::iter;
 
 pub use ideal::estimate;
-pub use photograph::estimate_photograph;
+pub use known::{KnownSheet, Shown};
+pub use photograph::{ShownWays, estimate_photograph};
 pub use stated::{Likelier, Others, likelier};
 pub use stated_photograph::likelier_in_photograph;
 
 use crate::camera::CameraResponse;
 use crate::error::Result;
+use crate::estimate::data::FacetData;
+use crate::estimate::unknowns::Normal;
 use crate::spectrum::{LikelyLight, Outside, WavelengthGrid};
 
 /// A light that may be the one, on the wavelengths of a scene.
@@ -35,6 +39,8 @@ pub struct Candidate {
     pub camera: CameraResponse,
     /// Whether it is one of all daylights, which a photograph takes as one light of unknown temperature.
     pub is_any_daylight: bool,
+    /// Logarithm of the exposure of a picture in it, where a known fold shows it.
+    pub exposure: Option<Normal>,
 }
 
 /// A candidate, and how probable it is.
@@ -76,6 +82,7 @@ impl Candidate {
                 cct_k: light.cct_k,
                 ln_share: light.share.ln(),
                 is_any_daylight: light.is_any_daylight,
+                exposure: None,
                 camera: CameraResponse::new(grid, sensitivities, &power)?,
                 power,
             })
@@ -85,6 +92,15 @@ impl Candidate {
 }
 
 impl Candidate {
+    /// Facets in it.
+    fn on<'a>(&self, data: &FacetData<'a>) -> FacetData<'a> {
+        let lit = data.in_light(&self.camera);
+        match self.exposure {
+            Some(exposure) => lit.expecting(exposure),
+            None => lit,
+        }
+    }
+
     fn weighed(&self, probability: f64) -> Weighed {
         Weighed { name: self.name.clone(), cct_k: self.cct_k, probability }
     }

@@ -14,7 +14,9 @@ use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
 use crate::estimate::photograph::kinds::Kind;
-use crate::estimate::photograph::{self, Parts, Photographs, SheetEstimate};
+use crate::estimate::photograph::{
+    self, KnownReflectance, KnownSeen, Parts, Photographs, SheetEstimate, ShownDaylight, shown_daylight,
+};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 
@@ -22,6 +24,8 @@ use crate::estimate::search::Search;
 /// daylight, in which photographs usually are: with looking through all of them that is less than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
+/// Those so far behind in a photograph of a known sheet are so for all others.
+const LN_HOPELESS: f64 = -20.0;
 
 /// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
 /// window.
@@ -36,12 +40,87 @@ struct Way<'a> {
     parts: Parts,
 }
 
+/// What a photograph of a known sheet shows of the lights that it may have been taken in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownWays {
+    /// Logarithm of how probable it is in each.
+    ln_evidence: Vec<f64>,
+    /// Daylight.
+    daylight: Option<ShownDaylight>,
+    /// How far its facets are from the model in the light that suits them best, in units of what is expected.
+    pub rms: f64,
+}
+
+impl ShownWays {
+    /// What a photograph of a known sheet shows, its `parts` being those in daylight that nobody stated.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the facets are not finite.
+    pub fn of(parts: &Parts, lights: &[Candidate], known: &KnownReflectance, prior: &Prior) -> Result<Self> {
+        let ways = ways(parts, lights);
+        let photographs = Photographs::of(slice::from_ref(parts));
+        let (mut best, mut start, mut rms, mut daylight) = (f64::NEG_INFINITY, None, f64::INFINITY, None);
+        let mut ln_evidence = Vec::with_capacity(ways.len());
+        for way in &ways {
+            let days = way.known(&photographs, known, prior, &mut start, best + LN_HOPELESS);
+            let ln_all = ln_of_days(&days);
+            best = best.max(ln_all);
+            rms = days.iter().map(|(.., seen)| seen.rms).fold(rms, f64::min);
+            if way.light.is_none() {
+                daylight = shown_daylight(&days);
+            }
+            ln_evidence.push(ln_all);
+        }
+        if !best.is_finite() {
+            return Err(Error::Numeric("the facets of the known fold are not finite".to_owned()));
+        }
+        ln_evidence.iter_mut().for_each(|ln| *ln -= best);
+        Ok(Self { ln_evidence, daylight, rms })
+    }
+
+    /// Takes out what it rules out, and makes all others as probable as it leaves them.
+    fn enter(&self, ways: &mut Vec<Way>) {
+        for (way, ln_evidence) in iter::zip(ways.iter_mut(), &self.ln_evidence) {
+            way.ln_share += ln_evidence;
+            if way.light.is_none() {
+                way.parts.told.shown = self.daylight;
+            }
+        }
+        let most = ways.iter().map(|way| way.ln_share).fold(f64::NEG_INFINITY, f64::max);
+        ways.retain(|way| way.ln_share >= most + LN_HOPELESS);
+    }
+}
+
+/// What a photograph of a known sheet shows of the daylight that it was taken in; none of a lamp.
+#[must_use]
+pub fn daylight_of_known(parts: &Parts, known: &KnownReflectance, prior: &Prior) -> Option<ShownDaylight> {
+    parts.told.daylight?;
+    let photographs = Photographs::of(slice::from_ref(parts));
+    let way = Way { light: None, ln_share: 0.0, parts: parts.clone() };
+    shown_daylight(&way.known(&photographs, known, prior, &mut None, f64::NEG_INFINITY))
+}
+
+/// Logarithm of the evidence on all days, each as often as it is.
+fn ln_of_days(days: &[(Day, f64, KnownSeen)]) -> f64 {
+    let most = days.iter().map(|(.., seen)| seen.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
+    let weight = |(_, share, seen): &(Day, f64, KnownSeen)| share * (seen.ln_evidence - most).exp();
+    if days.is_empty() { most } else { most + days.iter().map(weight).sum::<f64>().ln() }
+}
+
 /// The expected reflectance, and the light, of a photograph in one of `lights`; its `parts` are those in daylight that nobody stated.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate_photograph(parts: &Parts, lights: &[Candidate], prior: &Prior) -> Result<Estimate> {
-    let ways = ways(parts, lights);
+pub fn estimate_photograph(
+    parts: &Parts,
+    lights: &[Candidate],
+    shown: Option<&ShownWays>,
+    prior: &Prior,
+) -> Result<Estimate> {
+    let mut ways = ways(parts, lights);
+    if let Some(shown) = shown {
+        shown.enter(&mut ways);
+    }
     let mut tried = Vec::new();
     let daylight = ways.iter().filter(|way| way.light.is_none());
     for way in daylight.chain(likely(&ways, prior).into_iter().take(TRIED)) {
@@ -127,6 +206,29 @@ fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
 }
 
 impl Way<'_> {
+    /// A photograph of a known sheet in it, on each day on which it may have been so, with how often that is.
+    fn known(
+        &self,
+        photographs: &Photographs,
+        known: &KnownReflectance,
+        prior: &Prior,
+        start: &mut Option<DVector<f64>>,
+        mut ln_least: f64,
+    ) -> Vec<(Day, f64, KnownSeen)> {
+        let family = photographs.in_light_of(&self.parts);
+        let share = |day: Day| day.share(&self.parts.told);
+        let of_all: f64 = self.days().iter().map(|day| share(*day)).sum();
+        let mut all = Vec::new();
+        for day in self.days() {
+            if let Some(seen) = family.known(*day, prior, known, start.as_ref(), ln_least) {
+                *start = Some(seen.w.clone());
+                ln_least = ln_least.max(seen.ln_evidence + LN_HOPELESS);
+                all.push((*day, share(*day) / of_all, seen));
+            }
+        }
+        all
+    }
+
     /// Days on which the light may have been so; indoors they make no difference.
     fn days(&self) -> &'static [Day] {
         if self.parts.told.daylight.is_some() { &Day::ALL } else { &[Day::Clear] }

@@ -95,6 +95,19 @@ pub struct Told {
     pub has_sky_illuminant: bool,
     /// The kind of day that it is taken to have been.
     pub day: Day,
+    /// What a known sheet showed of the daylight, if one did.
+    pub shown: Option<ShownDaylight>,
+}
+
+/// Daylight as a photograph of a known sheet shows it, by kinds of days.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShownDaylight {
+    /// How probable each kind of day is.
+    pub shares: [f64; Day::ALL.len()],
+    /// Reciprocal colour temperature of the sun, 1e-6/K, where it is unknown.
+    pub sun: [Option<Normal>; Day::ALL.len()],
+    /// The same of the sky.
+    pub sky: [Option<Normal>; Day::ALL.len()],
 }
 
 impl Told {

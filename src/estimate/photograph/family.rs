@@ -180,6 +180,15 @@ impl SpectrumModel for JointModel<'_> {
 }
 
 impl JointModel<'_> {
+    /// Derivatives of the 45:0 reflectance by all numbers: waveband by number.
+    #[must_use]
+    pub fn reflectance_slopes(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        let first = self.first();
+        let own = first.own(w);
+        let point = first.model.point(&own);
+        slopes(first, self.unknowns(), &own, &point).rows(0, point.albedo.len()).into_owned()
+    }
+
     /// A factor of the information at a maximum, all that is [told](PhotographModel::by_told) of camera and light being numbers, too: an ideal fold is
     /// estimated as if that were exact, but is not known better than if it were not.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {

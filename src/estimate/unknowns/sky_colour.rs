@@ -59,5 +59,7 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
 }
 
 fn of_photograph(told: &Told) -> Option<Expectation> {
-    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| told.day.sky_mired(told.beliefs).into())
+    let shown = told.shown.and_then(|shown| shown.sky[told.day as usize]);
+    let usual = || told.day.sky_mired(told.beliefs);
+    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| shown.unwrap_or_else(usual).into())
 }

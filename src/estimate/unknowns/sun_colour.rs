@@ -37,7 +37,8 @@ fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
 }
 
 fn of_photograph(told: &Told) -> Option<Expectation> {
-    told.daylight.map(|said| of_daylight(said, told.beliefs).into())
+    let shown = told.shown.and_then(|shown| shown.sun[told.day as usize]);
+    told.daylight.map(|said| shown.unwrap_or_else(|| of_daylight(said, told.beliefs)).into())
 }
 
 fn of_daylight(said: Daylight, beliefs: &Beliefs) -> Normal {

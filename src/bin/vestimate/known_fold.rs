@@ -1,0 +1,230 @@
+//! `--known-fold`: a fold of a sheet whose reflectance is known, beside those that are estimated.
+
+use std::sync::{Mutex, PoisonError};
+
+use vfold::estimate::Exposure;
+use vfold::estimate::data::FacetData;
+use vfold::estimate::light::{Candidate, KnownSheet, Others, Shown};
+use vfold::estimate::measured::Measured;
+use vfold::estimate::measurement::CUTOFF;
+use vfold::estimate::photograph::Parts;
+use vfold::estimate::shadow::Shadow;
+use vfold::scene::{FoldSetting, PhotographedFold, Picture, Setting};
+use vfold::spectrum::{Outside, Spectrum};
+use vfold::stream::{Optics, Reader, Record, Sample, Scene};
+use vfold::{Error, Result};
+
+use super::Args;
+use super::context::SceneMethod;
+use super::estimator::Estimator;
+
+const FLAG: &str = "--known-fold";
+
+/// The fold as its record has it.
+pub struct KnownFold {
+    path: String,
+    scene: Scene,
+    sample: Sample,
+    spectrum: Spectrum,
+    /// What it showed last, and of which light.
+    last: Mutex<Option<(Taken, Known)>>,
+}
+
+/// Light and camera of samples, and whether the light is daylight that nobody stated, or unknown.
+type Taken = (Optics, [bool; 2]);
+
+/// What the light may be, and what else is known of it.
+type Known = (Vec<Candidate>, Option<Shown>);
+
+/// Parses what the flag takes.
+pub fn file_and_spec(text: &str) -> std::result::Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((file, spec)) if !file.is_empty() && !spec.is_empty() => Ok((file.to_owned(), spec.to_owned())),
+        _ => Err("write FILE=SPEC, such as card.ndjson=cc24:white".to_owned()),
+    }
+}
+
+impl KnownFold {
+    /// The one that the flags name, if they do.
+    ///
+    /// # Errors
+    /// A file that is not there or holds something else than one sample, or a SPEC that names no one reflectance; [`Error::Usage`] with a method that
+    /// weighs no lights.
+    pub fn of(args: &Args) -> Result<Option<Self>> {
+        let Some((path, spec)) = &args.known_fold else { return Ok(None) };
+        if !args.has_prior() {
+            let problem = "a known fold is weighed under a prior alone";
+            return Err(Error::usage(FLAG, problem, "leave --prior and --method out, or give spectra"));
+        }
+        let spectrum = args.common.one_reflectance(FLAG, spec)?;
+        let mut reader = Reader::open(path)?;
+        let (mut scene, mut found) = (None, None);
+        while let Some(record) = reader.read()? {
+            match record {
+                Record::Scene(one) => scene = Some(one),
+                Record::Sample(sample) => {
+                    sample.facet_rgb().map_err(|e| reader.at(e))?;
+                    let is_second = found.replace((scene.clone(), sample)).is_some();
+                    if is_second {
+                        let problem = "a second sample; give the fold of the known sheet alone";
+                        return Err(reader.at(Error::field("kind", problem)));
+                    }
+                }
+                Record::Other(_) => {}
+            }
+        }
+        let Some((Some(scene), sample)) = found else {
+            let problem = "no sample below a scene; give what vforward or vextract writes of the fold";
+            return Err(reader.at(Error::field("kind", problem)));
+        };
+        if let Some(problem) = sample.error().map_err(|e| reader.at(e))? {
+            return Err(reader.at(Error::field("error", problem)));
+        }
+        Ok(Some(Self { path: path.clone(), scene, sample, spectrum, last: Mutex::default() }))
+    }
+
+    /// What it shows of the light of a scene of samples, which is that scene in an assumed one if it is one of `lights`; these as it leaves them.
+    pub fn shown(
+        &self,
+        estimator: &Estimator,
+        (samples, method): (&Scene, &SceneMethod),
+        (lights, others): (Vec<Candidate>, Option<&Others>),
+    ) -> Result<Known> {
+        let taken = (samples.optics()?, [samples.is_daylight_assumed()?, !lights.is_empty()]);
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of_last, known)) = &*last
+            && *of_last == taken
+        {
+            return Ok(known.clone());
+        }
+        let known = self.shown_anew(estimator, method, &taken, (lights, others))?;
+        *last = Some((taken, known.clone()));
+        Ok(known)
+    }
+
+    fn shown_anew(
+        &self,
+        estimator: &Estimator,
+        method: &SceneMethod,
+        taken: &Taken,
+        (lights, others): (Vec<Candidate>, Option<&Others>),
+    ) -> Result<Known> {
+        let lit = self.in_light_of(taken)?;
+        let (optics, _) = taken;
+        let reflectance = self.spectrum.on(&optics.grid, Outside::Refuse)?;
+        let sheet = KnownSheet::new(optics.grid.wavelengths_nm(), &reflectance)?;
+        if let SceneMethod::Map(prior) = method
+            && self.is_photograph()
+        {
+            let parts = self.parts(estimator, &lit)?;
+            let shown = sheet.in_photograph(&parts, &lights, prior)?;
+            return Ok((lights, Some(shown)));
+        }
+        let model = Setting::of(&lit)
+            .and_then(|setting| setting.model_to_fit(estimator.fit()))
+            .map_err(|e| self.at(&e))?;
+        let rgb = self.sample.facet_rgb()?;
+        let sd = estimator.noise(&self.sample)?.deviations(model.facets(), &rgb).map_err(|e| self.at(&e))?;
+        let exposure = estimator.exposure_of(&self.sample)?;
+        let data = FacetData::new(&model, &Measured { rgb: &rgb, sd: &sd }, exposure, CUTOFF)
+            .map_err(|e| self.at(&e))?;
+        if lights.is_empty() {
+            return Ok((lights, Some(sheet.in_stated_light(&data, others)?)));
+        }
+        let (lights, shown) = sheet.weigh(&data, lights)?;
+        Ok((lights, Some(shown)))
+    }
+
+    /// Whether it was photographed.
+    pub fn is_photograph(&self) -> bool {
+        self.sample.is_photograph()
+    }
+
+    /// What its photograph is made of, its scene being `lit`.
+    fn parts(&self, estimator: &Estimator, lit: &Scene) -> Result<Parts> {
+        let fold = FoldSetting::of(lit).map_err(|e| self.at(&e))?;
+        let rgb = self.sample.facet_rgb()?;
+        let sd = estimator
+            .noise(&self.sample)?
+            .deviations(&fold.model().map_err(|e| self.at(&e))?, &rgb)
+            .map_err(|e| self.at(&e))?;
+        let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
+        let rgb = Shadow::left_out(&shadows, &rgb);
+        let measured = Measured { rgb: &rgb, sd: &sd };
+        let exposure = estimator.exposure_of(&self.sample)?.known();
+        let picture = Picture::of(&self.sample, &measured, exposure).map_err(|e| self.at(&e))?;
+        let parts = PhotographedFold::of(&fold).parts(&picture).map_err(|e| self.at(&e))?;
+        parts.map_err(|why| {
+            wrong(&self.path, &why.to_string(), "give a fold whose photograph shows the light")
+        })
+    }
+
+    /// Its scene in the light of samples.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if another camera took it, in another light or on other wavelengths.
+    fn in_light_of(&self, (samples, [is_daylight_assumed, is_unknown]): &Taken) -> Result<Scene> {
+        let camera = self.scene.camera().map_err(|e| self.at(&e))?;
+        let grid = self.scene.grid().map_err(|e| self.at(&e))?;
+        if grid != samples.grid {
+            return Err(self.other("wavelengths", "give both scenes the same"));
+        }
+        if camera.sensitivities != samples.camera.sensitivities {
+            let what = format!("a camera, {}, that is not the samples' {}", camera.name, samples.camera.name);
+            return Err(wrong(&self.path, &what, "take both with one camera"));
+        }
+        let is_known_unlit = self.scene.is_light_unknown().map_err(|e| self.at(&e))?;
+        if !is_unknown && !is_known_unlit {
+            let own = self.scene.illuminants().map_err(|e| self.at(&e))?;
+            if !own.iter().map(|one| &one.power).eq(samples.illuminants.iter().map(|one| &one.power)) {
+                return Err(self.other("light", "state the same of both, or leave it unknown in both"));
+            }
+        }
+        let mut lit = self.scene.clone();
+        lit.forget_light()?;
+        lit.fields.remove("illuminant_unknown");
+        lit.set_optics(samples)?;
+        if *is_daylight_assumed {
+            lit.set_daylight_assumed()?;
+        }
+        Ok(lit)
+    }
+
+    /// Refuses a sample that is computed where this was photographed, or the other way round, and one whose exposure is to be found along with this
+    /// one's, and was another.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if both records say so.
+    pub fn check(&self, sample: &Sample, exposure: Exposure) -> Result<()> {
+        if sample.is_photograph() != self.is_photograph() {
+            let [own, known] = [sample, &self.sample]
+                .map(|one| if one.is_photograph() { "photographed" } else { "computed" });
+            let problem = format!("the sample is {own}, the known fold {known}; take or compute both");
+            return Err(Error::field("image", problem));
+        }
+        if exposure != Exposure::Free || sample.is_photograph() {
+            return Ok(());
+        }
+        match (sample.exposure()?, self.sample.exposure()?) {
+            (Some(own), Some(known)) if own.total_cmp(&known).is_ne() => {
+                let problem = format!(
+                    "{own}, but the known fold's is {known}; give both the same, or leave --exposure out"
+                );
+                Err(Error::field("exposure", problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn other(&self, what: &str, remedy: &str) -> Error {
+        wrong(&self.path, &format!("its {what} is not that of the samples"), remedy)
+    }
+
+    fn at(&self, error: &Error) -> Error {
+        wrong(&self.path, &error.to_string(), "give a fold as vforward or vextract writes it")
+    }
+}
+
+fn wrong(path: &str, problem: &str, remedy: &str) -> Error {
+    Error::usage(FLAG, format!("{path}: {problem}"), remedy)
+}

@@ -1,0 +1,253 @@
+//! What a fold of a known sheet says of its light.
+//!
+//! Where the reflectance is known, how probable the facets are in a light depends on that light and on little else: the sheet's evidence tells
+//! lights apart that unknown sheets leave open, and the exposure along with them. The fold's own scene is integrated out as that of any other.
+
+use std::iter;
+
+use nalgebra::DVector;
+
+use super::photograph::daylight_of_known;
+use super::{Candidate, Likelier, Others, ShownWays};
+use crate::error::{Error, Result};
+use crate::estimate::data::FacetData;
+use crate::estimate::facets::{Facets, Second};
+use crate::estimate::family::SpectrumModel;
+use crate::estimate::gaussian::Gaussian;
+use crate::estimate::photograph::{KnownReflectance, Parts, ShownDaylight};
+use crate::estimate::prior::Prior;
+use crate::estimate::smooth_errors::smooth_errors;
+use crate::estimate::unknowns::Normal;
+use crate::estimate::verdict::{Doubt, EXPLAINED};
+use crate::solve::posterior::{Model, Solution, first_inflation, maximise};
+
+/// How far off the reflectance is that an instrument on a bench says, relative to it: instruments of one model agree to 0.4 ΔE*94 in the mean on ceramic
+/// tiles (X-Rite, *i1Pro 2*, technical specification), which is 1 % of a white sheet's light, and sheets differ from place to place.
+const SD: f64 = 0.01;
+/// A maximum counts as found within this many standard deviations of it, and a search ends after so many iterations.
+const TOLERANCE: f64 = 1e-3;
+const LIMIT: usize = 500;
+/// Lights so far behind the best, as the logarithm of a share of its probability, are out of the question for all other sheets, too.
+const LN_HOPELESS: f64 = -20.0;
+/// Logarithm of the ratio of evidence from which on another light than the stated one is named, as for sheets that are unknown.
+const LN_ODDS: f64 = 3.0;
+
+/// A sheet whose reflectance is known, to what an instrument repeats.
+#[derive(Clone, Debug)]
+pub struct KnownSheet {
+    gaussian: Gaussian,
+    /// The same as data of photographs.
+    reflectance: KnownReflectance,
+}
+
+/// What a fold of a known sheet shows of the pictures that were taken in its light by the same camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    /// Logarithm of the exposure of computed facets, in the light that was stated.
+    pub exposure: Option<Normal>,
+    /// A light that is likelier than the stated one.
+    pub likelier: Option<Likelier>,
+    /// What a photograph of the sheet shows of lights that are unknown.
+    pub ways: Option<ShownWays>,
+    /// What it shows of daylight that was stated.
+    pub daylight: Option<ShownDaylight>,
+    /// How far the known facets are from the model in the light that suits them best, in units of their noise.
+    pub rms: f64,
+}
+
+/// Facets of a known sheet in a light.
+struct InLight {
+    solution: Solution<Second>,
+    exposure: Option<Normal>,
+    rms: f64,
+}
+
+impl InLight {
+    /// The noise being as large as the facets leave it in the light that suits them best: where none does, lights are told apart less surely.
+    fn ln_evidence(&self, least_rms: f64) -> Option<f64> {
+        self.solution.ln_evidence(least_rms.max(1.0))
+    }
+}
+
+impl KnownSheet {
+    /// A sheet of this reflectance, one number per wavelength.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] without wavelengths.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::estimate::light::KnownSheet;
+    /// assert!(KnownSheet::new(&[400.0, 550.0, 700.0], &[0.2, 0.18, 0.19]).is_ok());
+    /// assert!(KnownSheet::new(&[], &[]).is_err());
+    /// ```
+    pub fn new(wavelengths_nm: &[f64], reflectance: &[f64]) -> Result<Self> {
+        let sd: Vec<f64> = reflectance.iter().map(|r| SD * r).collect();
+        let none = || Error::Numeric("a known sheet needs wavelengths".to_owned());
+        let errors = smooth_errors(wavelengths_nm, &sd).ok_or_else(none)?;
+        let known = KnownReflectance::new(wavelengths_nm, reflectance, &sd).ok_or_else(none)?;
+        Ok(Self { gaussian: Gaussian::about(reflectance, &errors), reflectance: known })
+    }
+
+    /// What a fold of it shows in the light that was stated, which may be one of `others`.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if its facets are not finite.
+    pub fn in_stated_light(&self, data: &FacetData, others: Option<&Others>) -> Result<Shown> {
+        let stated = self.in_light(data).ok_or_else(not_finite)?;
+        let others = others.map(Others::lights).unwrap_or_default();
+        let in_others: Vec<_> =
+            others.iter().map(|light| self.in_light(&data.in_light(&light.camera))).collect();
+        let rms = least_rms(in_others.iter().flatten().chain([&stated]));
+        let named = iter::zip(others, &in_others)
+            .filter_map(|(light, one)| Some((light.name.clone(), one.as_ref()?.ln_evidence(rms)?)));
+        let ln_stated = stated.ln_evidence(rms).ok_or_else(not_finite)?;
+        let likelier = Likelier::of(named, ln_stated, LN_ODDS);
+        Ok(Shown { likelier, exposure: stated.exposure, ways: None, daylight: None, rms })
+    }
+
+    /// The same `lights` as probable as a fold of it leaves them, those that it rules out left out; and what it shows beside them.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if its facets are not finite.
+    pub fn weigh(&self, data: &FacetData, lights: Vec<Candidate>) -> Result<(Vec<Candidate>, Shown)> {
+        let seen: Vec<_> = lights.iter().map(|light| self.in_light(&data.in_light(&light.camera))).collect();
+        let rms = least_rms(seen.iter().flatten());
+        let weighed = |(light, seen): (Candidate, Option<InLight>)| {
+            let seen = seen?;
+            let ln_share = light.ln_share + seen.ln_evidence(rms)?;
+            Some(Candidate { ln_share, exposure: seen.exposure, ..light })
+        };
+        let lights = likely(iter::zip(lights, seen).filter_map(weighed).collect());
+        if lights.is_empty() {
+            return Err(not_finite());
+        }
+        Ok((lights, Shown { exposure: None, likelier: None, ways: None, daylight: None, rms }))
+    }
+
+    /// What a photograph of it shows: of `lights`, if it is not known which it is, else of the daylight that was stated.
+    ///
+    /// # Arguments
+    /// - `parts`: what the photograph is made of, in daylight that nobody stated if the light is unknown.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if its facets are not finite.
+    pub fn in_photograph(&self, parts: &Parts, lights: &[Candidate], prior: &Prior) -> Result<Shown> {
+        let (ways, daylight) = if lights.is_empty() {
+            (None, daylight_of_known(parts, &self.reflectance, prior))
+        } else {
+            (Some(ShownWays::of(parts, lights, &self.reflectance, prior)?), None)
+        };
+        let rms = ways.as_ref().map_or(0.0, |ways| ways.rms);
+        Ok(Shown { exposure: None, likelier: None, ways, daylight, rms })
+    }
+
+    fn in_light(&self, data: &FacetData) -> Option<InLight> {
+        let model = Facets { data, gaussian: &self.gaussian };
+        let start = DVector::zeros(model.unknowns());
+        let first = first_inflation(&model, &start, 1.0);
+        let solution = maximise(&model, start, (first, 1.0), TOLERANCE, LIMIT);
+        solution.ln_evidence(1.0).filter(|ln| ln.is_finite())?;
+        let exposure = if data.fits_exposure() {
+            let (value, spread) =
+                (*model.values(&solution.w).last()?, model.spread(&solution.w, &solution.at)?);
+            let sd = spread.column(spread.ncols() - 1).norm() / value;
+            Some(Normal { mean: value.ln(), sd }).filter(|one| one.mean.is_finite() && one.sd.is_finite())
+        } else {
+            None
+        };
+        Some(InLight { rms: model.rms(&solution.at.residuals), solution, exposure })
+    }
+}
+
+impl Shown {
+    /// What the known fold says against an estimate in light that was `stated`, if any was.
+    #[must_use]
+    pub fn doubt(&self, stated: Option<&str>) -> Option<Doubt> {
+        if let (Some(likelier), Some(stated)) = (&self.likelier, stated) {
+            let Doubt { because, remedy, .. } = likelier.doubt(stated);
+            return Some(Doubt::new(format!("by the known fold, {because}"), remedy));
+        }
+        (self.rms >= EXPLAINED).then(|| {
+            Doubt::new(
+                format!(
+                    "facets of the known fold are {:.1} times further from the model than their noise in every light",
+                    self.rms
+                ),
+                "check its reflectance, angle and corners, and that the same camera took both",
+            )
+        })
+    }
+}
+
+fn not_finite() -> Error {
+    Error::Numeric("the facets of the known fold are not finite".to_owned())
+}
+
+fn least_rms<'a>(all: impl Iterator<Item = &'a InLight>) -> f64 {
+    all.map(|one| one.rms).fold(f64::INFINITY, f64::min)
+}
+
+/// Those that are in question, their shares adding up to 1.
+fn likely(mut lights: Vec<Candidate>) -> Vec<Candidate> {
+    let most = lights.iter().map(|light| light.ln_share).fold(f64::NEG_INFINITY, f64::max);
+    lights.retain(|light| light.ln_share >= most + LN_HOPELESS);
+    let ln_sum = most + lights.iter().map(|light| (light.ln_share - most).exp()).sum::<f64>().ln();
+    lights.iter_mut().for_each(|light| light.ln_share -= ln_sum);
+    lights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::CameraResponse;
+    use crate::estimate::Exposure;
+    use crate::estimate::measured::Measured;
+    use crate::estimate::noise::deviations;
+    use crate::estimate::unknowns::SceneModel;
+    use crate::forward::{FacetModel, FacetValues, Lighting};
+    use crate::geometry::{FacetGrid, Fold, Light};
+    use crate::kernel::mesh::{Mesh, respond};
+    use crate::spectrum::{Outside, WavelengthGrid, camera, equally_likely, illuminant};
+
+    const LIGHTS: [&str; 4] = ["D65", "A", "FL11", "LED-B3"];
+
+    /// Lights as a grey fold in the first of them leaves them, its facets being as precise as `noise_sd`, and how probable each was before.
+    fn weighed(noise_sd: f64) -> (Vec<Candidate>, f64) {
+        let grid = WavelengthGrid::uniform(400.0, 700.0, 10.0).unwrap();
+        let curves = camera("canon-5d-mark-ii").unwrap().channels;
+        let curves: Vec<_> = curves.iter().map(|curve| curve.on(&grid, Outside::Zero).unwrap()).collect();
+        let spectra = LIGHTS.map(|name| illuminant(name).unwrap());
+        let eye =
+            CameraResponse::new(&grid, &curves, &spectra[0].on(&grid, Outside::Refuse).unwrap()).unwrap();
+        let fold = Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 2 }).unwrap();
+        let (response, _) = respond(&fold, Mesh::Auto, 1e-4).unwrap();
+        let light = Light::new(&fold, 0.0, 0.0, 0.0).unwrap();
+        let lighting = Lighting { light, sun: eye.clone(), sky: eye };
+        let scene = SceneModel::known(FacetModel::one_sheet(&response, &lighting));
+        let grey = vec![0.4; grid.len()];
+        let rgb = FacetValues::from(&scene.facets().facet_rgb(&grey));
+        let sd = deviations(&rgb, |_| noise_sd, 0.0);
+        let data = FacetData::new(&scene, &Measured { rgb: &rgb, sd: &sd }, Exposure::Free, 1e-2).unwrap();
+        let lights = Candidate::all(&equally_likely(spectra.to_vec()), &grid, &curves).unwrap();
+        let ln_share = lights[0].ln_share;
+        let sheet = KnownSheet::new(grid.wavelengths_nm(), &grey).unwrap();
+        (sheet.weigh(&data, lights).unwrap().0, ln_share)
+    }
+
+    #[test]
+    fn facets_that_say_nothing_leave_lights_as_they_were() {
+        let (lights, before) = weighed(1e4);
+        assert_eq!(lights.len(), LIGHTS.len());
+        assert!(lights.iter().all(|light| (light.ln_share - before).abs() < 1e-3), "{lights:?}");
+    }
+
+    #[test]
+    fn precise_facets_tell_light_and_exposure() {
+        let (lights, _) = weighed(1e-3);
+        let most = lights.iter().max_by(|a, b| a.ln_share.total_cmp(&b.ln_share)).unwrap();
+        assert!(most.name.contains("D65") && most.ln_share > 0.99_f64.ln(), "{lights:?}");
+        let Normal { mean, sd } = most.exposure.unwrap();
+        assert!(mean.abs() < 3.0 * sd && sd < 0.05, "{mean} {sd}");
+    }
+}
