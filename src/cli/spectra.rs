@@ -28,11 +28,17 @@ impl Common {
     /// # Errors
     /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set.
     pub fn one_reflectance(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
-        let mut spectra = self.reflectances(spec)?;
-        match (spectra.pop(), spectra.is_empty()) {
-            (Some(spectrum), true) => Ok(spectrum),
-            _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
-        }
+        one(flag, spec, self.reflectances(spec)?)
+    }
+
+    /// The one fluorescence that a flag names.
+    ///
+    /// # Errors
+    /// As [`Specs::fluorescences`](crate::spectrum::spec::Specs::fluorescences), or [`Error::Usage`] if it is a set.
+    pub fn one_fluorescence(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
+        let spectra = stream::specs().in_percent(self.percent).fluorescences(spec)?;
+        self.say_notes(&spectra);
+        one(flag, spec, spectra)
     }
 
     /// The illuminant that `spec` names.
@@ -73,6 +79,13 @@ impl Common {
                 say(&called(), note);
             }
         }
+    }
+}
+
+fn one(flag: &'static str, spec: &str, mut spectra: Vec<Spectrum>) -> Result<Spectrum> {
+    match (spectra.pop(), spectra.is_empty()) {
+        (Some(spectrum), true) => Ok(spectrum),
+        _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod bounces;
 mod families;
+mod fluorescence;
 mod fold;
 mod known;
 mod lighting;
@@ -14,6 +15,7 @@ mod surface;
 mod terms;
 mod values;
 
+pub use fluorescence::Fluorescing;
 pub use lighting::{Lighting, Lit};
 pub use model::FacetModel;
 pub use open_light::OpenLight;

@@ -91,7 +91,7 @@ impl FacetModel {
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
     #[must_use]
     pub fn facet_rgb(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        self.rgb_of(reflectance, Family::value)
+        self.rgb_of(reflectance, None, Family::value)
     }
 
     /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than `bounces` times.
@@ -101,7 +101,7 @@ impl FacetModel {
     /// that the sum over b > `bounces` has a closed form.
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32, reflectance: &[f64]) -> DMatrix<f64> {
-        self.rgb_of(reflectance, |family, r, g| family.value_after(bounces, r, g))
+        self.rgb_of(reflectance, None, |family, r, g| family.value_after(bounces, r, g))
     }
 
     /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce: channel by waveband.
@@ -129,15 +129,27 @@ impl FacetModel {
         self.terms.in_bands(&(0..reflectance.len()).collect::<Vec<_>>(), reflectance, of)
     }
 
-    /// RGB of every facet, `of` being what a family makes of reflectance and pole.
-    fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
+    /// Whether the surface is a sheet with nothing beside it.
+    pub(super) fn is_of_one_sheet(&self) -> bool {
+        self.terms.is_one()
+    }
+
+    /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per waveband, if there are any.
+    pub(super) fn rgb_of(
+        &self,
+        reflectance: &[f64],
+        amounts: Option<&[f64]>,
+        of: impl Fn(&Family, f64, f64) -> f64,
+    ) -> DMatrix<f64> {
         let bands = &self.seen_bands;
         let reflectance: Vec<f64> = bands.iter().map(|band| reflectance[*band]).collect();
         let [terms] = self.terms.in_bands(bands, &reflectance, |family, r, g| [of(family, r, g)]);
         let of_source = |source: &Source| {
             let camera = &source.camera;
-            let weights =
-                DMatrix::from_fn(bands.len(), camera.channels(), |n, c| camera.channel(c)[bands[n]]);
+            let amount = |band: usize| amounts.map_or(1.0, |amounts| amounts[band]);
+            let weights = DMatrix::from_fn(bands.len(), camera.channels(), |n, c| {
+                camera.channel(c)[bands[n]] * amount(bands[n])
+            });
             &source.facets * terms.tr_mul(&weights)
         };
         self.sources.iter().map(of_source).sum()

@@ -41,6 +41,11 @@ impl Terms {
         }
     }
 
+    /// Whether no part of the surface is of known reflectance.
+    pub fn is_one(&self) -> bool {
+        matches!(self, Self::One { .. })
+    }
+
     /// Whether light that leaves the surface never comes back, and no part of it is known.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))

@@ -5,7 +5,7 @@
 
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
-use super::kinds::{Sensitivities, bad, check_power, check_reflectance};
+use super::kinds::{Sensitivities, bad, check_fluorescence, check_power, check_reflectance};
 use super::library;
 use super::names::{What, unknown};
 use super::own::{self, OwnFile};
@@ -97,6 +97,17 @@ impl Specs {
         let spectra = self.find(What::Reflectances, spec)?;
         spectra.iter().try_for_each(check_reflectance)?;
         Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
+    }
+
+    /// What sheets send out as parts of white's light, that `spec` names as it names reflectances; it may be more than 1, and is in percent only where
+    /// that is said.
+    ///
+    /// # Errors
+    /// As [`Specs::reflectances`]; values below 0 alone are refused.
+    pub fn fluorescences(self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = self.in_percent(self.percent.or(Some(false))).find(What::Reflectances, spec)?;
+        spectra.iter().try_for_each(check_fluorescence)?;
+        Ok(spectra)
     }
 
     /// The illuminant that `spec` names, relative power.

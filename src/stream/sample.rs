@@ -29,6 +29,11 @@ pub struct ReflectanceRecord {
     /// How it was found between samples, where it was: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
+    /// What a sheet that fluoresces sends out of white's light under the scene's, one number from 0 per wavelength: its reflectance, and what it
+    /// makes of light of other wavelengths; without bounces. Absent of a sheet that does not fluoresce.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor: Option<Vec<f64>>,
 }
 
 /// Refuses what cannot be the reflectance in a field.
@@ -49,6 +54,7 @@ impl ReflectanceRecord {
             wavelengths_nm: grid.wavelengths_nm().to_vec(),
             reflectance: spectrum.on(grid, Outside::Refuse)?,
             interpolation: spectrum.interpolation(grid).map(|found| found.name().to_owned()),
+            total_radiance_factor: None,
         })
     }
 }
@@ -65,7 +71,8 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
-        finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
+        let total = truth.total_radiance_factor.iter().flatten();
+        finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm).chain(total))?;
         self.fields.set("truth", truth)
     }
 

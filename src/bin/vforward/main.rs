@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod fluorescence;
 mod nonuniform;
 mod photograph;
 mod render;
@@ -47,6 +48,11 @@ struct Args {
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,
+    /// The sheet fluoresces: it sends out this part of white's light, as --reflectance names spectra, wherever the light of --illuminant
+    /// falls directly
+    #[arg(long, value_name = "SPEC", allow_negative_numbers = true,
+        conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
+    fluorescence: Option<String>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
     camera: String,
@@ -106,6 +112,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.optics.known_illuminants("vforward computes what a camera sees in a light: give that")?;
     let optics = args.optics.resolve(&args.common.camera(&args.camera)?, &args.common)?;
     let subject = Subject::of(args, &optics.grid)?;
+    let fluorescence = fluorescence::of(args, &optics.grid)?;
     let materials = args.materials.on(&optics.grid, &args.common)?;
     let given = args.kernel.given()?;
     let mut reader = match &given {
@@ -124,7 +131,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 if !materials.is_empty() {
                     scene.set_materials(&materials)?;
                 }
-                let setup = Setup::new(args, noise, &scene, given.as_ref()).map_err(|e| reader.at(e))?;
+                let setup = Setup::new(args, noise, &scene, given.as_ref(), fluorescence.as_deref());
+                let setup = setup.map_err(|e| reader.at(e))?;
                 let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
                 setup.samples(&subject, &seen, out)?;

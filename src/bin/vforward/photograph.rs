@@ -49,7 +49,7 @@ impl Setup<'_> {
         };
         let model = fold.fine_model(view.grid(), &lighting)?;
         let light = match self.args.sheet.shape()? {
-            None => self.light(&model, reflectance),
+            None => self.light(&model, reflectance)?,
             Some(_) if for_screen => {
                 let problem = "a sheet that is not perfectly matt is rendered as the camera sees it";
                 return Err(Error::usage("--render", problem, "give a name in .exr or .tif"));
@@ -57,7 +57,7 @@ impl Setup<'_> {
             Some(shape) => {
                 let sheet = fold.folded_sheet(shape, view.eye(), Some(view.grid()))?;
                 let albedo = sheet.albedo(reflectance)?;
-                self.light(&model, &albedo) + self.args.exposure * sheet.beyond(&albedo)
+                self.light(&model, &albedo)? + self.args.exposure * sheet.beyond(&albedo)
             }
         };
         Ok((view.take(&light), view.corners()))
@@ -74,15 +74,15 @@ impl Setup<'_> {
         let view = ShapeView::new(&surface.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
         let light = if for_screen {
             let model = surface.model_seen_by(&eye)?;
-            self.light(&model, reflectance)
+            self.light(&model, reflectance)?
         } else {
-            self.light(&self.model, reflectance)
+            self.light(&self.model, reflectance)?
         };
         Ok((view.take(&light), view.corners()))
     }
 
-    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> DMatrix<f64> {
-        self.args.exposure * self.bounces.facet_rgb(model, reflectance).0
+    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> Result<DMatrix<f64>> {
+        Ok(self.args.exposure * self.matt_rgb(model, reflectance)?.0)
     }
 
     /// The response of an eye that is adapted to the light.

@@ -6,10 +6,10 @@ use nalgebra::DMatrix;
 use vfold::forward::bounces::{Bounces, Truncation};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::FoldView;
-use vfold::forward::{FacetModel, FacetValues};
+use vfold::forward::{FacetModel, FacetValues, Fluorescing};
 use vfold::parallel::{Item, in_order};
 use vfold::scene::{FoldedSheet, GivenKernel, Setting};
-use vfold::stream::{Corners, Output, Sample, Scene, read_matrix};
+use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
@@ -30,6 +30,8 @@ pub struct Setup<'a> {
     pub(super) model: FacetModel,
     /// What a sheet shows that is not perfectly matt.
     sheet: Option<FoldedSheet>,
+    /// What it sends out as a part of white's light, if it fluoresces.
+    fluorescence: Option<&'a [f64]>,
 }
 
 impl<'a> Setup<'a> {
@@ -38,6 +40,7 @@ impl<'a> Setup<'a> {
         noise: Noise,
         scene: &'a Scene,
         given: Option<&'a GivenKernel>,
+        fluorescence: Option<&'a [f64]>,
     ) -> Result<Self> {
         let setting = Setting::of(scene)?;
         let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
@@ -52,7 +55,7 @@ impl<'a> Setup<'a> {
             )),
         });
         let sheet = sheet.transpose()?;
-        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet })
+        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet, fluorescence })
     }
 
     /// Writes one sample per sheet or file; the first says where its panels are `seen`.
@@ -70,10 +73,14 @@ impl<'a> Setup<'a> {
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64, seen: &[(usize, Corners)]) -> Result<Sample> {
-        let (rgb, truncation) = self.facet_rgb(&sheet.spectrum.reflectance)?;
+        let reflectance = &sheet.spectrum.reflectance;
+        let (rgb, truncation) = self.facet_rgb(reflectance)?;
         let mut sample = self.sample(&sheet.id, rgb, stream)?;
         truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
-        sample.set_truth(&sheet.spectrum)?;
+        let total_radiance_factor = self.fluorescence.map(|fluorescence| {
+            reflectance.iter().zip(fluorescence).map(|(reflected, emitted)| reflected + emitted).collect()
+        });
+        sample.set_truth(&ReflectanceRecord { total_radiance_factor, ..sheet.spectrum.clone() })?;
         if let (0, Some(path)) = (stream, &self.args.render.render) {
             sample.set_panel_regions(path, self.args.render.size(), seen)?;
         }
@@ -82,10 +89,22 @@ impl<'a> Setup<'a> {
 
     /// Facet RGB at exposure 1.
     fn facet_rgb(&self, reflectance: &[f64]) -> Result<(DMatrix<f64>, Option<Truncation>)> {
-        let Some(sheet) = &self.sheet else { return Ok(self.bounces.facet_rgb(&self.model, reflectance)) };
+        let Some(sheet) = &self.sheet else { return self.matt_rgb(&self.model, reflectance) };
         let albedo = sheet.albedo(reflectance)?;
         let (matt, truncation) = self.bounces.facet_rgb(&self.model, &albedo);
         Ok((matt + sheet.beyond(&albedo), truncation))
+    }
+
+    /// Facet RGB at exposure 1 of a perfectly matt sheet.
+    pub(super) fn matt_rgb(
+        &self,
+        model: &FacetModel,
+        reflectance: &[f64],
+    ) -> Result<(DMatrix<f64>, Option<Truncation>)> {
+        Ok(match self.fluorescence {
+            None => self.bounces.facet_rgb(model, reflectance),
+            Some(emitted) => self.bounces.fluorescing_rgb(&Fluorescing::new(model, reflectance, emitted)?),
+        })
     }
 
     /// One after the other: each keeps all threads busy.

@@ -75,7 +75,7 @@ impl<'a> Scorer<'a> {
                 ReflectanceRecord::on(found, grid)?
             }
             (None, Some(truth)) => {
-                let ReflectanceRecord { wavelengths_nm, reflectance, interpolation } = truth;
+                let ReflectanceRecord { wavelengths_nm, reflectance, interpolation, .. } = truth;
                 let spectrum = Spectrum::new("truth", wavelengths_nm, reflectance)?.as_reflectance();
                 let on_grid = ReflectanceRecord::on(&spectrum, grid)?;
                 ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid }
