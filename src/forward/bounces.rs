@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{FacetModel, Fluorescing};
+use super::{BispectralSheet, FacetModel, Fluorescing};
 
 /// Which light a facet RGB is made of, by how often it has been reflected from panel to panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,12 @@ impl Bounces {
     /// The same of a sheet that fluoresces.
     #[must_use]
     pub fn fluorescing_rgb(self, sheet: &Fluorescing) -> (DMatrix<f64>, Option<Truncation>) {
+        self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
+    }
+
+    /// The same of a sheet that is excited by all light that falls on it.
+    #[must_use]
+    pub fn bispectral_rgb(self, sheet: &BispectralSheet) -> (DMatrix<f64>, Option<Truncation>) {
         self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
     }
 

@@ -1,5 +1,6 @@
 //! From reflectance to what a camera sees of a folded sheet, or of any other surface.
 
+mod bispectral;
 pub mod bounces;
 mod families;
 mod fluorescence;
@@ -15,6 +16,7 @@ mod surface;
 mod terms;
 mod values;
 
+pub use bispectral::{BispectralLight, BispectralSheet};
 pub use fluorescence::Fluorescing;
 pub use lighting::{Lighting, Lit};
 pub use model::FacetModel;

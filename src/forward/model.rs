@@ -4,7 +4,7 @@
 //! common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the spectrum is integrated
 //! once per pole and channel, not once per facet and channel, and only over wavebands that a sensor sees.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::families::Family;
 use super::lighting::seen_bands;
@@ -131,7 +131,26 @@ impl FacetModel {
 
     /// Whether the surface is a sheet with nothing beside it.
     pub(super) fn is_of_one_sheet(&self) -> bool {
-        self.terms.is_one()
+        self.terms.of_one().is_some()
+    }
+
+    /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the light, by the number of the source and the
+    /// mode's pole.
+    pub(super) fn rgb_of_modes(&self, sent: impl Fn(usize, f64) -> Vec<f64>) -> DMatrix<f64> {
+        let poles = self.terms.of_one().unwrap_or_default();
+        let of_source = |(n, Source { facets, camera }): (usize, &Source)| {
+            let weights =
+                DMatrix::from_fn(self.bands(), camera.channels(), |band, c| camera.channel(c)[band]);
+            let mut rgb = DMatrix::zeros(facets.nrows(), camera.channels());
+            for (column, pole) in facets.column_iter().zip(&poles) {
+                // one source's response has no part in the modes of another's
+                if column.iter().any(|residue| *residue != 0.0) {
+                    rgb += column * (weights.tr_mul(&DVector::from(sent(n, *pole)))).transpose();
+                }
+            }
+            rgb
+        };
+        self.sources.iter().enumerate().map(of_source).sum()
     }
 
     /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per waveband, if there are any.

@@ -41,9 +41,11 @@ impl Terms {
         }
     }
 
-    /// Whether no part of the surface is of known reflectance.
-    pub fn is_one(&self) -> bool {
-        matches!(self, Self::One { .. })
+    /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones; none of any other.
+    pub fn of_one(&self) -> Option<Vec<f64>> {
+        let Self::One { poles, odd } = self else { return None };
+        let subtracted = poles.iter().filter(|_| *odd).map(|pole| -pole);
+        Some(poles.iter().copied().chain(subtracted).collect())
     }
 
     /// Whether light that leaves the surface never comes back, and no part of it is known.
