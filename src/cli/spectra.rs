@@ -31,14 +31,22 @@ impl Common {
         one(flag, spec, self.reflectances(spec)?)
     }
 
-    /// The one fluorescence that a flag names.
+    /// The parts of white's light that `spec` names.
     ///
     /// # Errors
-    /// As [`Specs::fluorescences`](crate::spectrum::spec::Specs::fluorescences), or [`Error::Usage`] if it is a set.
-    pub fn one_fluorescence(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
-        let spectra = stream::specs().in_percent(self.percent).fluorescences(spec)?;
+    /// As [`Specs::radiance_factors`](crate::spectrum::spec::Specs::radiance_factors).
+    pub fn radiance_factors(&self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = stream::specs().in_percent(self.percent).radiance_factors(spec)?;
         self.say_notes(&spectra);
-        one(flag, spec, spectra)
+        Ok(spectra)
+    }
+
+    /// The one part of white's light that a flag names.
+    ///
+    /// # Errors
+    /// As [`Common::radiance_factors`], or [`Error::Usage`] if it is a set.
+    pub fn one_radiance_factor(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
+        one(flag, spec, self.radiance_factors(spec)?)
     }
 
     /// The illuminant that `spec` names.

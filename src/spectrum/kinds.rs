@@ -53,7 +53,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
 }
 
 /// Refuses values below 0: a sheet may send out more light than white does.
-pub(super) fn check_fluorescence(spectrum: &Spectrum) -> Result<()> {
+pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
     match spectrum.values().iter().find(|value| **value < 0.0) {
         Some(value) => {
             let problem = format!("{value} is below 0, where a part of white's light is wanted");

@@ -9,7 +9,7 @@ use super::fields::finite;
 use super::light_found::FoundLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
-use super::sample::{Sample, checked};
+use super::sample::{Sample, checked, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
@@ -53,6 +53,18 @@ pub struct EstimateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
+    /// What the sheet sends out of white's light under the scene's, one number from 0 per wavelength, if it was found to fluoresce: its reflectance, and
+    /// what it makes of light of other wavelengths. Absent otherwise, when it is the reflectance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor: Option<Vec<f64>>,
+    /// Standard deviation of the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor_sd: Option<Vec<f64>>,
+    /// What was found of the fluorescence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluorescence: Option<FluorescenceRecord>,
     /// Albedo, one number per wavelength, of a photographed sheet that is not taken to be Lambertian: what it reflects of light from all
     /// directions into all directions. The reflectance is that of an instrument that lights at 45° and looks from 0°.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -140,6 +152,22 @@ pub struct FittedRecord {
     pub sd: f64,
     /// Whether the facets say more of it than was known before.
     pub supported: bool,
+}
+
+/// What a sheet sends out beside what it reflects.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FluorescenceRecord {
+    /// Wavelength at which it sends out most, nm.
+    pub peak_nm: f64,
+    /// As a part of white's light there, from 0.
+    #[schemars(range(min = 0))]
+    pub size: f64,
+    /// Standard deviation of the same.
+    #[schemars(range(min = 0))]
+    pub size_sd: f64,
+    /// How probable it is that the sheet fluoresces.
+    #[schemars(range(min = 0, max = 1))]
+    pub probability: f64,
 }
 
 /// The kind of day on which a photograph was taken.
@@ -251,7 +279,8 @@ impl EstimateRecord {
     fn is_spectrum(&self) -> bool {
         let count = self.wavelengths_nm.len();
         let rows = self.covariance.iter().flatten();
-        let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(rows);
+        let totals = self.total_radiance_factor.iter().chain(&self.total_radiance_factor_sd);
+        let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(totals).chain(rows);
         let mut counts = lists.map(Vec::len).chain(self.covariance.iter().map(Vec::len));
         count > 1 && counts.all(|other| other == count)
     }
@@ -265,6 +294,12 @@ impl EstimateRecord {
             Some(light) if scene.is_light_unknown()? => scene.in_light(light.spectrum()).map(Some),
             Some(_) | None => Ok(None),
         }
+    }
+
+    /// What the sheet sends out of white's light: its reflectance, unless it was found to fluoresce.
+    #[must_use]
+    pub fn total_radiance_factor(&self) -> &[f64] {
+        self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 
     /// As a file of spectra has it, under that name.
@@ -335,6 +370,9 @@ impl Sample {
             iterations: estimate.iterations,
             termination: Some((&estimate.termination).into()),
             reflectance_sd,
+            total_radiance_factor: None,
+            total_radiance_factor_sd: None,
+            fluorescence: None,
             total_reflectance: estimate.total.clone(),
             fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
             joined: joined.to_vec(),
@@ -373,7 +411,12 @@ impl Sample {
                 let problem = "not as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
             }
-            Some(estimate) => checked("estimate", &estimate.reflectance).map(|()| Some(estimate)),
+            Some(estimate) => {
+                checked("estimate", &estimate.reflectance)?;
+                let total = estimate.total_radiance_factor.iter().flatten();
+                checked_radiance("estimate.total_radiance_factor", total)?;
+                Ok(Some(estimate))
+            }
             None => Ok(None),
         }
     }

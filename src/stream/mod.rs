@@ -56,7 +56,9 @@ mod writer;
 
 pub use calibration::CalibrationRecord;
 pub use development::read_development;
-pub use estimate::{EstimateRecord, FindingRecord, FittedRecord, LevelRecord, NewEstimate, VerdictRecord};
+pub use estimate::{
+    EstimateRecord, FindingRecord, FittedRecord, FluorescenceRecord, LevelRecord, NewEstimate, VerdictRecord,
+};
 pub use failures::Failures;
 pub use fields::{Fields, finite};
 pub use found::{found_line, not_found_line};

@@ -44,6 +44,17 @@ pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
     }
 }
 
+/// Refuses what cannot be parts of white's light in a field.
+pub(super) fn checked_radiance<'a>(field: &str, factors: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    match factors.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
+        Some(value) => Err(Error::field(
+            field,
+            format!("{value:e} is no part of white's light; it needs numbers from 0"),
+        )),
+        None => Ok(()),
+    }
+}
+
 impl ReflectanceRecord {
     /// A spectrum on the wavelengths of `grid`.
     ///
@@ -56,6 +67,12 @@ impl ReflectanceRecord {
             interpolation: spectrum.interpolation(grid).map(|found| found.name().to_owned()),
             total_radiance_factor: None,
         })
+    }
+
+    /// What the sheet sends out of white's light: its reflectance, unless it fluoresces.
+    #[must_use]
+    pub fn total_radiance_factor(&self) -> &[f64] {
+        self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 }
 
@@ -79,10 +96,17 @@ impl Sample {
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1.
+    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1, or what it sends out in all one of numbers from 0.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
         let truth: Option<ReflectanceRecord> = self.fields.get("truth")?;
-        truth.iter().try_for_each(|truth| checked("truth", &truth.reflectance))?;
+        if let Some(ReflectanceRecord { wavelengths_nm, reflectance, total_radiance_factor, .. }) = &truth {
+            checked("truth", reflectance)?;
+            checked_radiance("truth.total_radiance_factor", total_radiance_factor.iter().flatten())?;
+            if total_radiance_factor.as_ref().is_some_and(|total| total.len() != wavelengths_nm.len()) {
+                let problem = format!("needs {} numbers, one per wavelength", wavelengths_nm.len());
+                return Err(Error::field("truth.total_radiance_factor", problem));
+            }
+        }
         Ok(truth)
     }
 

@@ -31,7 +31,7 @@ impl Emission {
     ///
     /// # Errors
     /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts; as
-    /// [`Common::one_fluorescence`](cli::Common::one_fluorescence).
+    /// [`Common::one_radiance_factor`](cli::Common::one_radiance_factor).
     pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
         if !args.donaldson.is_empty() {
             return Lights::of(args).map(Self::Excited);
@@ -41,7 +41,7 @@ impl Emission {
             let problem = "what a sheet sends out in one light is another part of white's in a second one";
             return Err(Error::usage("--fluorescence", problem, "give one --illuminant"));
         }
-        let spectrum = args.common.one_fluorescence("--fluorescence", spec)?;
+        let spectrum = args.common.one_radiance_factor("--fluorescence", spec)?;
         spectrum.on(grid, Outside::Refuse).map(Self::Part)
     }
 }
