@@ -27,7 +27,7 @@ pub use crate::progress::say;
 use crate::progress::{Progress, When};
 use crate::room;
 use crate::spectrum::library::{What, list};
-use crate::spectrum::{ASSUMED_LIGHT, Sensitivities, UNKNOWN_LIGHT, WavelengthGrid};
+use crate::spectrum::{ASSUMED_LIGHT, Sensitivities, Spectrum, UNKNOWN_LIGHT, WavelengthGrid};
 use crate::stream::{Failures, Optics, Output};
 pub use generate::Generate;
 use outcome::{misuse, without_panic};
@@ -334,14 +334,22 @@ impl OpticsArgs {
     /// # Errors
     /// As [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
     pub fn resolve(&self, camera: &Sensitivities, common: &Common) -> Result<Optics> {
+        let (illuminants, sky) = self.lights(common)?;
+        Optics::new(self.wavelengths_nm.clone(), camera, &illuminants, sky.as_ref())
+    }
+
+    /// The illuminants that the flags name, none if they are unknown, and that of the sky, if it has its own.
+    ///
+    /// # Errors
+    /// As [`Common::illuminant`].
+    pub fn lights(&self, common: &Common) -> Result<(Vec<Spectrum>, Option<Spectrum>)> {
         let light = |spec: &String| common.illuminant(spec);
-        let illuminants: Vec<_> = match self.illuminant.as_slice() {
+        let illuminants = match self.illuminant.as_slice() {
             [unknown] if unknown == UNKNOWN_LIGHT => Vec::new(),
             [] => vec![common.illuminant(ASSUMED_LIGHT)?],
             given => given.iter().map(light).collect::<Result<_>>()?,
         };
-        let sky = self.sky()?.as_ref().map(light).transpose()?;
-        Optics::new(self.wavelengths_nm.clone(), camera, &illuminants, sky.as_ref())
+        Ok((illuminants, self.sky()?.as_ref().map(light).transpose()?))
     }
 
     /// The spectrum of the sky; `sky` alone goes with the sun.

@@ -37,7 +37,7 @@
 //! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
 //! stream               -> score, plot, colorimetry, progress, parallel, files, room
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
-//! forward              -> kernel, response, solve, geometry, camera, image, colorimetry
+//! forward              -> kernel, response, solve, geometry, camera, image, colorimetry, spectrum
 //! transport            -> sheet, kernel, geometry, image
 //! sheet                -> kernel
 //! kernel               -> response, solve, geometry, room

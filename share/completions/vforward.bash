@@ -23,7 +23,7 @@ _vforward() {
 
     case "${cmd}" in
         vforward)
-            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --fluorescence --donaldson --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -34,6 +34,14 @@ _vforward() {
                     return 0
                     ;;
                 --facet-reflectance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --fluorescence)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --donaldson)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

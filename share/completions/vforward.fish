@@ -1,5 +1,7 @@
 complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
 complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per facet, no truth in the samples' -r -F
+complete -c vforward -l fluorescence -d 'The sheet fluoresces: it sends out this part of white\'s light, as --reflectance names spectra, wherever the light of --illuminant falls directly' -r
+complete -c vforward -l donaldson -d 'Donaldson matrices in the place of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file has wavelengths of emission in the first column, those of excitation in the header (CSV), or is the export of a Labsphere BFC-450' -r
 complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
 complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene\'s tolerance asks for' -r
 complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel' -r

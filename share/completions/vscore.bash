@@ -23,12 +23,16 @@ _vscore() {
 
     case "${cmd}" in
         vscore)
-            opts="-o -j -q -v -h -V --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --illuminant --truth --help --version"
+            opts="-o -j -q -v -h -V --condition --observer --metrics --colour --by --plot --report --overlay --spectra --table --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --illuminant --truth --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --condition)
+                    COMPREPLY=($(compgen -W "M1 M2" -- "${cur}"))
+                    return 0
+                    ;;
                 --observer)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0

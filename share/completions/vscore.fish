@@ -1,3 +1,5 @@
+complete -c vscore -l condition -d 'Measurement condition of ISO 13655 under which spectra are compared: M2, without ultraviolet, what the sheet reflects; M1, under D50, also what it sends out by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All that it sends out'
+M2\t'What it reflects'"
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
 complete -c vscore -l metrics -d 'What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
 ciede2000\t'Colour difference under each illuminant'

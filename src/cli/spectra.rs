@@ -28,11 +28,25 @@ impl Common {
     /// # Errors
     /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set.
     pub fn one_reflectance(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
-        let mut spectra = self.reflectances(spec)?;
-        match (spectra.pop(), spectra.is_empty()) {
-            (Some(spectrum), true) => Ok(spectrum),
-            _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
-        }
+        one(flag, spec, self.reflectances(spec)?)
+    }
+
+    /// The parts of white's light that `spec` names.
+    ///
+    /// # Errors
+    /// As [`Specs::radiance_factors`](crate::spectrum::spec::Specs::radiance_factors).
+    pub fn radiance_factors(&self, spec: &str) -> Result<Vec<Spectrum>> {
+        let spectra = stream::specs().in_percent(self.percent).radiance_factors(spec)?;
+        self.say_notes(&spectra);
+        Ok(spectra)
+    }
+
+    /// The one part of white's light that a flag names.
+    ///
+    /// # Errors
+    /// As [`Common::radiance_factors`], or [`Error::Usage`] if it is a set.
+    pub fn one_radiance_factor(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
+        one(flag, spec, self.radiance_factors(spec)?)
     }
 
     /// The illuminant that `spec` names.
@@ -73,6 +87,13 @@ impl Common {
                 say(&called(), note);
             }
         }
+    }
+}
+
+fn one(flag: &'static str, spec: &str, mut spectra: Vec<Spectrum>) -> Result<Spectrum> {
+    match (spectra.pop(), spectra.is_empty()) {
+        (Some(spectrum), true) => Ok(spectrum),
+        _ => Err(Error::usage(flag, format!("'{spec}' is a set"), "name one member, as in cc24:white")),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::FacetModel;
+use super::{BispectralSheet, FacetModel, Fluorescing};
 
 /// Which light a facet RGB is made of, by how often it has been reflected from panel to panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +49,27 @@ impl Bounces {
     /// ```
     #[must_use]
     pub fn facet_rgb(self, model: &FacetModel, reflectance: &[f64]) -> (DMatrix<f64>, Option<Truncation>) {
-        let all = model.facet_rgb(reflectance);
-        let after = |count| model.facet_rgb_after(count, reflectance);
+        self.counted(model.facet_rgb(reflectance), |count| model.facet_rgb_after(count, reflectance))
+    }
+
+    /// The same of a sheet that fluoresces.
+    #[must_use]
+    pub fn fluorescing_rgb(self, sheet: &Fluorescing) -> (DMatrix<f64>, Option<Truncation>) {
+        self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
+    }
+
+    /// The same of a sheet that is excited by all light that falls on it.
+    #[must_use]
+    pub fn bispectral_rgb(self, sheet: &BispectralSheet) -> (DMatrix<f64>, Option<Truncation>) {
+        self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
+    }
+
+    /// What counts of `all` light, of which `after` has that of more bounces.
+    fn counted(
+        self,
+        all: DMatrix<f64>,
+        after: impl Fn(u32) -> DMatrix<f64>,
+    ) -> (DMatrix<f64>, Option<Truncation>) {
         let count = match self {
             Self::All => return (all, None),
             Self::First(count) => count,

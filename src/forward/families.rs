@@ -48,12 +48,24 @@ impl Family {
         self.offset + a * r / (1.0 - b * r)
     }
 
+    /// What bounces make of light that leaves the sheet at first, per unit of it: the value but for the offset, without its `r`.
+    #[inline]
+    pub fn gain(&self, r: f64, g: f64) -> f64 {
+        let (a, b) = self.coefficients(g);
+        a / (1.0 - b * r)
+    }
+
     /// The part of the value that more than `bounces` bounces make.
     pub fn value_after(&self, bounces: u32, r: f64, g: f64) -> f64 {
+        r * self.gain_after(bounces, r, g)
+    }
+
+    /// The part of the gain that more than `bounces` bounces make.
+    pub fn gain_after(&self, bounces: u32, r: f64, g: f64) -> f64 {
         let Series { first, step } = self.bounces;
         let counted = bounces.saturating_add(step).saturating_sub(first) / step;
         let (a, b) = self.coefficients(g);
-        a * r * (b * r).powf(f64::from(counted)) / (1.0 - b * r)
+        a * (b * r).powf(f64::from(counted)) / (1.0 - b * r)
     }
 
     /// Value, first and second derivative at reflectance `r` for the pole `g`.

@@ -1,7 +1,9 @@
 //! From reflectance to what a camera sees of a folded sheet, or of any other surface.
 
+mod bispectral;
 pub mod bounces;
 mod families;
+mod fluorescence;
 mod fold;
 mod known;
 mod lighting;
@@ -14,6 +16,8 @@ mod surface;
 mod terms;
 mod values;
 
+pub use bispectral::{BispectralLight, BispectralSheet};
+pub use fluorescence::Fluorescing;
 pub use lighting::{Lighting, Lit};
 pub use model::FacetModel;
 pub use open_light::OpenLight;

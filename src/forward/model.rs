@@ -4,7 +4,7 @@
 //! common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the spectrum is integrated
 //! once per pole and channel, not once per facet and channel, and only over wavebands that a sensor sees.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::families::Family;
 use super::lighting::seen_bands;
@@ -98,7 +98,7 @@ impl FacetModel {
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
     #[must_use]
     pub fn facet_rgb(&self, reflectance: &[f64]) -> DMatrix<f64> {
-        self.rgb_of(reflectance, Family::value)
+        self.rgb_of(reflectance, None, Family::value)
     }
 
     /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than `bounces` times.
@@ -108,7 +108,7 @@ impl FacetModel {
     /// that the sum over b > `bounces` has a closed form.
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32, reflectance: &[f64]) -> DMatrix<f64> {
-        self.rgb_of(reflectance, |family, r, g| family.value_after(bounces, r, g))
+        self.rgb_of(reflectance, None, |family, r, g| family.value_after(bounces, r, g))
     }
 
     /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce: channel by waveband.
@@ -136,15 +136,46 @@ impl FacetModel {
         self.terms.in_bands(&(0..reflectance.len()).collect::<Vec<_>>(), reflectance, of)
     }
 
-    /// RGB of every facet, `of` being what a family makes of reflectance and pole.
-    fn rgb_of(&self, reflectance: &[f64], of: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
+    /// Whether the surface is a sheet with nothing beside it.
+    pub(super) fn is_of_one_sheet(&self) -> bool {
+        self.terms.of_one().is_some()
+    }
+
+    /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the light, by the number of the source and the
+    /// mode's pole.
+    pub(super) fn rgb_of_modes(&self, sent: impl Fn(usize, f64) -> Vec<f64>) -> DMatrix<f64> {
+        let poles = self.terms.of_one().unwrap_or_default();
+        let of_source = |(n, Source { facets, camera }): (usize, &Source)| {
+            let weights =
+                DMatrix::from_fn(self.bands(), camera.channels(), |band, c| camera.channel(c)[band]);
+            let mut rgb = DMatrix::zeros(facets.nrows(), camera.channels());
+            for (column, pole) in facets.column_iter().zip(&poles) {
+                // one source's response has no part in the modes of another's
+                if column.iter().any(|residue| *residue != 0.0) {
+                    rgb += column * (weights.tr_mul(&DVector::from(sent(n, *pole)))).transpose();
+                }
+            }
+            rgb
+        };
+        self.sources.iter().enumerate().map(of_source).sum()
+    }
+
+    /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per waveband, if there are any.
+    pub(super) fn rgb_of(
+        &self,
+        reflectance: &[f64],
+        amounts: Option<&[f64]>,
+        of: impl Fn(&Family, f64, f64) -> f64,
+    ) -> DMatrix<f64> {
         let bands = &self.seen_bands;
         let reflectance: Vec<f64> = bands.iter().map(|band| reflectance[*band]).collect();
         let [terms] = self.terms.in_bands(bands, &reflectance, |family, r, g| [of(family, r, g)]);
         let of_source = |source: &Source| {
             let camera = &source.camera;
-            let weights =
-                DMatrix::from_fn(bands.len(), camera.channels(), |n, c| camera.channel(c)[bands[n]]);
+            let amount = |band: usize| amounts.map_or(1.0, |amounts| amounts[band]);
+            let weights = DMatrix::from_fn(bands.len(), camera.channels(), |n, c| {
+                camera.channel(c)[bands[n]] * amount(bands[n])
+            });
             &source.facets * terms.tr_mul(&weights)
         };
         self.sources.iter().map(of_source).sum()

@@ -41,6 +41,13 @@ impl Terms {
         }
     }
 
+    /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones; none of any other.
+    pub fn of_one(&self) -> Option<Vec<f64>> {
+        let Self::One { poles, odd } = self else { return None };
+        let subtracted = poles.iter().filter(|_| *odd).map(|pole| -pole);
+        Some(poles.iter().copied().chain(subtracted).collect())
+    }
+
     /// Whether light that leaves the surface never comes back, and no part of it is known.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))

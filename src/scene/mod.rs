@@ -114,6 +114,20 @@ impl<'a> Setting<'a> {
         }
     }
 
+    /// What is in the order of the model's sources, of what lamps have in their order, the sun being one, and skies.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if the sources are missing.
+    pub fn of_sources<T: Clone>(&self, lamps: &[T], sky: &T) -> Result<Vec<T>> {
+        match self {
+            Self::Fold(fold) => {
+                let sun = lamps.first().filter(|_| fold.light.sun() > 0.0);
+                Ok(sun.into_iter().chain((fold.light.sky() > 0.0).then_some(sky)).cloned().collect())
+            }
+            Self::Surface(surface) => surface.of_sources(lamps, sky),
+        }
+    }
+
     /// Pictures that are taken of a sample: one under each illuminant, or one under all.
     ///
     /// # Errors

@@ -50,9 +50,14 @@ impl<'a> SurfaceSetting<'a> {
         let sources = self.sources()?;
         let responses = self.lamp_responses(&sources)?;
         let sky = sky_response(&self.scene.optics()?, &responses[0])?;
-        let mut of_lamps = responses.iter().cycle();
-        let of = |source: &LightSource| if source.is_sky() { Some(&sky) } else { of_lamps.next() };
-        Ok(sources.iter().filter_map(of).cloned().collect())
+        self.of_sources(&responses, &sky)
+    }
+
+    /// What is in the order of the sources, of what lamps have in their order, over and over, and skies.
+    pub(super) fn of_sources<T: Clone>(&self, lamps: &[T], sky: &T) -> Result<Vec<T>> {
+        let mut of_lamps = lamps.iter().cycle();
+        let of = |source: &LightSource| if source.is_sky() { Some(sky) } else { of_lamps.next() };
+        Ok(self.sources()?.iter().filter_map(of).cloned().collect())
     }
 
     /// One response for all sources, or one for each that is no sky.

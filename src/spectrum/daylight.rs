@@ -39,6 +39,45 @@ pub fn daylight_weights(cct_k: f64) -> [f64; 2] {
     [m1, m2]
 }
 
+/// A light that is one of the CIE's daylight illuminants, which are tabulated here from 380 nm, continued to 300 nm by the formulae of their
+/// temperatures; any other light as it is.
+///
+/// # Errors
+/// As [`daylight`].
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::{illuminant, in_ultraviolet};
+/// assert_eq!(in_ultraviolet(illuminant("D65")?)?.range_nm().0, 300.0);
+/// assert_eq!(in_ultraviolet(illuminant("FL1")?)?.range_nm().0, 380.0);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn in_ultraviolet(light: Spectrum) -> Result<Spectrum> {
+    let Some((_, cct_k)) = ILLUMINANTS.iter().find(|(name, _)| *name == light.name()) else {
+        return Ok(light);
+    };
+    let whole = daylight(*cct_k)?;
+    let (first_nm, _) = light.range_nm();
+    let start = whole.wavelengths_nm().partition_point(|nm| *nm < first_nm);
+    // a file may have the same name, and other units
+    let is_same = whole.values().get(start).is_some_and(|value| (value - light.values()[0]).abs() < ROUNDING);
+    if !is_same {
+        return Ok(light);
+    }
+    let joined = |below: &[f64], own: &[f64]| below.iter().chain(own).copied().collect::<Vec<_>>();
+    Ok(Spectrum {
+        wavelengths_nm: joined(&whole.wavelengths_nm()[..start], light.wavelengths_nm()).into(),
+        values: joined(&whole.values()[..start], light.values()),
+        ..light
+    })
+}
+
+/// The CIE's daylight illuminants, with the temperatures at which the formulae give them, K.
+const ILLUMINANTS: [(&str, f64); 5] =
+    [("D50", 5003.0), ("D55", 5503.0), ("D60", 6003.0), ("D65", 6504.0), ("D75", 7504.0)];
+/// By how much their tables differ from the formulae.
+const ROUNDING: f64 = 0.06;
+
 /// Mean daylight and its characteristic vectors, S0, S1 and S2.
 ///
 /// # Errors

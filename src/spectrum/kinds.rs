@@ -52,6 +52,17 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
     Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
 }
 
+/// Refuses values below 0: a sheet may send out more light than white does.
+pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
+    match spectrum.values().iter().find(|value| **value < 0.0) {
+        Some(value) => {
+            let problem = format!("{value} is below 0, where a part of white's light is wanted");
+            Err(bad(spectrum.name(), problem, "set negative noise to 0"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Refuses values below `least`, and darkness.
 pub(super) fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
     if let Some(value) = spectrum.values().iter().find(|value| **value < least) {

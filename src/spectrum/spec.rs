@@ -5,7 +5,7 @@
 
 use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
-use super::kinds::{Sensitivities, bad, check_power, check_reflectance};
+use super::kinds::{Sensitivities, bad, check_power, check_radiance_factor, check_reflectance};
 use super::library;
 use super::names::{What, unknown};
 use super::own::{self, OwnFile};
@@ -62,6 +62,9 @@ pub fn camera(spec: &str) -> Result<Sensitivities> {
     Specs::default().camera(spec)
 }
 
+/// Larger parts of white's light than sheets send out are percent.
+const FLUORESCENCE_MAX: f64 = 2.0;
+
 /// Finds what a SPEC names.
 #[derive(Clone, Copy, Debug)]
 pub struct Specs {
@@ -97,6 +100,21 @@ impl Specs {
         let spectra = self.find(What::Reflectances, spec)?;
         spectra.iter().try_for_each(check_reflectance)?;
         Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
+    }
+
+    /// Parts of white's light that sheets send out, which `spec` names as it names reflectances. Those of sheets that fluoresce may be more than 1; above
+    /// 2, or where that is said, they are in percent.
+    ///
+    /// # Errors
+    /// As [`Specs::reflectances`]; values below 0 alone are refused.
+    pub fn radiance_factors(self, spec: &str) -> Result<Vec<Spectrum>> {
+        let mut spectra = self.in_percent(self.percent.or(Some(false))).find(What::Reflectances, spec)?;
+        let is_large = spectra.iter().flat_map(Spectrum::values).any(|value| *value > FLUORESCENCE_MAX);
+        if is_large && self.percent.is_none() {
+            spectra = self.find(What::Reflectances, spec)?;
+        }
+        spectra.iter().try_for_each(check_radiance_factor)?;
+        Ok(spectra)
     }
 
     /// The illuminant that `spec` names, relative power.

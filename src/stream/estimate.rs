@@ -10,7 +10,7 @@ use super::fluorescence::FluorescenceRecord;
 use super::light_found::FoundLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
-use super::sample::{Sample, checked};
+use super::sample::{Sample, checked, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
@@ -264,7 +264,8 @@ impl EstimateRecord {
     fn is_spectrum(&self) -> bool {
         let count = self.wavelengths_nm.len();
         let rows = self.covariance.iter().flatten();
-        let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(rows);
+        let totals = self.total_radiance_factor.iter().chain(&self.total_radiance_factor_sd);
+        let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(totals).chain(rows);
         let mut counts = lists.map(Vec::len).chain(self.covariance.iter().map(Vec::len));
         count > 1 && counts.all(|other| other == count)
     }
@@ -278,6 +279,12 @@ impl EstimateRecord {
             Some(light) if scene.is_light_unknown()? => scene.in_light(light.spectrum()).map(Some),
             Some(_) | None => Ok(None),
         }
+    }
+
+    /// What the sheet sends out of white's light: its reflectance, unless it was found to fluoresce.
+    #[must_use]
+    pub fn total_radiance_factor(&self) -> &[f64] {
+        self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 
     /// As a file of spectra has it, under that name.
@@ -396,7 +403,12 @@ impl Sample {
                 let problem = "not as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
             }
-            Some(estimate) => checked("estimate", &estimate.reflectance).map(|()| Some(estimate)),
+            Some(estimate) => {
+                checked("estimate", &estimate.reflectance)?;
+                let total = estimate.total_radiance_factor.iter().flatten();
+                checked_radiance("estimate.total_radiance_factor", total)?;
+                Ok(Some(estimate))
+            }
             None => Ok(None),
         }
     }

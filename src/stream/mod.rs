@@ -60,6 +60,7 @@ pub use development::read_development;
 pub use estimate::{EstimateRecord, FindingRecord, FittedRecord, LevelRecord, NewEstimate, VerdictRecord};
 pub use failures::Failures;
 pub use fields::{Fields, finite};
+pub use fluorescence::FluorescenceRecord;
 pub use found::{found_line, not_found_line};
 pub use geometry::needs_fold;
 pub use history::HistoryRecord;

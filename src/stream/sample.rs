@@ -29,12 +29,28 @@ pub struct ReflectanceRecord {
     /// How it was found between samples, where it was: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
+    /// What a sheet that fluoresces sends out of white's light under the scene's, one number from 0 per wavelength: its reflectance, and what it
+    /// makes of light of other wavelengths; without bounces. Absent of a sheet that does not fluoresce.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(range(min = 0)))]
+    pub total_radiance_factor: Option<Vec<f64>>,
 }
 
 /// Refuses what cannot be the reflectance in a field.
 pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
     match reflectance.iter().find(|value| !(0.0..=1.0).contains(*value)) {
         Some(value) => Err(Error::field(field, format!("{value:e} is no reflectance; it needs 0 to 1"))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses what cannot be parts of white's light in a field.
+pub(super) fn checked_radiance<'a>(field: &str, factors: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    match factors.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
+        Some(value) => Err(Error::field(
+            field,
+            format!("{value:e} is no part of white's light; it needs numbers from 0"),
+        )),
         None => Ok(()),
     }
 }
@@ -49,7 +65,14 @@ impl ReflectanceRecord {
             wavelengths_nm: grid.wavelengths_nm().to_vec(),
             reflectance: spectrum.on(grid, Outside::Refuse)?,
             interpolation: spectrum.interpolation(grid).map(|found| found.name().to_owned()),
+            total_radiance_factor: None,
         })
+    }
+
+    /// What the sheet sends out of white's light: its reflectance, unless it fluoresces.
+    #[must_use]
+    pub fn total_radiance_factor(&self) -> &[f64] {
+        self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 }
 
@@ -65,17 +88,25 @@ impl Sample {
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
     pub fn set_truth(&mut self, truth: &ReflectanceRecord) -> Result<()> {
-        finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm))?;
+        let total = truth.total_radiance_factor.iter().flatten();
+        finite("truth", truth.reflectance.iter().chain(&truth.wavelengths_nm).chain(total))?;
         self.fields.set("truth", truth)
     }
 
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1.
+    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1, or what it sends out in all one of numbers from 0.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
         let truth: Option<ReflectanceRecord> = self.fields.get("truth")?;
-        truth.iter().try_for_each(|truth| checked("truth", &truth.reflectance))?;
+        if let Some(ReflectanceRecord { wavelengths_nm, reflectance, total_radiance_factor, .. }) = &truth {
+            checked("truth", reflectance)?;
+            checked_radiance("truth.total_radiance_factor", total_radiance_factor.iter().flatten())?;
+            if total_radiance_factor.as_ref().is_some_and(|total| total.len() != wavelengths_nm.len()) {
+                let problem = format!("needs {} numbers, one per wavelength", wavelengths_nm.len());
+                return Err(Error::field("truth.total_radiance_factor", problem));
+            }
+        }
         Ok(truth)
     }
 

@@ -18,6 +18,7 @@ mod determinism;
 mod estimates;
 mod fit;
 mod flat_sheets;
+mod fluorescence;
 mod ill_posed;
 mod install;
 mod joint;

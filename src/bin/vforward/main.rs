@@ -1,5 +1,6 @@
 //! `vforward`: what a camera sees of a folded sheet.
 
+mod fluorescence;
 mod nonuniform;
 mod photograph;
 mod render;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use fluorescence::Emission;
 use render::RenderArgs;
 use setup::Setup;
 use sheet::SheetArgs;
@@ -37,7 +39,7 @@ struct Args {
     scene: String,
     /// Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)
     #[arg(long, value_name = "SPEC", num_args = 1..,
-        required_unless_present_any = ["panel_reflectance", "facet_reflectance", "generate", "list"])]
+        required_unless_present_any = ["panel_reflectance", "facet_reflectance", "donaldson", "generate", "list"])]
     reflectance: Vec<String>,
     /// Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet
     #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
@@ -47,6 +49,16 @@ struct Args {
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,
+    /// The sheet fluoresces: it sends out this part of white's light, as --reflectance names spectra, wherever the light of --illuminant
+    /// falls directly
+    #[arg(long, value_name = "SPEC", allow_negative_numbers = true,
+        conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
+    fluorescence: Option<String>,
+    /// Donaldson matrices in the place of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file
+    /// has wavelengths of emission in the first column, those of excitation in the header (CSV), or is the export of a Labsphere BFC-450
+    #[arg(long, value_name = "FILE", num_args = 1..,
+        conflicts_with_all = ["reflectance", "fluorescence", "panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
+    donaldson: Vec<String>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
     camera: String,
@@ -105,7 +117,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.render.check(args.sheet.shape()?.is_some())?;
     args.optics.known_illuminants("vforward computes what a camera sees in a light: give that")?;
     let optics = args.optics.resolve(&args.common.camera(&args.camera)?, &args.common)?;
-    let subject = Subject::of(args, &optics.grid)?;
+    let emission = Emission::of(args, &optics.grid)?;
+    let subject = Subject::of(args, &optics.grid, &emission)?;
     let materials = args.materials.on(&optics.grid, &args.common)?;
     let given = args.kernel.given()?;
     let mut reader = match &given {
@@ -124,7 +137,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 if !materials.is_empty() {
                     scene.set_materials(&materials)?;
                 }
-                let setup = Setup::new(args, noise, &scene, given.as_ref()).map_err(|e| reader.at(e))?;
+                let setup = Setup::new(args, noise, &scene, given.as_ref(), &emission);
+                let setup = setup.map_err(|e| reader.at(e))?;
                 let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;
                 setup.samples(&subject, &seen, out)?;

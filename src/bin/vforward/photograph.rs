@@ -10,7 +10,7 @@ use vfold::stream::Corners;
 use vfold::{Error, Result};
 
 use super::setup::Setup;
-use super::subject::Subject;
+use super::subject::{Sheet, Subject};
 
 impl Setup<'_> {
     /// Takes the photograph that `--render` asks for, of the first sheet; where the panels are in it.
@@ -19,10 +19,10 @@ impl Setup<'_> {
             return Ok(Vec::new());
         };
         let for_screen = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let reflectance = &sheets[0].spectrum.reflectance;
+        let sheet = &sheets[0];
         let (mut picture, seen) = match &self.setting {
-            Setting::Fold(fold) => self.fold_picture(fold, for_screen, reflectance)?,
-            Setting::Surface(surface) => self.shape_picture(surface, for_screen, reflectance)?,
+            Setting::Fold(fold) => self.fold_picture(fold, for_screen, sheet)?,
+            Setting::Surface(surface) => self.shape_picture(surface, for_screen, sheet)?,
         };
         self.noise.add(picture.pixels_mut(), self.args.seed, u64::MAX);
         if for_screen {
@@ -37,7 +37,7 @@ impl Setup<'_> {
         &self,
         fold: &FoldSetting,
         for_screen: bool,
-        reflectance: &[f64],
+        sheet: &Sheet,
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
         let render = &self.args.render;
@@ -49,15 +49,15 @@ impl Setup<'_> {
         };
         let model = fold.fine_model(view.grid(), &lighting)?;
         let light = match self.args.sheet.shape()? {
-            None => self.light(&model, reflectance),
+            None => self.light(&model, sheet)?,
             Some(_) if for_screen => {
                 let problem = "a sheet that is not perfectly matt is rendered as the camera sees it";
                 return Err(Error::usage("--render", problem, "give a name in .exr or .tif"));
             }
             Some(shape) => {
-                let sheet = fold.folded_sheet(shape, view.eye(), Some(view.grid()))?;
-                let albedo = sheet.albedo(reflectance)?;
-                self.light(&model, &albedo) + self.args.exposure * sheet.beyond(&albedo)
+                let folded = fold.folded_sheet(shape, view.eye(), Some(view.grid()))?;
+                let albedo = folded.albedo(&sheet.spectrum.reflectance)?;
+                self.args.exposure * (self.bounces.facet_rgb(&model, &albedo).0 + folded.beyond(&albedo))
             }
         };
         Ok((view.take(&light), view.corners()))
@@ -67,22 +67,22 @@ impl Setup<'_> {
         &self,
         surface: &SurfaceSetting,
         for_screen: bool,
-        reflectance: &[f64],
+        sheet: &Sheet,
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
         let (render, sources) = (&self.args.render, surface.sources()?);
         let view = ShapeView::new(&surface.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
         let light = if for_screen {
             let model = surface.model_seen_by(&eye)?;
-            self.light(&model, reflectance)
+            self.light(&model, sheet)?
         } else {
-            self.light(&self.model, reflectance)
+            self.light(&self.model, sheet)?
         };
         Ok((view.take(&light), view.corners()))
     }
 
-    fn light(&self, model: &FacetModel, reflectance: &[f64]) -> DMatrix<f64> {
-        self.args.exposure * self.bounces.facet_rgb(model, reflectance).0
+    fn light(&self, model: &FacetModel, sheet: &Sheet) -> Result<DMatrix<f64>> {
+        Ok(self.args.exposure * self.matt_rgb(model, sheet)?.0)
     }
 
     /// The response of an eye that is adapted to the light.

@@ -6,13 +6,14 @@ use nalgebra::DMatrix;
 use vfold::forward::bounces::{Bounces, Truncation};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::FoldView;
-use vfold::forward::{FacetModel, FacetValues};
+use vfold::forward::{BispectralSheet, FacetModel, FacetValues, Fluorescing};
 use vfold::parallel::{Item, in_order};
 use vfold::scene::{FoldedSheet, GivenKernel, Setting};
-use vfold::stream::{Corners, Output, Sample, Scene, read_matrix};
+use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::fluorescence::Emission;
 use super::nonuniform::Nonuniform;
 use super::subject::{Sheet, Subject};
 
@@ -30,6 +31,7 @@ pub struct Setup<'a> {
     pub(super) model: FacetModel,
     /// What a sheet shows that is not perfectly matt.
     sheet: Option<FoldedSheet>,
+    emission: &'a Emission,
 }
 
 impl<'a> Setup<'a> {
@@ -38,8 +40,12 @@ impl<'a> Setup<'a> {
         noise: Noise,
         scene: &'a Scene,
         given: Option<&'a GivenKernel>,
+        emission: &'a Emission,
     ) -> Result<Self> {
         let setting = Setting::of(scene)?;
+        if let Emission::Excited(lights) = emission {
+            lights.check(&setting)?;
+        }
         let (bounces, model) = (args.bounces.of(scene)?, setting.model()?);
         let sheet = args.sheet.shape()?.map(|shape| match &setting {
             Setting::Fold(fold) => {
@@ -52,7 +58,7 @@ impl<'a> Setup<'a> {
             )),
         });
         let sheet = sheet.transpose()?;
-        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet })
+        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet, emission })
     }
 
     /// Writes one sample per sheet or file; the first says where its panels are `seen`.
@@ -70,10 +76,11 @@ impl<'a> Setup<'a> {
     }
 
     fn of_sheet(&self, sheet: &Sheet, stream: u64, seen: &[(usize, Corners)]) -> Result<Sample> {
-        let (rgb, truncation) = self.facet_rgb(&sheet.spectrum.reflectance)?;
+        let (rgb, truncation) = self.facet_rgb(sheet)?;
         let mut sample = self.sample(&sheet.id, rgb, stream)?;
         truncation.as_ref().map_or(Ok(()), |truncation| sample.set_bounces(truncation))?;
-        sample.set_truth(&sheet.spectrum)?;
+        let total_radiance_factor = self.total_radiance_factor(sheet)?;
+        sample.set_truth(&ReflectanceRecord { total_radiance_factor, ..sheet.spectrum.clone() })?;
         if let (0, Some(path)) = (stream, &self.args.render.render) {
             sample.set_panel_regions(path, self.args.render.size(), seen)?;
         }
@@ -81,11 +88,45 @@ impl<'a> Setup<'a> {
     }
 
     /// Facet RGB at exposure 1.
-    fn facet_rgb(&self, reflectance: &[f64]) -> Result<(DMatrix<f64>, Option<Truncation>)> {
-        let Some(sheet) = &self.sheet else { return Ok(self.bounces.facet_rgb(&self.model, reflectance)) };
-        let albedo = sheet.albedo(reflectance)?;
+    fn facet_rgb(&self, sheet: &Sheet) -> Result<(DMatrix<f64>, Option<Truncation>)> {
+        let Some(folded) = &self.sheet else { return self.matt_rgb(&self.model, sheet) };
+        let albedo = folded.albedo(&sheet.spectrum.reflectance)?;
         let (matt, truncation) = self.bounces.facet_rgb(&self.model, &albedo);
-        Ok((matt + sheet.beyond(&albedo), truncation))
+        Ok((matt + folded.beyond(&albedo), truncation))
+    }
+
+    /// Facet RGB at exposure 1 of a perfectly matt sheet.
+    pub(super) fn matt_rgb(
+        &self,
+        model: &FacetModel,
+        sheet: &Sheet,
+    ) -> Result<(DMatrix<f64>, Option<Truncation>)> {
+        let reflectance = &sheet.spectrum.reflectance;
+        Ok(match (self.emission, &sheet.bispectral) {
+            (Emission::Part(part), _) => {
+                self.bounces.fluorescing_rgb(&Fluorescing::new(model, reflectance, part)?)
+            }
+            (Emission::Excited(lights), Some(bispectral)) => {
+                let lights = lights.on(bispectral, &self.setting, &self.scene.grid()?)?;
+                self.bounces.bispectral_rgb(&BispectralSheet::new(model, bispectral, &lights)?)
+            }
+            _ => self.bounces.facet_rgb(model, reflectance),
+        })
+    }
+
+    /// What the flat sheet sends out of white's light in the scene's, or in the first of several lights, if it fluoresces.
+    fn total_radiance_factor(&self, sheet: &Sheet) -> Result<Option<Vec<f64>>> {
+        Ok(match (self.emission, &sheet.bispectral) {
+            (Emission::Part(part), _) => {
+                let parts = sheet.spectrum.reflectance.iter().zip(part);
+                Some(parts.map(|(reflected, emitted)| reflected + emitted).collect())
+            }
+            (Emission::Excited(lights), Some(bispectral)) => {
+                let lights = lights.on(bispectral, &self.setting, &self.scene.grid()?)?;
+                Some(BispectralSheet::new(&self.model, bispectral, &lights)?.total_radiance_factor())
+            }
+            _ => None,
+        })
     }
 
     /// One after the other: each keeps all threads busy.

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use vfold::spectrum::{Spectrum, WavelengthGrid};
+use vfold::spectrum::{Bispectral, Spectrum, WavelengthGrid};
 use vfold::stream::{ReferencePanel, ReflectanceRecord};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::fluorescence::{self, Emission};
 
 /// What is folded.
 pub enum Subject {
@@ -24,15 +25,21 @@ pub enum Subject {
 pub struct Sheet {
     pub id: String,
     pub spectrum: ReflectanceRecord,
+    /// What it makes of other light, if that is known.
+    pub bispectral: Option<Bispectral>,
 }
 
 impl Subject {
     /// What the flags name, on the wavelengths of `grid`.
-    pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
-        if args.facet_reflectance.is_empty() {
-            sheets(args, grid)
-        } else {
-            Ok(Self::Facets(args.facet_reflectance.clone()))
+    pub fn of(args: &Args, grid: &WavelengthGrid, emission: &Emission) -> Result<Self> {
+        if !args.facet_reflectance.is_empty() {
+            return Ok(Self::Facets(args.facet_reflectance.clone()));
+        }
+        match emission {
+            Emission::Excited(lights) => {
+                Ok(Self::Sheets { sheets: fluorescence::sheets(args, grid, lights)?, card: None })
+            }
+            Emission::None | Emission::Part(_) => sheets(args, grid),
         }
     }
 
@@ -88,7 +95,8 @@ fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
 }
 
 fn sheet(spectrum: &Spectrum, grid: &WavelengthGrid) -> Result<Sheet> {
-    Ok(Sheet { id: spectrum.name().to_owned(), spectrum: ReflectanceRecord::on(spectrum, grid)? })
+    let (id, spectrum) = (spectrum.name().to_owned(), ReflectanceRecord::on(spectrum, grid)?);
+    Ok(Sheet { id, spectrum, bispectral: None })
 }
 
 /// Parses `0=SPEC` or `1=SPEC`.

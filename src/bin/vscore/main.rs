@@ -8,7 +8,7 @@ mod table;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 use groups::Groups;
 use metric::metric;
 use scorer::Scorer;
@@ -44,6 +44,10 @@ struct Args {
     /// True reflectance: one for all samples, or a set with a member of each sample's name [default: what the samples say]
     #[arg(long, value_name = "SPEC")]
     truth: Option<String>,
+    /// Measurement condition of ISO 13655 under which spectra are compared: M2, without ultraviolet, what the sheet reflects; M1, under D50, also
+    /// what it sends out by fluorescence. Without fluorescence they are the same
+    #[arg(long, value_name = "M1|M2", default_value = "M2", ignore_case = true)]
+    condition: Condition,
     /// Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others
     #[arg(long, value_name = "SPEC", default_value = "D65", value_parser = cli::light)]
     illuminant: Vec<String>,
@@ -81,6 +85,16 @@ struct Args {
     table: bool,
     #[command(flatten)]
     common: Common,
+}
+
+/// What of a sheet's light is compared.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "verbatim")]
+enum Condition {
+    /// All that it sends out.
+    M1,
+    /// What it reflects.
+    M2,
 }
 
 impl Args {

@@ -4,11 +4,11 @@ use std::collections::HashSet;
 
 use vfold::colorimetry::{Colorimeter, ErrorBars, Observer};
 use vfold::score::{METRICS, Metric, Score};
-use vfold::spectrum::{Spectrum, WavelengthGrid};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{EstimateRecord, ReflectanceRecord, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
-use super::Args;
+use super::{Args, Condition};
 
 /// Scores as the flags ask for.
 pub struct Scorer<'a> {
@@ -29,7 +29,11 @@ pub struct Context {
 
 impl<'a> Scorer<'a> {
     pub fn new(args: &'a Args) -> Result<Self> {
-        let truth = args.truth.as_deref().map(|spec| args.common.reflectances(spec)).transpose()?;
+        let read = |spec: &str| match args.condition {
+            Condition::M1 => args.common.radiance_factors(spec),
+            Condition::M2 => args.common.reflectances(spec),
+        };
+        let truth = args.truth.as_deref().map(read).transpose()?;
         let illuminants: Vec<_> =
             args.illuminant.iter().map(|spec| args.common.illuminant(spec)).collect::<Result<_>>()?;
         let metrics = metrics(args)?;
@@ -58,11 +62,21 @@ impl<'a> Scorer<'a> {
         self.scores.iter().zip(values).map(|((_, name), value)| Score::new(name, value)).collect()
     }
 
+    /// The scores of an estimate under the measurement condition.
+    fn compare(&self, context: &Context, truth: &ReflectanceRecord, estimate: &EstimateRecord) -> Vec<Score> {
+        match self.args.condition {
+            Condition::M1 => {
+                self.scores(context, truth.total_radiance_factor(), estimate.total_radiance_factor())
+            }
+            Condition::M2 => self.scores(context, &truth.reflectance, &estimate.reflectance),
+        }
+    }
+
     /// The true spectrum; none only where drawings are asked for, which have more to show.
     fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<Option<ReflectanceRecord>> {
         let truth = match (self.truth.as_deref(), sample.truth()?) {
-            (Some([one]), _) => ReflectanceRecord::on(one, grid)?,
-            (Some(spectra), _) => {
+            (Some([one]), own) => self.measured(one, own, grid)?,
+            (Some(spectra), own) => {
                 let id = sample.id();
                 // A column of a file is called after both: `truth:photo`.
                 let named = |spectrum: &&Spectrum| {
@@ -72,14 +86,9 @@ impl<'a> Scorer<'a> {
                 let found = spectra.iter().find(named).ok_or_else(|| {
                     Error::field("id", format!("--truth has no member '{id}' among its {}", spectra.len()))
                 })?;
-                ReflectanceRecord::on(found, grid)?
+                self.measured(found, own, grid)?
             }
-            (None, Some(truth)) => {
-                let ReflectanceRecord { wavelengths_nm, reflectance, interpolation } = truth;
-                let spectrum = Spectrum::new("truth", wavelengths_nm, reflectance)?.as_reflectance();
-                let on_grid = ReflectanceRecord::on(&spectrum, grid)?;
-                ReflectanceRecord { interpolation: on_grid.interpolation.or(interpolation), ..on_grid }
-            }
+            (None, Some(own)) => on_grid(own, grid)?,
             // what is drawn may be its old scores
             (None, None) if self.args.draws() => return sample.scores().map(|_| None),
             (None, None) => return Err(Error::field("truth", "missing; give --truth SPEC")),
@@ -87,9 +96,32 @@ impl<'a> Scorer<'a> {
         Ok(Some(truth))
     }
 
+    /// A spectrum that `--truth` names: under M1 all that the sheet sends out, which says nothing of what of it is reflected.
+    fn measured(
+        &self,
+        spectrum: &Spectrum,
+        own: Option<ReflectanceRecord>,
+        grid: &WavelengthGrid,
+    ) -> Result<ReflectanceRecord> {
+        let found = ReflectanceRecord::on(spectrum, grid)?;
+        if self.args.condition == Condition::M2 {
+            return Ok(found);
+        }
+        let reflected = match own {
+            Some(own) => on_grid(own, grid)?,
+            None => ReflectanceRecord { reflectance: Vec::new(), ..found.clone() },
+        };
+        Ok(ReflectanceRecord { total_radiance_factor: Some(found.reflectance), ..reflected })
+    }
+
     fn add_colour(&self, context: &Context, estimate: &EstimateRecord, sample: &mut Sample) -> Result<()> {
         let meter = &context.colorimeters[0];
-        let EstimateRecord { reflectance, covariance, reflectance_sd: sd, .. } = estimate;
+        let is_total = self.args.condition == Condition::M1 && estimate.total_radiance_factor.is_some();
+        let (spectrum, covariance, sd) = if is_total {
+            (estimate.total_radiance_factor(), &None, &estimate.total_radiance_factor_sd)
+        } else {
+            (estimate.reflectance.as_slice(), &estimate.covariance, &estimate.reflectance_sd)
+        };
         let errors = match (covariance, sd) {
             (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
             (None, Some(sd)) => Some(ErrorBars::Deviations(sd)),
@@ -99,9 +131,9 @@ impl<'a> Scorer<'a> {
             Observer::Cie1931_2deg => "2 degrees",
             Observer::Cie1964_10deg => "10 degrees",
         };
-        let sd = errors.map(|errors| meter.colour_sd(reflectance, errors));
+        let sd = errors.map(|errors| meter.colour_sd(spectrum, errors));
         let seen = (self.illuminants[0].name(), observer);
-        sample.set_colour(seen, &meter.colour(reflectance), sd.as_ref(), covariance.is_some())
+        sample.set_colour(seen, &meter.colour(spectrum), sd.as_ref(), covariance.is_some())
     }
 }
 
@@ -126,11 +158,27 @@ impl Transform for Scorer<'_> {
             return Err(Error::field("estimate", "not on the wavelengths of its scene; estimate it again"));
         }
         if let Some(truth) = self.truth_of(sample, &context.grid)? {
-            sample.set_truth(&truth)?;
-            sample.set_scores(&self.scores(context, &truth.reflectance, &estimate.reflectance))?;
+            if !truth.reflectance.is_empty() {
+                sample.set_truth(&truth)?;
+            }
+            sample.set_scores(&self.compare(context, &truth, &estimate))?;
         }
         if self.args.colour { self.add_colour(context, &estimate, sample) } else { Ok(()) }
     }
+}
+
+/// The truth that a sample carries, on the wavelengths of `grid`.
+fn on_grid(own: ReflectanceRecord, grid: &WavelengthGrid) -> Result<ReflectanceRecord> {
+    let ReflectanceRecord { wavelengths_nm, reflectance, interpolation, total_radiance_factor } = own;
+    let total = total_radiance_factor
+        .map(|total| Spectrum::new("truth", wavelengths_nm.clone(), total)?.on(grid, Outside::Refuse));
+    let spectrum = Spectrum::new("truth", wavelengths_nm, reflectance)?.as_reflectance();
+    let found = ReflectanceRecord::on(&spectrum, grid)?;
+    Ok(ReflectanceRecord {
+        interpolation: found.interpolation.or(interpolation),
+        total_radiance_factor: total.transpose()?,
+        ..found
+    })
 }
 
 /// What is to be scored.

@@ -28,10 +28,15 @@ const LITERAL: char = '\'';
 /// # Errors
 /// [`crate::Error::Table`] with the line and column that is wrong.
 pub(in crate::spectrum) fn parse(path: &str, text: &str) -> Result<Table> {
+    parse_from(Place { path, line: 1 }, text)
+}
+
+/// The same of a text that begins at a line of its file.
+pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Table> {
     let text = text.trim_end();
     let (first_line, separator, text) = match declared_separator(text) {
-        Some((separator, below)) => (2, separator, below),
-        None => (1, separator(text), text),
+        Some((separator, below)) => (line + 1, separator, below),
+        None => (line, separator(text), text),
     };
     let mut rows = rows(Place { path, line: first_line }, text, separator).peekable();
     let (header, at) =

@@ -2,6 +2,7 @@
 //!
 //! Readers give a [`Table`]: spectra in nm, with what had to be converted. JSON is the stream's affair: its reader is handed in.
 
+mod bfc;
 mod cgats;
 mod csv;
 mod quantity;
@@ -150,6 +151,8 @@ pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
     {
         // names may be in any encoding, numbers are in all of them the same
         cgats::parse(path, &text)
+    } else if bfc::is_matrix(&text) {
+        bfc::parse(path, &text)
     } else if is_unicode {
         csv::parse(path, &text)
     } else {

@@ -1,0 +1,111 @@
+//! What the sheets send out beside what they reflect, as the flags say it.
+
+use vfold::cli;
+use vfold::forward::BispectralLight;
+use vfold::scene::Setting;
+use vfold::spectrum::{Bispectral, Donaldson, Outside, Spectrum, WavelengthGrid, in_ultraviolet};
+use vfold::stream::ReflectanceRecord;
+use vfold::{Error, Result};
+
+use super::Args;
+use super::subject::Sheet;
+
+/// What sheets send out.
+pub enum Emission {
+    /// What they reflect, and nothing else.
+    None,
+    /// Beside it a part of white's light, wherever light falls directly.
+    Part(Vec<f64>),
+    /// What their matrices make of these lights.
+    Excited(Lights),
+}
+
+/// The lights of a scene, as far as their tables reach.
+pub struct Lights {
+    lamps: Vec<Spectrum>,
+    sky: Spectrum,
+}
+
+impl Emission {
+    /// What the flags say, on the wavelengths of `grid`.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts; as
+    /// [`Common::one_radiance_factor`](cli::Common::one_radiance_factor).
+    pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
+        if !args.donaldson.is_empty() {
+            return Lights::of(args).map(Self::Excited);
+        }
+        let Some(spec) = &args.fluorescence else { return Ok(Self::None) };
+        if args.optics.illuminant.len() > 1 || args.optics.sky_illuminant.is_some() {
+            let problem = "what a sheet sends out in one light is another part of white's in a second one";
+            return Err(Error::usage("--fluorescence", problem, "give one --illuminant"));
+        }
+        let spectrum = args.common.one_radiance_factor("--fluorescence", spec)?;
+        spectrum.on(grid, Outside::Refuse).map(Self::Part)
+    }
+}
+
+impl Lights {
+    fn of(args: &Args) -> Result<Self> {
+        let (lamps, sky) = args.optics.lights(&args.common)?;
+        let lamps = lamps.into_iter().map(in_ultraviolet).collect::<Result<Vec<_>>>()?;
+        let sky = sky.map_or_else(|| Ok(lamps[0].clone()), in_ultraviolet)?;
+        Ok(Self { lamps, sky })
+    }
+
+    /// Checks that they are those of one picture.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for several.
+    pub fn check(&self, setting: &Setting) -> Result<()> {
+        if setting.pictures()? > 1 {
+            let problem = "a sheet that fluoresces is computed in one picture at a time";
+            return Err(Error::usage("--donaldson", problem, "give one --illuminant"));
+        }
+        Ok(())
+    }
+
+    /// The lights of the model's sources as a sheet takes them.
+    ///
+    /// # Errors
+    /// As [`BispectralLight::new`].
+    pub fn on(
+        &self,
+        sheet: &Bispectral,
+        setting: &Setting,
+        grid: &WavelengthGrid,
+    ) -> Result<Vec<BispectralLight>> {
+        let sources = setting.of_sources(&self.lamps, &self.sky)?;
+        sources.iter().map(|light| BispectralLight::new(light, grid, sheet)).collect()
+    }
+
+    /// The first of the lights that begins at longer wavelengths than those that excite a sheet.
+    fn begins_late(&self, excited_from_nm: f64) -> Option<&Spectrum> {
+        self.lamps.iter().chain([&self.sky]).find(|light| light.range_nm().0 > excited_from_nm)
+    }
+}
+
+/// The sheets of the matrices that `--donaldson` names, on the wavelengths of `grid`.
+///
+/// # Errors
+/// As [`Donaldson::read`] and [`Donaldson::on`].
+pub fn sheets(args: &Args, grid: &WavelengthGrid, lights: &Lights) -> Result<Vec<Sheet>> {
+    let sheet = |path: &String| {
+        let matrix = Donaldson::read(path)?;
+        let excited_from_nm = matrix.excited_from_nm();
+        let late = excited_from_nm.and_then(|nm| Some((nm, lights.begins_late(nm)?)));
+        if let Some((nm, light)) = late.filter(|_| !args.common.quiet) {
+            let (light, from_nm) = (light.name(), light.range_nm().0);
+            cli::say(
+                "vforward",
+                &format!(
+                    "{light} is known from {from_nm} nm on: what its light from {nm} nm excites of {path} is left out"
+                ),
+            );
+        }
+        let spectrum = ReflectanceRecord::on(matrix.reflectance(), grid)?;
+        Ok(Sheet { id: matrix.reflectance().name().to_owned(), spectrum, bispectral: Some(matrix.on(grid)?) })
+    };
+    args.donaldson.iter().map(sheet).collect()
+}

@@ -1,0 +1,151 @@
+//! A sheet of which a Donaldson matrix says what it makes of light of other wavelengths: every bounce excites it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::model::FacetModel;
+use crate::error::{Error, Result};
+use crate::spectrum::{Bispectral, Outside, Spectrum, WavelengthGrid};
+
+/// A surface of one matt sheet that is excited by all light that falls on it.
+///
+/// Light of all wavelengths is exchanged alike, by one kernel: mode by mode the wavebands hand light to each other as patches do, and
+/// b = (I − gD)⁻¹ D s for a mode of the pole g, the light s and the matrix D.
+#[derive(Clone, Debug)]
+pub struct BispectralSheet<'a> {
+    model: &'a FacetModel,
+    sheet: &'a Bispectral,
+    lights: &'a [BispectralLight],
+}
+
+/// The power of a light in the wavebands of a scene and in the bands that excite a sheet, in one unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BispectralLight {
+    in_scene: Vec<f64>,
+    in_bands: DVector<f64>,
+}
+
+impl BispectralLight {
+    /// That of `light`, which is dark where its samples do not reach to the bands.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if it does not cover `grid`, or has no power in a waveband in which the sheet fluoresces: that is no part of
+    /// white's light.
+    pub fn new(light: &Spectrum, grid: &WavelengthGrid, sheet: &Bispectral) -> Result<Self> {
+        let in_scene = light.on(grid, Outside::Refuse)?;
+        let in_bands: DVector<f64> = light.on(&sheet.excitation, Outside::Zero)?.into();
+        let emitted = &sheet.fluorescence * &in_bands;
+        let mut bands = in_scene.iter().zip(&emitted);
+        if let Some(dark) = bands.position(|(power, emitted)| *power <= 0.0 && *emitted > 0.0) {
+            return Err(Error::Spectrum {
+                name: light.name().to_owned(),
+                problem: format!("it has no power at {} nm, where the sheet fluoresces", grid.wavelengths_nm()[dark]),
+                remedy: "choose other wavelengths or another light: what is sent out is counted in parts of white's light".to_owned(),
+            });
+        }
+        Ok(Self { in_scene, in_bands })
+    }
+
+    fn is_dark(&self) -> bool {
+        self.in_scene.iter().chain(&self.in_bands).all(|power| power.abs() < f64::MIN_POSITIVE)
+    }
+}
+
+impl<'a> BispectralSheet<'a> {
+    /// That of a model, a light for each of its sources.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if a part of the surface is of known reflectance, which says nothing of the ultraviolet that it hands on.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::dmatrix;
+    /// use vfold::camera::CameraResponse;
+    /// use vfold::forward::{BispectralLight, BispectralSheet, FacetModel};
+    /// use vfold::kernel::dense::DenseExchange;
+    /// use vfold::response::SurfaceResponse;
+    /// use vfold::spectrum::{Donaldson, Spectrum, WavelengthGrid};
+    /// // Two like patches hand half of their light to each other, both are lit: a pole of 0.5.
+    /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);
+    /// let (response, _) = SurfaceResponse::solve(&exchange, &[1.0, 1.0], 1e-12)?;
+    /// let model = FacetModel::of_surface(&[(response, CameraResponse::from_weights(vec![vec![0.0, 1.0]]))]);
+    /// let grid = WavelengthGrid::new(vec![400.0, 450.0])?;
+    /// let sheet = Donaldson::new("cloth", grid.clone(), grid.clone(), &dmatrix![0.5, 0.0; 0.1, 0.8])?.on(&grid)?;
+    /// let light = BispectralLight::new(&Spectrum::flat("E", 1.0), &grid, &sheet)?;
+    /// let rgb = BispectralSheet::new(&model, &sheet, &[light])?.facet_rgb();
+    /// let first = 0.5 / (1.0 - 0.25);
+    /// assert!((rgb[0] - (0.8 + 0.1 * (1.0 + 0.5 * first)) / (1.0 - 0.4)).abs() < 1e-12);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many lights as sources.
+    pub fn new(model: &'a FacetModel, sheet: &'a Bispectral, lights: &'a [BispectralLight]) -> Result<Self> {
+        assert_eq!(lights.len(), model.sources().len(), "one light per source");
+        if model.is_of_one_sheet() {
+            return Ok(Self { model, sheet, lights });
+        }
+        let problem = "nobody knows what parts of known reflectance hand on of the light that excites a sheet; fold the sheet alone";
+        Err(Error::field("fluorescence", problem))
+    }
+
+    /// What the flat sheet sends out of white's light in the first of the lights, one number from 0 per waveband.
+    #[must_use]
+    pub fn total_radiance_factor(&self) -> Vec<f64> {
+        self.lights.first().map_or_else(Vec::new, |light| self.sent(light, 0.0))
+    }
+
+    /// RGB of every facet at exposure 1, as [`FacetModel::facet_rgb`].
+    #[must_use]
+    pub fn facet_rgb(&self) -> DMatrix<f64> {
+        self.model.rgb_of_modes(|source, g| self.sent(&self.lights[source], g))
+    }
+
+    /// What light adds to it that has bounced more than `bounces` times, as [`FacetModel::facet_rgb_after`].
+    #[must_use]
+    pub fn facet_rgb_after(&self, bounces: u32) -> DMatrix<f64> {
+        self.model.rgb_of_modes(|source, g| self.sent_after(bounces, &self.lights[source], g))
+    }
+
+    /// What a mode of the pole `g` sends out per waveband, in parts of the light.
+    fn sent(&self, light: &BispectralLight, g: f64) -> Vec<f64> {
+        self.sent_of(light, light, g)
+    }
+
+    /// The part of it that has bounced more than `bounces` times.
+    fn sent_after(&self, bounces: u32, light: &BispectralLight, g: f64) -> Vec<f64> {
+        let mut falling = light.clone();
+        for _ in 0..=bounces {
+            falling = self.next_bounce(&falling, g);
+            if falling.is_dark() {
+                break;
+            }
+        }
+        self.sent_of(&falling, light, g)
+    }
+
+    /// What a mode of the pole `g` sends out, all bounces included, of light that is `falling`, in parts of `light`.
+    fn sent_of(&self, falling: &BispectralLight, light: &BispectralLight, g: f64) -> Vec<f64> {
+        let bands = falling.in_bands.len();
+        let exchange = DMatrix::identity(bands, bands) - g * &self.sheet.between_bands;
+        // Poles and reflectances are below 1, and what fluoresces never excites itself: there is a solution.
+        let in_all = exchange.lu().solve(&falling.in_bands).unwrap_or_else(|| falling.in_bands.clone());
+        let emitted = &self.sheet.fluorescence * in_all;
+        let bands =
+            self.sheet.reflectance.iter().zip(&emitted).zip(falling.in_scene.iter().zip(&light.in_scene));
+        let part = |((r, emitted), (falling, light)): ((&f64, &f64), (&f64, &f64))| {
+            let in_light = |power: f64| if *light > 0.0 { power / light } else { 0.0 };
+            (r * in_light(*falling) + in_light(*emitted)) / (1.0 - r * g)
+        };
+        bands.map(part).collect()
+    }
+
+    /// The light that falls on a mode of the pole `g` at the bounce after that at which `light` falls.
+    fn next_bounce(&self, light: &BispectralLight, g: f64) -> BispectralLight {
+        let emitted = &self.sheet.fluorescence * &light.in_bands;
+        let reflected = self.sheet.reflectance.iter().zip(&light.in_scene).map(|(r, power)| r * power);
+        BispectralLight {
+            in_scene: reflected.zip(&emitted).map(|(reflected, emitted)| g * (reflected + emitted)).collect(),
+            in_bands: g * &self.sheet.between_bands * &light.in_bands,
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Donaldson matrices: what a sheet that fluoresces makes of light of each wavelength, at each wavelength.
+
+use nalgebra::DMatrix;
+
+use super::kinds::bad;
+use super::{Outside, Spectrum, WavelengthGrid, formats, interpolation::Interpolation};
+use crate::error::{Error, Result};
+
+/// Nearer to its excitation than this, nm, light counts as reflected: instruments that measure such matrices let bands of 10 nm pass, which share
+/// what their neighbours reflect.
+const REFLECTED_WITHIN_NM: f64 = 10.0;
+/// More than instruments measure of nothing: up to 0.006 in four matrices of a Labsphere BFC-450.
+const NO_NOISE: f64 = 0.01;
+
+/// The bispectral radiance factors of a sheet: what it sends out in a waveband of light that falls on it in another one, where white sends out
+/// as much as falls on it in the same.
+///
+/// # Source
+/// R. Donaldson, "Spectrophotometry of fluorescent pigments", *British Journal of Applied Physics* 5 (1954), p. 210.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Donaldson {
+    /// Light that is reflected, on the wavelengths of emission.
+    reflectance: Spectrum,
+    excitation: WavelengthGrid,
+    /// Light that fluoresces, a spectrum for each wavelength of excitation.
+    fluorescence: Vec<Spectrum>,
+}
+
+/// What a sheet that fluoresces makes of light, on the wavelengths of a scene and on those that excite it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bispectral {
+    /// Reflectance, one per waveband of the scene.
+    pub reflectance: Vec<f64>,
+    /// What is sent out in the scene's wavebands (rows) of light in the bands of excitation (columns), without what is reflected.
+    pub fluorescence: DMatrix<f64>,
+    /// The bands of excitation.
+    pub excitation: WavelengthGrid,
+    /// What is sent out in those bands (rows) of light in them (columns), what is reflected included.
+    pub between_bands: DMatrix<f64>,
+}
+
+impl Donaldson {
+    /// The matrix of `factors`, emission by excitation, of a sheet of this name. What is next to its excitation is reflected, by 10 nm at
+    /// most; no light is sent out at shorter wavelengths than excite it: such factors are noise and left out, as are those below 0.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if more than white has is reflected, or if rows and columns are interchanged; [`Error::Grid`] if wavelengths do
+    /// not rise.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::dmatrix;
+    /// use vfold::spectrum::{Donaldson, WavelengthGrid};
+    /// let (emission, excitation) = (WavelengthGrid::new(vec![400.0, 450.0])?, WavelengthGrid::new(vec![350.0, 400.0, 450.0])?);
+    /// let brightened = Donaldson::new("cloth", emission.clone(), excitation, &dmatrix![0.0, 0.5, 0.0; 0.2, 0.1, 0.8])?;
+    /// let cloth = brightened.on(&emission)?;
+    /// assert_eq!(cloth.reflectance, [0.5, 0.8]);
+    /// assert_eq!(cloth.fluorescence, dmatrix![0.0, 0.0, 0.0; 0.2, 0.1, 0.0]);
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    pub fn new(
+        name: &str,
+        emission: WavelengthGrid,
+        excitation: WavelengthGrid,
+        factors: &DMatrix<f64>,
+    ) -> Result<Self> {
+        let (emission_nm, excitation_nm) = (emission.wavelengths_nm(), excitation.wavelengths_nm());
+        let shift_nm = |row: usize, column: usize| emission_nm[row] - excitation_nm[column];
+        // what the factors are where `is_there`, by the shift of their wavelengths
+        let part = |is_there: fn(f64) -> bool| {
+            DMatrix::from_fn(emission_nm.len(), excitation_nm.len(), |row, column| {
+                if is_there(shift_nm(row, column)) { factors[(row, column)].max(0.0) } else { 0.0 }
+            })
+        };
+        let reflected = part(|shift_nm| shift_nm.abs() <= REFLECTED_WITHIN_NM);
+        let fluorescence = part(|shift_nm| shift_nm > REFLECTED_WITHIN_NM);
+        let below = part(|shift_nm| shift_nm < -REFLECTED_WITHIN_NM).max();
+        if below > NO_NOISE && below > fluorescence.max() {
+            let problem = "most light that fluoresces has shorter wavelengths than what excites it";
+            return Err(bad(name, problem, "write emission in rows, excitation in columns"));
+        }
+        let reflectance: Vec<f64> = reflected.row_iter().map(|row| row.sum()).collect();
+        if let Some(row) = reflectance.iter().position(|reflectance| *reflectance > 1.0) {
+            let problem =
+                format!("at {} nm {} of the light is reflected", emission_nm[row], reflectance[row]);
+            return Err(bad(name, problem, "give radiance factors of bands, in fractions of white's"));
+        }
+        let spectrum = |values: Vec<f64>| {
+            Spectrum::new(name, emission_nm.to_vec(), values)
+                .map(|spectrum| Spectrum { interpolation: Interpolation::Linear, ..spectrum })
+        };
+        Ok(Self {
+            reflectance: spectrum(reflectance)?.as_reflectance(),
+            fluorescence: fluorescence
+                .column_iter()
+                .map(|column| spectrum(column.iter().copied().collect()))
+                .collect::<Result<_>>()?,
+            excitation,
+        })
+    }
+
+    /// Reads a matrix from CSV, wavelengths of emission in the first column, those of excitation in the header, or from the export of a Labsphere
+    /// BFC-450.
+    ///
+    /// # Errors
+    /// As [`Donaldson::new`]; [`Error::File`] or [`Error::Table`] for a file that cannot be read, [`Error::Spectrum`] for a column that is not
+    /// called by a wavelength.
+    pub fn read(path: &str) -> Result<Self> {
+        let columns = formats::read(path, formats::no_json)?.spectra(path);
+        let wavelength_nm = |column: &Spectrum| {
+            column.name().parse::<f64>().map_err(|_| {
+                let problem =
+                    format!("column '{}' is not called by a wavelength of excitation", column.name());
+                bad(path, problem, "write it as a number, in nm")
+            })
+        };
+        let excitation_nm = columns.iter().map(wavelength_nm).collect::<Result<Vec<_>>>()?;
+        let emission = WavelengthGrid::new(columns[0].wavelengths_nm().to_vec())?;
+        let factors = DMatrix::from_fn(emission.len(), columns.len(), |row, n| columns[n].values()[row]);
+        let stem = std::path::Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Self::new(&stem, emission, WavelengthGrid::new(excitation_nm)?, &factors)
+    }
+
+    /// What the sheet reflects, called as the sheet is.
+    #[must_use]
+    pub fn reflectance(&self) -> &Spectrum {
+        &self.reflectance
+    }
+
+    /// The shortest wavelength that excites the sheet, nm, if any does.
+    #[must_use]
+    pub fn excited_from_nm(&self) -> Option<f64> {
+        let excites = |column: &Spectrum| column.values().iter().any(|factor| *factor > NO_NOISE);
+        self.fluorescence.iter().position(excites).map(|band| self.excitation.wavelengths_nm()[band])
+    }
+
+    /// The matrix on a scene's wavelengths. Beyond those of its emission the sheet is taken to reflect what it does at the nearest of them:
+    /// instruments begin at 380 nm to look at light that excites it from 300 nm on, and that bounces, too.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if the emission does not cover them.
+    pub fn on(&self, grid: &WavelengthGrid) -> Result<Bispectral> {
+        let columns = |grid: &WavelengthGrid| {
+            let columns = self.fluorescence.iter().map(|column| column.on(grid, Outside::Zero));
+            Ok::<_, Error>(DMatrix::from_vec(
+                grid.len(),
+                self.fluorescence.len(),
+                columns.collect::<Result<Vec<_>>>()?.concat(),
+            ))
+        };
+        let mut between_bands = columns(&self.excitation)?;
+        let reflected = self.reflectance.on(&self.excitation, Outside::Zero)?;
+        let ((first_nm, last_nm), values) = (self.reflectance.range_nm(), self.reflectance.values());
+        for (band, (nm, reflected)) in self.excitation.wavelengths_nm().iter().zip(reflected).enumerate() {
+            between_bands[(band, band)] += match *nm {
+                nm if nm < first_nm => values[0],
+                nm if nm > last_nm => values[values.len() - 1],
+                _ => reflected,
+            };
+        }
+        Ok(Bispectral {
+            reflectance: self.reflectance.on(grid, Outside::Refuse)?,
+            fluorescence: columns(grid)?,
+            excitation: self.excitation.clone(),
+            between_bands,
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! Sheets that fluoresce, beside folds of measured ones that were computed elsewhere wavelength by wavelength, every bounce exciting the sheet.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::common::{Workdir, is_there};
+
+/// Folds with their explanations; not part of the project.
+const FOLDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/fluorescence");
+const CAMERAS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/cameras");
+/// Noise of their facets.
+const SD: f64 = 1e-3;
+
+/// The matrix with this part of its fluorescence left: what lies next to the diagonal is reflected.
+fn weaker(matrix: &str, strength: f64) -> String {
+    let mut rows = matrix.lines();
+    let header = rows.next().unwrap();
+    let excitation_nm: Vec<f64> = header.split(',').skip(1).map(|nm| nm.parse().unwrap()).collect();
+    let weaker = |row: &str| {
+        let (emission, factors) = row.split_once(',').unwrap();
+        let emission_nm: f64 = emission.parse().unwrap();
+        let factors = factors.split(',').zip(&excitation_nm).map(|(factor, nm)| {
+            let factor: f64 = factor.parse().unwrap();
+            if emission_nm - nm > 10.5 { format!(",{}", strength * factor) } else { format!(",{factor}") }
+        });
+        format!("{emission}{}\n", factors.collect::<String>())
+    };
+    format!("{header}\n{}", rows.map(weaker).collect::<String>())
+}
+
+fn facets(sample: &Value) -> Vec<f64> {
+    let facets = sample["facet_rgb"].as_array().unwrap().iter();
+    facets.flat_map(|facet| facet.as_array().unwrap()).map(|value| value.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn measured_sheets_are_computed_as_elsewhere() {
+    if !is_there(FOLDS) {
+        return;
+    }
+    let folder = Workdir::new();
+    let mut compared = 0;
+    for entry in fs::read_dir(FOLDS).unwrap() {
+        let path = entry.unwrap().path();
+        let Some(name) = path.file_name().unwrap().to_str().unwrap().strip_suffix(".ndjson") else {
+            continue;
+        };
+        let (camera, angle_deg) =
+            if name.ends_with("-45-D65") { ("canon_eos_5d_mark_ii", 45) } else { ("nikon_d5100", 60) };
+        let (sheet, light) = name.rsplit_once('-').unwrap();
+        let (sheet, _) = sheet.rsplit_once('-').unwrap();
+        let (sheet, strength) = match sheet.rsplit_once('-') {
+            Some((sheet, "05")) => (sheet, 0.5),
+            Some((sheet, "02")) => (sheet, 0.2),
+            _ => (sheet, 1.0),
+        };
+        let matrix = fs::read_to_string(format!("{FOLDS}/donaldson/{sheet}.csv")).unwrap();
+        fs::write(folder.path().join("matrix.csv"), weaker(&matrix, strength)).unwrap();
+        let run = folder.sh(&format!(
+            "vkernel --angle-deg {angle_deg} --facets 10x10 --mesh facets | \
+             vforward -q --donaldson matrix.csv --camera {CAMERAS}/{camera}.csv --illuminant {light}"
+        ));
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{name}");
+        let ours = facets(&serde_json::from_str(run.stdout.lines().nth(1).unwrap()).unwrap());
+        let text = fs::read_to_string(&path).unwrap();
+        let theirs = facets(&serde_json::from_str(text.lines().nth(1).unwrap()).unwrap());
+        assert_eq!(ours.len(), theirs.len());
+        let deviations = ours.iter().zip(&theirs).map(|(ours, theirs)| (ours - theirs) / SD);
+        let chi_squared = deviations.map(|deviation| deviation * deviation).sum::<f64>() / ours.len() as f64;
+        println!("{name}: chi squared {chi_squared:.3} a value");
+        // of 600 values it spreads by 0.06
+        assert!((0.75..1.25).contains(&chi_squared), "{name}: chi squared {chi_squared} a value");
+        compared += 1;
+    }
+    assert!(compared >= 16, "{compared} folds");
+}
+
+/// A brightened sheet on the wavelengths of its scene, and the same sheet without what fluoresces.
+const SHEETS: &str = "
+printf 'emission_nm,360,400,450,500,550\n400,0.1,0.5,0,0,0\n450,0.2,0.1,0.7,0,0\n500,0.05,0.02,0.02,0.8,0\n550,0,0,0,0,0.9\n' > bright.csv
+printf 'emission_nm,360,400,450,500,550\n400,0,0.5,0,0,0\n450,0,0,0.7,0,0\n500,0,0,0,0.8,0\n550,0,0,0,0,0.9\n' > plain.csv
+printf 'nm,r\n400,0.5\n450,0.7\n500,0.8\n550,0.9\n' > r.csv
+vkernel --angle-deg 50 --facets 3x3 --sky 0.2 > scene.json
+";
+
+fn facets_of(folder: &Workdir, flags: &str) -> Vec<f64> {
+    let run = folder.sh(&format!("vforward scene.json --wavelengths-nm 400:550:50 {flags}"));
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{flags}");
+    facets(&serde_json::from_str(run.stdout.lines().nth(1).unwrap()).unwrap())
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    assert!(a.len() == b.len() && !a.is_empty());
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// What fluoresces is more the bluer the light; without it a matrix is a reflectance.
+#[test]
+fn a_matrix_without_fluorescence_is_a_reflectance() {
+    let folder = Workdir::new();
+    folder.sh(SHEETS);
+    let reflectance = facets_of(&folder, "--reflectance r.csv --sky-illuminant D75");
+    let plain = facets_of(&folder, "--donaldson plain.csv --sky-illuminant D75");
+    assert!(largest_difference(&plain, &reflectance) < 1e-12);
+    let [bulb, day] = ["2856K", "D75"].map(|light| {
+        let bright = facets_of(&folder, &format!("--donaldson bright.csv --illuminant {light}"));
+        largest_difference(&bright, &facets_of(&folder, &format!("--reflectance r.csv --illuminant {light}")))
+    });
+    assert!(bulb > 0.005 && day > 2.0 * bulb, "{bulb} {day}");
+}
+
+/// Of direct light the matrix makes what `--fluorescence` says for that light; of bounces more, as they excite the sheet again.
+#[test]
+fn direct_light_is_what_a_part_of_white_says() {
+    let folder = Workdir::new();
+    folder.sh(SHEETS);
+    folder.sh("vforward scene.json --wavelengths-nm 400:550:50 --donaldson bright.csv -o truth.ndjson");
+    folder.sh(
+        "python3 - <<'END'
+import json
+truth = json.loads(open('truth.ndjson').readlines()[1])['truth']
+parts = [total - r for total, r in zip(truth['total_radiance_factor'], truth['reflectance'])]
+open('f.csv', 'w').write('nm,f\\n' + ''.join(f'{nm},{f!r}\\n' for nm, f in zip(truth['wavelengths_nm'], parts)))
+END",
+    );
+    let both = |bounces: &str| {
+        let matrix = facets_of(&folder, &format!("--donaldson bright.csv --bounces {bounces}"));
+        let part =
+            facets_of(&folder, &format!("--reflectance r.csv --fluorescence f.csv --bounces {bounces}"));
+        (matrix, part)
+    };
+    let (matrix, part) = both("0");
+    assert!(largest_difference(&matrix, &part) < 1e-12);
+    let (matrix, part) = both("inf");
+    assert!(matrix.iter().zip(&part).all(|(matrix, part)| *matrix > part - 1e-12));
+    assert!(largest_difference(&matrix, &part) > 0.005);
+}
+
+#[test]
+fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
+    let folder = Workdir::new();
+    folder.sh(SHEETS);
+    let short = "--wavelengths-nm 400:550:50 --donaldson";
+    for (flags, want) in [
+        (format!("{short} bright.csv --illuminant D50 --illuminant D65"), "give one --illuminant"),
+        ("--donaldson bright.csv".to_owned(), "its samples cover 400..550 nm"),
+        (format!("{short} r.csv"), "column 'r' is not called by a wavelength of excitation"),
+        (format!("{short} bright.csv --reference-panel 0.9"), "cannot be used with"),
+    ] {
+        let run = folder.sh(&format!("vforward scene.json {flags}"));
+        assert!(run.status != 0 && run.stdout.is_empty(), "{flags}: {run:?}");
+        assert!(run.stderr.contains(want) && run.stderr.lines().count() == 1, "{flags}: {run:?}");
+    }
+}
