@@ -1,96 +1,131 @@
 #!/usr/bin/env python3
-"""Estimates of sheets that fluoresce and of those that light shines through, beside their true spectra: tables.
+"""Estimates of sheets that fluoresce and of those that light shines through, beside their true spectra; and how often sheets that do not are said to
+fluoresce: tables.
 
-    fluorescence.py TOOLS SHARED [--each]       TOOLS: folder of the tools; SHARED: folder of `fluorescence` and `thin`
+    fluorescence.py TOOLS SHARED [--each]   TOOLS: folder of the tools; SHARED: folder of `fluorescence`, `thin`, `data`, `train`, `real`
 
-Each fold with its exposure known (1) and free. RMSE and share within two standard deviations over 400 to 700 nm, of what is reflected and of the total
-radiance factor.
+RMSE and share within two standard deviations over 400 to 700 nm, of what is reflected and of the total radiance factor.
 """
 
 import argparse
 import csv
 import json
 import statistics
-import subprocess
+import tempfile
 from pathlib import Path
 
 import numpy as np
+from photographs import Tools, of_real
+
+EXPOSURES = (("exposure known", ["--exposure", "1"]), ("free", ["--exposure", "free"]))
+SETS = ("colorchecker_sg140", "vrhel_dupont_paint120", "vrhel_nature79", "vrhel_objects_nocloth129")
+PHOTOGRAPHS = ("train/*.json", "real/all_*.json", "real/one_*.json", "real/more/*.json")
+VISIBLE = ("lemon", "yellow")
 
 
 def curves(path):
-    rows = list(csv.reader(path.read_text().splitlines()))
-    rows = [row for row in rows if row and not row[0].startswith("#")]
-    nm = np.array([float(row[0]) for row in rows[1:]])
-    return nm, {name: np.array([float(row[n + 1]) for row in rows[1:]]) for n, name in enumerate(rows[0][1:])}
+    header, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
+    nm, *columns = np.array(rows, dtype=float).T
+    return nm, dict(zip(header[1:], columns, strict=True))
 
 
-def estimate(tools, path, flags):
-    made = subprocess.run(
-        [tools / "vestimate", "-q", *flags], stdin=path.open(), capture_output=True, text=True, check=False
-    )
-    lines = made.stdout.splitlines()
-    return json.loads(lines[1])["estimate"] if len(lines) > 1 else {"error": made.stderr.strip()}
-
-
-def beside(record, values, sds, nm, truth):
+def beside(record, field, nm, truth):
     own = np.array(record["wavelengths_nm"])
     seen = (own >= 400) & (own <= 700)
-    off = np.array(record[values])[seen] - np.interp(own[seen], nm, truth)
-    return float(np.sqrt(np.mean(off**2))), float(np.mean(abs(off) <= 2 * np.array(record[sds])[seen]))
+    off = np.array(record[field])[seen] - np.interp(own[seen], nm, truth)
+    sd = np.array(record[f"{field}_sd"])[seen]
+    return float(np.sqrt(np.mean(off**2))), float(np.mean(abs(off) <= 2 * sd))
 
 
-def line(name, all):
-    if not all:
-        return
+def judged(record, nm, reflected, total):
+    """What is off of an estimate, and what is said of it."""
+    rmse, within = beside(record, "reflectance", nm, reflected)
+    is_named = "fluorescence" in record
+    of_total, within_total = beside(record, "total_radiance_factor" if is_named else "reflectance", nm, total)
+    level = record["verdict"]["level"]
+    return dict(rmse=rmse, within=within, total=of_total, within_total=within_total, named=is_named, level=level)
+
+
+def row(name, all):
+    mean = {key: statistics.fmean(one[key] for one in all) for key in ("rmse", "within", "total", "within_total")}
     rmse = [one["rmse"] for one in all]
-    total = [one["total"] for one in all]
-    within = statistics.fmean(one["within"] for one in all)
-    within_total = statistics.fmean(one["within_total"] for one in all)
-    level = {level: sum(one["level"] == level for one in all) for level in ("good", "doubtful", "wrong")}
+    levels = " / ".join(str(sum(one["level"] == level for one in all)) for level in ("good", "doubtful", "wrong"))
     lies = sum(one["level"] == "good" and one["within"] < 0.7 for one in all)
     named = sum(one["named"] for one in all)
     print(
-        f"| {name} | {len(all)} | {statistics.fmean(rmse):.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {within:.0%} |"
-        f" {statistics.fmean(total):.3f} | {within_total:.0%} | {named} | {level['good']} / {level['doubtful']} / {level['wrong']} | {lies} |"
+        f"| {name} | {len(all)} | {mean['rmse']:.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {mean['within']:.0%} |"
+        f" {mean['total']:.3f} | {mean['within_total']:.0%} | {named} | {levels} | {lies} |",
+        flush=True,
     )
+
+
+def folds(tools, folder, kind, each):
+    """Rows of the computed folds of a folder, by what excites their sheets."""
+    nm, reflected = curves(folder / ("reflected.csv" if kind is None else "single.csv"))
+    total = curves(folder / "total.csv")[1] if kind is None else reflected
+    for how, flags in EXPOSURES:
+        found = {}
+        for path in sorted(folder.glob("*.ndjson")):
+            said, _ = tools.run("vestimate", "-q", *flags, given=path.read_text(encoding="utf-8"))
+            record = json.loads(said.splitlines()[1])["estimate"]
+            one = judged(record, nm, reflected[path.stem], total[path.stem])
+            of = kind or ("excited by visible light" if path.stem.startswith(VISIBLE) else "brightened")
+            found.setdefault(of, []).append(one)
+            if each:
+                print(how, path.stem, one, record.get("fluorescence"), record["verdict"]["because"])
+        for of, all in found.items():
+            row(f"{of}, {how}", all)
+
+
+def photograph(tools, sidecar):
+    with tempfile.TemporaryDirectory() as work:
+        records, truth = of_real(tools, sidecar, Path(work))
+    said, _ = tools.run("vestimate", "-q", given=records)
+    nm, reflected = (np.array(column) for column in zip(*sorted(truth.items()), strict=True))
+    return json.loads(said.splitlines()[1])["estimate"], nm, reflected
+
+
+def photographs(tools, folder, each):
+    all = []
+    for sidecar in sorted(folder.glob("*.json")):
+        record, nm, reflected = photograph(tools, sidecar)
+        total = json.loads(sidecar.read_text(encoding="utf-8")).get("total_radiance_factor", reflected)
+        all.append(judged(record, nm, reflected, total))
+        if each:
+            print(sidecar.stem, all[-1], record.get("fluorescence"), record["verdict"]["because"])
+    row("photographs", all)
+
+
+def without(tools, shared):
+    """Sheets that send out nothing, and how many are said to."""
+    scene, _ = tools.run("vkernel", "--angle-deg", 45)
+    for spectra in SETS:
+        sheets = shared / "data/reflectance" / f"{spectra}.csv"
+        facets = ("--camera", "canon-5d-mark-ii", "--noise-sd", "1e-3")
+        samples, _ = tools.run("vforward", "-q", "--reflectance", sheets, *facets, given=scene)
+        for how, flags in EXPOSURES:
+            said, _ = tools.run("vestimate", "-q", *flags, given=samples)
+            records = [json.loads(line)["estimate"] for line in said.splitlines()[1:]]
+            print(f"| {spectra}, {how} | {len(records)} | {sum('fluorescence' in one for one in records)} |", flush=True)
+    sidecars = [sidecar for pattern in PHOTOGRAPHS for sidecar in sorted(shared.glob(pattern))]
+    named = sum("fluorescence" in photograph(tools, sidecar)[0] for sidecar in sidecars)
+    print(f"| photographs | {len(sidecars)} | {named} |")
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("tools", type=Path)
+    parser.add_argument("tools")
     parser.add_argument("shared", type=Path)
-    parser.add_argument("--each", action="store_true")
-    parser.add_argument("--folder", default="fluorescence")
+    parser.add_argument("--each", action="store_true", help="a line for each sheet, too")
     args = parser.parse_args()
-    folder = args.shared / args.folder
-    is_thin = args.folder == "thin"
-    nm, reflected = curves(folder / ("single.csv" if is_thin else "reflected.csv"))
-    total_nm, total = (nm, reflected) if is_thin else curves(folder / "total.csv")
-    print("| | folds | reflected | median | worst | in 2 sd | total | in 2 sd | named | verdicts | good, off |")
+    tools = Tools(args.tools)
+    print("| | sheets | reflected | median | worst | in 2 sd | total | in 2 sd | named | good / doubtful / wrong | good and below 70 % |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
-    for how, flags in (("exposure known", ["--exposure", "1"]), ("free", ["--exposure", "free"])):
-        found = {}
-        for path in sorted(folder.glob("*.ndjson")):
-            name = path.stem
-            record = estimate(args.tools, path, flags)
-            if "reflectance" not in record:
-                print(name, record)
-                continue
-            truth = next(c for key, c in reflected.items() if name.startswith(key) or key.startswith(name))
-            key = name if name in total else next(k for k in total if name.startswith(k) or k.startswith(name))
-            exact = reflected.get(name, truth)
-            rmse, within = beside(record, "reflectance", "reflectance_sd", nm, exact)
-            has = "total_radiance_factor" in record
-            values = ("total_radiance_factor", "total_radiance_factor_sd") if has else ("reflectance", "reflectance_sd")
-            of_total, within_total = beside(record, *values, total_nm, total[key])
-            is_visible = name.startswith(("lemon", "yellow"))
-            kind = "thin" if is_thin else "excited by visible light" if is_visible else "brightened"
-            one = dict(rmse=rmse, within=within, total=of_total, within_total=within_total, named=has, level=record["verdict"]["level"])
-            found.setdefault(kind, []).append(one)
-            if args.each:
-                print(how, name, f"{rmse:.3f} {within:.0%} {of_total:.3f} {within_total:.0%}", record.get("fluorescence"), record["verdict"]["level"], record["verdict"]["because"][:110])
-        for kind, all in found.items():
-            line(f"{kind}, {how}", all)
+    folds(tools, args.shared / "fluorescence", None, args.each)
+    folds(tools, args.shared / "thin", "thin", args.each)
+    photographs(tools, args.shared / "fluorescence/photos", args.each)
+    print("\n| without fluorescence | sheets | named |\n|---|---|---|")
+    without(tools, args.shared)
 
 
 if __name__ == "__main__":

@@ -32,6 +32,8 @@ pub struct FacetData<'a> {
     sums: SumRule,
     /// What the sheet may send out itself; none where that is not asked.
     emission: Option<Emission>,
+    /// Whether it may fluoresce at all.
+    may_fluoresce: bool,
 }
 
 /// The sum of all facet values: measured, and of the terms of each source.
@@ -156,7 +158,14 @@ impl<'a> FacetData<'a> {
             peak,
             sums,
             emission: None,
+            may_fluoresce: true,
         })
+    }
+
+    /// The same data of a sheet that is known to send out nothing itself.
+    #[must_use]
+    pub fn without_fluorescence(self) -> Self {
+        Self { may_fluoresce: false, ..self }
     }
 
     /// The same data of a sheet that may send out light itself, the unknowns of which follow those of the scene. None where the exposure is what
@@ -167,7 +176,7 @@ impl<'a> FacetData<'a> {
     }
 
     fn may_emit(&self) -> bool {
-        self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
+        self.may_fluoresce && self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
     }
 
     /// How residuals of a sheet that sends out nothing change with each of what it may send out, at its usual size; empty where that is not asked.

@@ -7,7 +7,7 @@ use super::emission::{Emission, Excitation};
 use super::facets::{Facets, Second};
 use super::prior::Prior;
 use super::search::{Search, Sorted};
-use super::verdict::Doubt;
+use super::verdict::{Doubt, EXPLAINED};
 use crate::solve::forecast::ScoreTest;
 
 /// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual size at least: less changes nothing.
@@ -15,6 +15,9 @@ const LN_EVIDENCE_LEAST: f64 = -2.0;
 const LEAST_SIZE: f64 = 0.25;
 /// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
+/// Where facets are so many standard deviations further from a sheet that sends out nothing than chance has it, the model linear about that says nothing
+/// of others.
+const SURPRISE: f64 = 5.0;
 /// Probability from which on a sheet is said to fluoresce.
 const PROBABLE: f64 = 0.5;
 
@@ -41,9 +44,12 @@ impl Fluorescence {
     /// What it says against an estimate: light that bounces excites what visible light excites, too, which is not estimated.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
-        let remedy = "measure it with a bispectral instrument, or another sheet";
+        let remedy = "back a thin sheet with black card; what fluoresces needs a bispectral instrument";
         let because = || {
-            format!("this sheet fluoresces at about {:.0} nm; vfold can't measure it", self.rounded_peak_nm())
+            format!(
+                "this sheet fluoresces at about {:.0} nm, or light from behind comes through it; vfold can't measure it",
+                self.rounded_peak_nm()
+            )
         };
         (self.excited_by == Excitation::Visible).then(|| Doubt::new(because(), remedy))
     }
@@ -80,24 +86,30 @@ pub fn is_hopeful(
 /// Facets as data of a sheet that fluoresces, and their maximum under all spectra.
 pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
 
-/// The facets with each of the bands that the sheet may have, `plain` being their maximum without; hardly ever is there one.
+/// The facets with each of the bands that the sheet may have and that explain them, `plain` being their maximum without; hardly ever is there one.
 pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
     let [_, bands @ ..] = data.scene().emissions() else { return Vec::new() };
-    let Some(test) = Search::new(data, prior).score_test(plain) else { return Vec::new() };
+    let of_plain = Search::new(data, prior);
+    let Some(test) = of_plain.score_test(plain) else { return Vec::new() };
     let facets = Facets { data, gaussian: prior.broad() };
     let (logit, unknowns) = facets.split(&plain.solution.w);
     let reflectance = facets.reflectance_at(&plain.solution.w);
     let changes = data.changes_with(bands, &reflectance, unknowns.as_slice());
-    let hopeful =
-        |(emission, change): &(&Emission, DVector<f64>)| is_hopeful(&test, change, emission, &logit);
+    let is_unexplained = of_plain.surprise(plain) > SURPRISE;
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
-    for (emission, _) in bands.iter().zip(changes).filter(hopeful) {
+    for (emission, change) in bands.iter().zip(changes) {
+        if !is_unexplained && !is_hopeful(&test, &change, emission, &logit) {
+            continue;
+        }
         let Some(emitting) = data.emitting(emission) else { continue };
-        let numbers = plain.solution.w.len() + emission.unknowns();
-        let start = plain.solution.w.clone().resize_vertically(numbers, 0.0);
         let mut search = Search::new(&emitting, prior);
-        if let Some(sorted) = search.sort(((), 0.0), Some(start), best + LN_EVIDENCE_HOPELESS) {
+        let numbers = plain.solution.w.len() + emission.unknowns();
+        // where nothing explains the facets leads no further
+        let start = (!is_unexplained).then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
+        if let Some(sorted) = search.sort(((), 0.0), start, best + LN_EVIDENCE_HOPELESS)
+            && emitting.rms(&sorted.solution.at.residuals) < EXPLAINED * search.inflation()
+        {
             best = best.max(sorted.ln_evidence);
             all.push((emitting, sorted));
         }

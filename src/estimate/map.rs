@@ -16,6 +16,7 @@ use super::mixture::Mixture;
 use super::prior::Prior;
 use super::search::{Search, Sorted};
 use super::unknowns::{EXPOSURE, Expected};
+use super::verdict::EXPLAINED;
 use super::{Estimate, Fitted};
 use crate::error::{Error, Result};
 use crate::solve::posterior::Iteration;
@@ -90,21 +91,38 @@ impl<'a> Sortings<'a> {
 
     /// The mean of all maxima, whether or not all unknowns of the scene can be so, and what happened.
     fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Found<'a>, Trace)> {
-        let nothing = data.scene().emissions().first().filter(|_| !self.fluorescing.is_empty());
-        let plain = nothing.map_or_else(|| Some(data.clone()), |nothing| data.emitting(nothing))?;
-        let all = iter::once((plain, self.plain)).chain(self.fluorescing).enumerate();
+        let Self { plain, fluorescing, trace } = self;
+        let nothing = data.scene().emissions().first().filter(|_| !fluorescing.is_empty());
+        let Some(nothing) = nothing else {
+            let (found, more) = Found::among(vec![(data.clone(), plain)], prior)?;
+            return Some((found, [trace, more].concat()));
+        };
+        let all = iter::once((data.emitting(nothing)?, plain)).chain(fluorescing).collect();
+        let (found, more) = Found::among(all, prior)?;
+        let trace = [trace, more].concat();
+        if found.mixture.best.rms < EXPLAINED {
+            return Some((found, trace));
+        }
+        // evidence of sheets that do not explain the facets says nothing
+        let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
+        let (found, more) = Found::among(vec![(data.clone(), plain)], prior)?;
+        Some((found, [trace, more].concat()))
+    }
+}
+
+impl<'a> Found<'a> {
+    fn among(all: Vec<(FacetData<'a>, Sorted<(), Second>)>, prior: &Prior) -> Option<(Self, Trace)> {
+        let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
             all.map(|(n, (data, sorted))| (data, sorted.as_hypothesis(n))).unzip();
         sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
         let alternatives = Alternatives(alternatives);
         let mut search = Search::new(&alternatives, prior);
         let mixture = search.mixture(&sorted)?;
-        let trace = [self.trace, search.trace].concat();
-        Some((Found { mixture, alternatives }, trace))
+        let trace = search.trace;
+        Some((Self { mixture, alternatives }, trace))
     }
-}
 
-impl Found<'_> {
     /// As an estimate, as far off as another mixture says.
     fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
         let emission = |alternative: usize| self.alternatives.0[alternative].emission();

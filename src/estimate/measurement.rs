@@ -110,7 +110,9 @@ impl<'a> Inference<'a> {
         } else {
             exposure.or_expected(self.shown.and_then(|shown| shown.exposure))
         };
-        FacetData::new(self.model, measured, exposure, CUTOFF)
+        let data = FacetData::new(self.model, measured, exposure, CUTOFF)?;
+        // what a photograph has beyond an ideal fold's facets looks like fluorescence
+        Ok(if is_photograph { data.without_fluorescence() } else { data })
     }
 
     /// The spectrum of a sheet, by the method that its facets ask for, and how far it can be believed.

@@ -55,7 +55,7 @@ impl<H: Copy, S> Maximum<H, S> {
             values: model.values(&found.w),
             spread: model.spread(&found.w, &found.at),
             rms: model.rms(&found.at.residuals),
-            surprise: found.surprise(),
+            surprise: found.surprise(1.0),
             start: Start { w: found.w, inflation: 1.0, ..start },
             at: found.at,
             trace: found.trace,

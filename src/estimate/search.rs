@@ -127,6 +127,16 @@ impl<'a, F: Family> Search<'a, F> {
         self.prior.broad()
     }
 
+    /// How many times its size the noise is while hypotheses are sorted.
+    pub fn inflation(&self) -> f64 {
+        self.coarse
+    }
+
+    /// How far data are from a hypothesis at that noise, as [`Solution::surprise`].
+    pub fn surprise(&self, one: &Sorted<F::Hypothesis, F::Second>) -> f64 {
+        one.solution.surprise(self.coarse)
+    }
+
     /// How much more probable data become where the model may move in one more way about the maximum of a hypothesis.
     pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
         ScoreTest::about(&one.solution, self.coarse)

@@ -115,12 +115,12 @@ impl<S> Solution<S> {
         cost(inflation.powi(-2), &self.w, &self.at.residuals)
     }
 
-    /// How far the data are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
+    /// How far the data, the noise being `inflation` times its size, are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
     /// chi-squared, with as many degrees of freedom as there are data. At a false maximum it is far out.
     #[must_use]
-    pub fn surprise(&self) -> f64 {
+    pub fn surprise(&self, inflation: f64) -> f64 {
         let data = self.at.residuals.len() as f64;
-        (cost(1.0, &self.w, &self.at.residuals) - data) / (2.0 * data).sqrt()
+        (self.cost(inflation) - data) / (2.0 * data).sqrt()
     }
 }
 

@@ -10,6 +10,7 @@ mod clear_sky;
 mod colorimetry;
 #[path = "../common/mod.rs"]
 mod common;
+mod emission;
 mod false_maxima;
 mod fold_angle;
 mod image_facets;

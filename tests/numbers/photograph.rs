@@ -1,6 +1,7 @@
 //! The model of a photograph of a real sheet.
 
 use nalgebra::DVector;
+use vfold::estimate::emission::Emission;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::day::Day;
 use vfold::estimate::photograph::error::ModelError;
@@ -49,8 +50,12 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let ideal =
         [None, Some(Mistake::Angle), Some(Mistake::Exposure), Some(Mistake::Sky)].map(Hypothesis::ideal);
     let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
-    for hypothesis in all {
-        let model = PhotographModel::new(&parts[0], &kinds, hypothesis, prior.broad(), &whitening);
+    // a sheet that sends out nothing, then a brightened one
+    let emissions = Emission::all(wavelengths_nm, parts[0].eye.sun.as_slice());
+    let brightened = usual_hypotheses().into_iter().map(|one| (one, Some(&emissions[1])));
+    for (hypothesis, emission) in all.map(|one| (one, None)).chain(brightened) {
+        let of = (hypothesis, emission);
+        let model = PhotographModel::new(&parts[0], &kinds, of, prior.broad(), &whitening);
         // away from where all is as it is told
         let w = DVector::from_fn(model.unknowns(), |n, _| 0.3 * (n as f64 + 1.0).sin());
         let jacobian = model.linearise(&w).jacobian;

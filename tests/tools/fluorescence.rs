@@ -153,3 +153,91 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
         assert!(run.stderr.contains(want) && run.stderr.lines().count() == 1, "{flags}: {run:?}");
     }
 }
+
+/// A white sheet with a brightener, and the same without what fluoresces: emission about 440 nm, Gaussian in wavelengths.
+const WHITE: &str = "
+python3 - <<'END'
+from math import exp
+for name, strength in ('brightened', 1), ('white', 0):
+    with open(f'{name}.csv', 'w') as file:
+        excitation = range(300, 710, 10)
+        file.write('emission_nm,' + ','.join(map(str, excitation)) + '\\n')
+        for nm in range(380, 710, 10):
+            def factor(of):
+                if of == nm:
+                    return 0.86 - 0.65 / (1 + exp((nm - 402) / 8))
+                is_sent = nm - of > 10
+                return strength * is_sent * 0.06 * exp(-(((nm - 440) / 22) ** 2 + ((of - 365) / 28) ** 2) / 2)
+            file.write(f'{nm},' + ','.join(repr(factor(of)) for of in excitation) + '\\n')
+END
+for sheet in brightened white; do
+    vkernel --angle-deg 45 | vforward -q --donaldson $sheet.csv --illuminant D65 --wavelengths-nm 400:700:5 --camera canon-5d-mark-ii --noise-sd 1e-3 >$sheet.ndjson
+done
+";
+
+/// The record of a sheet, and its verdict.
+fn estimated(folder: &Workdir, sheet: &str, flags: &str) -> Value {
+    let run = folder.sh(&format!("vestimate -q {flags} {sheet}"));
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{sheet} {flags}");
+    serde_json::from_str::<Value>(run.stdout.lines().nth(1).unwrap()).unwrap()
+}
+
+fn numbers(of: &Value) -> Vec<f64> {
+    of.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
+}
+
+/// Root mean square difference from 430 nm on, where cameras see.
+fn rmse(estimate: &Value, field: &str, truth: &[f64]) -> f64 {
+    let nm = numbers(&estimate["wavelengths_nm"]);
+    let own = numbers(&estimate[field]);
+    let off: Vec<f64> =
+        (0..nm.len()).filter(|n| (430.0..=680.0).contains(&nm[*n])).map(|n| own[n] - truth[n]).collect();
+    (off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64).sqrt()
+}
+
+#[test]
+fn a_brightener_is_told_from_what_is_reflected() {
+    let folder = Workdir::new();
+    let run = folder.sh(WHITE);
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    for exposure in ["--exposure 1", "--exposure free"] {
+        let record = estimated(&folder, "brightened.ndjson", exposure);
+        let (estimate, truth) = (&record["estimate"], &record["truth"]);
+        let found = &estimate["fluorescence"];
+        let of = |name: &str| found[name].as_f64().unwrap();
+        let [reflected, total] = ["reflectance", "total_radiance_factor"].map(|field| numbers(&truth[field]));
+        let sizes = total.iter().zip(&reflected).map(|(total, reflected)| total - reflected);
+        let size = sizes.fold(0.0, f64::max);
+        println!("{exposure}: {found}, truly {size:.3}");
+        assert!(of("probability") > 0.9 && (425.0..=455.0).contains(&of("peak_nm")), "{found}");
+        assert!((of("size") - size).abs() < 4.0 * of("size_sd") + 0.02, "{found}: truly {size}");
+        let [of_reflected, of_total] = [("reflectance", &reflected), ("total_radiance_factor", &total)]
+            .map(|(f, truth)| rmse(estimate, f, truth));
+        assert!(of_reflected < 0.04 && of_total < 0.04, "{exposure}: {of_reflected} {of_total}");
+        let verdict = estimate["verdict"]["because"].as_str().unwrap();
+        assert!(verdict.contains("the sheet is brightened"), "{verdict}");
+        let record = estimated(&folder, "white.ndjson", exposure);
+        assert!(record["estimate"]["fluorescence"].is_null(), "{exposure}: {}", record["estimate"]);
+    }
+}
+
+/// Bounces excite these sheets, too, which is not estimated.
+#[test]
+fn what_visible_light_excites_is_named_and_never_good() {
+    if !is_there(FOLDS) {
+        return;
+    }
+    let folder = Workdir::new();
+    let sheets = ["lemon-crayon-on-card", "yellow-textile"];
+    let scenes = ["45-D65", "60-D50"];
+    let mut named = 0;
+    for sheet in sheets.iter().flat_map(|sheet| scenes.map(|scene| format!("{FOLDS}/{sheet}-{scene}.ndjson")))
+    {
+        for exposure in ["--exposure 1", "--exposure free"] {
+            let verdict = &estimated(&folder, &sheet, exposure)["estimate"]["verdict"];
+            assert_ne!(verdict["level"], "good", "{sheet} {exposure}: {verdict}");
+            named += usize::from(verdict["because"].as_str().unwrap().contains("this sheet fluoresces"));
+        }
+    }
+    assert!(named >= 6, "{named} of 8");
+}

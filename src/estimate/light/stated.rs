@@ -117,7 +117,7 @@ pub fn likelier(
     others: &Others,
     prior: &Prior,
 ) -> Option<Likelier> {
-    if stated.solution.surprise() < USUAL {
+    if stated.solution.surprise(1.0) < USUAL {
         return None;
     }
     let facets = Facets { data, gaussian: prior.broad() };

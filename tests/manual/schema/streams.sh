@@ -94,3 +94,6 @@ under_sky 40 64 0.02 >hazy.ndjson
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
     vestimate -q -o doubtful.ndjson
 vestimate photographs.ndjson -q -o photographed.ndjson 2>said || [ $? = 3 ]
+# a brightened sheet
+printf 'nm,f\n380,0\n410,0.08\n435,0.2\n460,0.12\n500,0.03\n540,0\n780,0\n' >brightener.csv
+vkernel --angle-deg 45 | vforward --reflectance cc24:white --fluorescence brightener.csv --noise-sd 1e-3 -q | vestimate -q -o brightened.ndjson
