@@ -131,7 +131,7 @@ impl<'a> Found<'a> {
         let shares = shares.iter().map(|(alternative, share)| (excitation(*alternative), *share));
         let first = data.scene().facets().bands() + data.scene().unknowns().len() + 1;
         let fluorescence = emission(0).and_then(|one| {
-            fluorescence::found(shares, (values, spread.as_ref()), &one.wavelengths_nm(), first)
+            fluorescence::found(shares, (values, spread.as_ref()), one.wavelengths_nm(), first)
         });
         Estimate { fluorescence, ..into_estimate(data, &self.mixture, off, trace) }
     }

@@ -23,6 +23,8 @@ pub struct Curve {
     pub reflectance: Vec<f64>,
     /// Standard deviation of each, drawn as a band of two to either side.
     pub reflectance_sd: Option<Vec<f64>>,
+    /// Total radiance factor per wavelength of a sheet that fluoresces, drawn thin: what it sends out is between the two.
+    pub total: Option<Vec<f64>>,
     /// True wavelengths and reflectances, drawn dashed.
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
     /// The light, where it was found along with the spectrum.
@@ -96,6 +98,10 @@ pub(super) fn draw_curve<B: DrawingBackend>(
         let line: Vec<_> = points(wavelengths_nm, reflectance.iter().copied()).collect();
         chart.draw_series(DashedLineSeries::new(line, 6, 4, truth))?;
     }
+    if let Some(total) = &curve.total {
+        let line = points(&curve.wavelengths_nm, total.iter().copied());
+        chart.draw_series(LineSeries::new(line, colour.stroke_width(1)))?;
+    }
     let line = points(&curve.wavelengths_nm, curve.reflectance.iter().copied());
     chart.draw_series(LineSeries::new(line, colour.stroke_width(2)))?;
     Ok(())
@@ -126,9 +132,10 @@ pub(super) fn ends<'a>(curves: impl Iterator<Item = &'a Curve>) -> Range<f64> {
     low..high
 }
 
-/// Where the axis of reflectance ends that holds all curves.
+/// Where the axis of reflectance ends that holds all curves: at 1, but for what fluoresces.
 pub(super) fn top<'a>(curves: impl Iterator<Item = &'a Curve>) -> f64 {
-    (1.08 * curves.map(highest).fold(0.0, f64::max)).min(1.0)
+    let highest = curves.map(highest).fold(0.0, f64::max);
+    (1.08 * highest).min(highest.max(1.0))
 }
 
 /// Outline of two standard deviations to either side of a curve.
@@ -153,7 +160,8 @@ impl Curve {
 pub(super) fn highest(curve: &Curve) -> f64 {
     let own = curve.edges().map_or_else(|| curve.reflectance.clone(), |[_, high]| high);
     let truth = curve.truth.iter().flat_map(|(_, reflectance)| reflectance.iter().copied());
-    own.into_iter().chain(truth).fold(0.05, f64::max)
+    let total = curve.total.iter().flatten().copied();
+    own.into_iter().chain(truth).chain(total).fold(0.05, f64::max)
 }
 
 fn points<'a>(

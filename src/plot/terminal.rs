@@ -177,6 +177,7 @@ mod tests {
             wavelengths_nm: vec![400.0, 700.0],
             reflectance: vec![0.0, 1.0],
             reflectance_sd: None,
+            total: None,
             truth: None,
             light: None,
         }

@@ -1,6 +1,6 @@
 //! What a sample says of its estimate.
 
-use std::fmt;
+use std::{fmt, iter};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -287,15 +287,17 @@ impl EstimateRecord {
         self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 
-    /// As a file of spectra has it, under that name.
-    #[must_use]
-    pub fn measured(&self, name: String) -> Measured {
-        Measured {
-            name,
-            wavelengths_nm: self.wavelengths_nm.clone(),
-            reflectance: self.reflectance.clone(),
-            reflectance_sd: self.reflectance_sd.clone(),
-        }
+    /// As a file of spectra has it, under that name; of a sheet that fluoresces also its total radiance factor, as `NAME total`.
+    pub fn measured(&self, name: String) -> impl Iterator<Item = Measured> {
+        let wavelengths_nm = self.wavelengths_nm.clone();
+        let total = self.total_radiance_factor.as_ref().map(|total| Measured {
+            name: format!("{name} total"),
+            wavelengths_nm: wavelengths_nm.clone(),
+            reflectance: total.clone(),
+            reflectance_sd: self.total_radiance_factor_sd.clone(),
+        });
+        let (reflectance, reflectance_sd) = (self.reflectance.clone(), self.reflectance_sd.clone());
+        iter::once(Measured { name, wavelengths_nm, reflectance, reflectance_sd }).chain(total)
     }
 
     /// What was fitted along, with its values.
@@ -424,11 +426,18 @@ impl Sample {
     /// An estimate of this sample as a curve to draw.
     #[must_use]
     pub fn curve(&self, estimate: &EstimateRecord) -> Curve {
-        let Measured { name, wavelengths_nm, reflectance, reflectance_sd } = estimate.measured(self.id());
         // vscore judges the truth; what is not a spectrum cannot be drawn.
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
         let light = estimate.light.as_ref().map(FoundLightRecord::curve);
-        Curve { name, wavelengths_nm, reflectance, reflectance_sd, truth, light }
+        Curve {
+            name: self.id(),
+            wavelengths_nm: estimate.wavelengths_nm.clone(),
+            reflectance: estimate.reflectance.clone(),
+            reflectance_sd: estimate.reflectance_sd.clone(),
+            total: estimate.total_radiance_factor.clone(),
+            truth,
+            light,
+        }
     }
 }
 

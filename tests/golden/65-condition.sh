@@ -25,8 +25,8 @@ vscore samples.ndjson --no-history --metrics rmse --condition M1 | cut -d , -f 1
 # an instrument's M1: what it measured is no reflectance
 printf 'nm,0.9,0.8\n400,100,90\n450,120,110\n500,100,90\n550,90,80\n700,90,80\n' > M1.csv
 sed 's/"truth":{[^}]*},//' samples.ndjson > bare.ndjson
-vscore bare.ndjson --truth M1.csv --metrics rmse --condition m1 --no-history | tail -n 3 | grep -o '"truth"\|"metrics":{[^}]*}'
-vscore samples.ndjson --truth M1.csv --metrics rmse --condition M1 --no-history | sed -n 2p | grep -o '"truth":{[^}]*}'
+vscore -q bare.ndjson --truth M1.csv --metrics rmse --condition m1 --no-history | tail -n 3 | grep -o '"truth"\|"metrics":{[^}]*}'
+vscore -q samples.ndjson --truth M1.csv --metrics rmse --condition M1 --no-history | sed -n 2p | grep -o '"truth":{[^}]*}'
 vscore samples.ndjson --truth M1.csv 2>&1 || echo $?
 sed '2s/"total_radiance_factor":\[1.0[0-9]*,/"total_radiance_factor":[-1,/' samples.ndjson | vscore --condition M1 2>&1 >/dev/null || echo $?
 sed '2s/"total_radiance_factor_sd":\[0.02,/"total_radiance_factor_sd":[/' samples.ndjson | vscore 2>&1 >/dev/null || echo $?

@@ -216,6 +216,10 @@ fn a_brightener_is_told_from_what_is_reflected() {
         assert!(of_reflected < 0.04 && of_total < 0.04, "{exposure}: {of_reflected} {of_total}");
         let verdict = estimate["verdict"]["because"].as_str().unwrap();
         assert!(verdict.contains("the sheet is brightened"), "{verdict}");
+        folder.sh(&format!("vestimate -q {exposure} brightened.ndjson --spectra both.csv -o both.ndjson"));
+        let header = fs::read_to_string(folder.path().join("both.csv")).unwrap();
+        let columns: Vec<&str> = header.lines().next().unwrap().split(',').collect();
+        assert!(columns.len() == 5 && columns[3].ends_with(" total"), "{columns:?}");
         let record = estimated(&folder, "white.ndjson", exposure);
         assert!(record["estimate"]["fluorescence"].is_null(), "{exposure}: {}", record["estimate"]);
     }

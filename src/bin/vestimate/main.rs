@@ -163,7 +163,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 trace.iter().try_for_each(|line| file.fields(line))?;
             }
             if args.spectra.is_some() {
-                measured.push(estimate.measured(id));
+                measured.extend(estimate.measured(id));
             }
         }
         drawing.as_mut().map_or(Ok(()), |drawing| drawing.add(&record, estimate.as_ref()))?;

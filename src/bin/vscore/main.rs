@@ -132,7 +132,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 groups.add(sample)?;
                 gallery.iter_mut().try_for_each(|gallery| gallery.add(sample))?;
                 if args.spectra.is_some() {
-                    measured.extend(sample.estimate()?.map(|estimate| estimate.measured(sample.id())));
+                    let estimate = sample.estimate()?;
+                    measured.extend(estimate.iter().flat_map(|estimate| estimate.measured(sample.id())));
                 }
             }
             Record::Other(_) => {}

@@ -1,7 +1,8 @@
 //! Light that a sheet sends out itself where it fluoresces, as a fraction f of white under the light that falls on it.
 //!
 //! What is reflected bounces on; what is sent out is added once, where the light that excites it is taken in by the sheet and so hardly
-//! bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is log-normal in wavenumbers, with its size, place and width unknown; a sheet has one band or none, which is weighed by evidence.
+//! bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is log-normal in wavenumbers, with its size, place and width unknown; a sheet
+//! has one band or none, which is weighed by evidence.
 
 use std::iter;
 
@@ -57,7 +58,7 @@ const PASTEL_LOGIT: f64 = 0.5;
 /// Stilbenes in paper, cloth and plastics: they take in 300 to 430 nm and send out about 400 to 500 nm, and a brightened sheet is brightest at 435 to
 /// 440 nm (A. E. Siegrist et al., "Optical brighteners", *Ullmann's Encyclopedia of Industrial Chemistry* 25 (2012)). A size is as often below a tenth of
 /// white as above, two of three lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed cloth has one, of
-/// other white sheets, such as painted ones, fewer.
+/// other white sheets, such as painted ones, fewer. Where it takes in most, at 370 nm, the logit of reflectance has fallen by about three, from 0.8 to 0.2.
 const BRIGHTENER: Band = Band {
     excited_by: Excitation::Ultraviolet,
     most: 0.7,
@@ -98,7 +99,7 @@ const LEAST_POWER: f64 = 0.02;
 pub struct Emission {
     /// What is known of it; none of a sheet that sends out nothing.
     band: Option<&'static Band>,
-    wavenumbers_per_cm: DVector<f64>,
+    wavelengths_nm: DVector<f64>,
     /// Power of the light at the usual peak over that in every waveband.
     by_light: DVector<f64>,
     /// Change of the logit of reflectance with the fall.
@@ -152,14 +153,8 @@ impl Emission {
         let power = DVector::from_column_slice(power);
         let power = power.map(|own| own.max(LEAST_POWER * power.mean()));
         let falling = wavelengths_nm.map(|nm| -(FALL_NM - nm).max(0.0) / FALL_WITHIN_NM);
-        let wavenumbers_per_cm = wavelengths_nm.map(|nm| 1e7 / nm);
-        let mut own = Self {
-            band,
-            wavenumbers_per_cm,
-            by_light: power.map(f64::recip),
-            falling,
-            usual: DVector::zeros(0),
-        };
+        let mut own =
+            Self { band, wavelengths_nm, by_light: power.map(f64::recip), falling, usual: DVector::zeros(0) };
         if let Some(band) = band {
             own.by_light *= power[own.nearest(band.peak_per_cm.mean)];
         }
@@ -204,13 +199,13 @@ impl Emission {
 
     /// Wavelengths, nm.
     #[must_use]
-    pub fn wavelengths_nm(&self) -> Vec<f64> {
-        self.wavenumbers_per_cm.iter().map(|per_cm| 1e7 / per_cm).collect()
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        self.wavelengths_nm.as_slice()
     }
 
     /// The place of the waveband that is nearest to a wavenumber.
     fn nearest(&self, per_cm: f64) -> usize {
-        self.wavenumbers_per_cm.map(|own| (own - per_cm).abs()).imin()
+        self.wavelengths_nm.map(|nm| (1e7 / nm - per_cm).abs()).imin()
     }
 
     /// What is sent out where the unknowns are `w`, one standard normal number each.
@@ -232,8 +227,8 @@ impl Emission {
         let mut fraction = self.by_light.clone();
         let mut slopes = DMatrix::zeros(bands, UNKNOWNS);
         let mut ln_curvatures = vec![[[0.0; UNKNOWNS]; UNKNOWNS]; bands];
-        for (n, wavenumber) in self.wavenumbers_per_cm.iter().enumerate() {
-            let u = (wavenumber - peak) / width;
+        for (n, nm) in self.wavelengths_nm.iter().enumerate() {
+            let u = (1e7 / nm - peak) / width;
             let Some([ln_shape, slope, bend]) = ln_log_normal(u) else {
                 fraction[n] = 0.0;
                 continue;

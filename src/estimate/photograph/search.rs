@@ -182,14 +182,16 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds a fold of a sheet that is brightened, if that may be so: whichever fold has most evidence. The others then are of a sheet that is known to
-/// send out nothing. Of dyes that visible light excites nothing is asked: what real sheets do beyond all kinds that are known looks like them.
+/// Adds a fold of a sheet that is brightened, if that may be so: whichever real one has most evidence. The others then are of a sheet that is known to
+/// send out nothing. Of ideal folds nothing is asked, as the rounding of a JPEG looks like light that is sent out, nor of dyes that visible light
+/// excites: what real sheets do beyond all kinds that are known looks like them.
 fn add_fluorescing(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
     all: &mut Vec<Tried>,
 ) -> Option<()> {
-    let best = all.iter().find(|one| one.hypothesis.has_bounces())?;
+    let is_asked = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
+    let best = all.iter().find(is_asked)?;
     let (w, ln_best) = (best.solution.w.clone(), best.ln_weight());
     let place =
         photograph.emissions().iter().position(|one| one.excitation() == Some(Excitation::Ultraviolet))?;
