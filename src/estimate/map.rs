@@ -114,7 +114,7 @@ impl<'a> Found<'a> {
     fn among(all: Vec<(FacetData<'a>, Sorted<(), Second>)>, prior: &Prior) -> Option<(Self, Trace)> {
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
-            all.map(|(n, (data, sorted))| (data, sorted.as_hypothesis(n))).unzip();
+            all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
         sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
         let alternatives = Alternatives(alternatives);
         let mut search = Search::new(&alternatives, prior);

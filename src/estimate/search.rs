@@ -71,7 +71,7 @@ pub struct Sorted<H, S> {
 
 impl<H, S> Sorted<H, S> {
     /// The same as another hypothesis.
-    pub fn as_hypothesis<T>(self, hypothesis: T) -> Sorted<T, S> {
+    pub fn for_hypothesis<T>(self, hypothesis: T) -> Sorted<T, S> {
         let Self { ln_share, ln_evidence, solution, .. } = self;
         Sorted { hypothesis, ln_share, ln_evidence, solution }
     }
