@@ -40,8 +40,9 @@ def beside(record, field, nm, truth):
 def judged(record, nm, reflected, total):
     """What is off of an estimate, and what is said of it."""
     rmse, within = beside(record, "reflectance", nm, reflected)
-    is_named = "fluorescence" in record
-    of_total, within_total = beside(record, "total_radiance_factor" if is_named else "reflectance", nm, total)
+    fluoresces = "fluorescence" in record
+    is_named = fluoresces or "light_through" in record
+    of_total, within_total = beside(record, "total_radiance_factor" if fluoresces else "reflectance", nm, total)
     level = record["verdict"]["level"]
     return dict(rmse=rmse, within=within, total=of_total, within_total=within_total, named=is_named, level=level)
 
@@ -96,6 +97,10 @@ def photographs(tools, folder, each):
     row("photographs", all)
 
 
+def named(records, field):
+    return sum(field in one for one in records)
+
+
 def without(tools, shared):
     """Sheets that send out nothing, and how many are said to."""
     scene, _ = tools.run("vkernel", "--angle-deg", 45)
@@ -106,10 +111,10 @@ def without(tools, shared):
         for how, flags in EXPOSURES:
             said, _ = tools.run("vestimate", "-q", *flags, given=samples)
             records = [json.loads(line)["estimate"] for line in said.splitlines()[1:]]
-            print(f"| {spectra}, {how} | {len(records)} | {sum('fluorescence' in one for one in records)} |", flush=True)
+            print(f"| {spectra}, {how} | {len(records)} | {named(records, 'fluorescence')} | {named(records, 'light_through')} |", flush=True)
     sidecars = [sidecar for pattern in PHOTOGRAPHS for sidecar in sorted(shared.glob(pattern))]
-    named = sum("fluorescence" in photograph(tools, sidecar)[0] for sidecar in sidecars)
-    print(f"| photographs | {len(sidecars)} | {named} |")
+    records = [photograph(tools, sidecar)[0] for sidecar in sidecars]
+    print(f"| photographs | {len(records)} | {named(records, 'fluorescence')} | {named(records, 'light_through')} |")
 
 
 def main():
@@ -124,7 +129,7 @@ def main():
     folds(tools, args.shared / "fluorescence", None, args.each)
     folds(tools, args.shared / "thin", "thin", args.each)
     photographs(tools, args.shared / "fluorescence/photos", args.each)
-    print("\n| without fluorescence | sheets | named |\n|---|---|---|")
+    print("\n| opaque, without fluorescence | sheets | said to fluoresce | said to be thin |\n|---|---|---|---|")
     without(tools, args.shared)
 
 

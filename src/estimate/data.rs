@@ -84,13 +84,18 @@ pub struct SecondDerivatives {
     emitted: Option<Emitted>,
 }
 
-/// What the sheet sends out at a point, and what light that is sent out makes of the terms, as reflectance does of direct light.
+/// What the sheet sends out at a point.
 struct Emitted {
     sent: Sent,
-    /// `1 + pt` for each term and its pole: waveband by term.
+    made: Made,
+}
+
+/// What light that is sent out makes of the terms, each waveband sending out as much as the sheet can: waveband by term, with derivatives by
+/// reflectance.
+struct Made {
     terms: DMatrix<f64>,
-    /// Derivatives by reflectance.
     slopes: DMatrix<f64>,
+    curvatures: DMatrix<f64>,
 }
 
 /// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
@@ -194,10 +199,17 @@ impl<'a> FacetData<'a> {
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
         // datum by waveband, each sending out as much as white reflects
-        let by_band = self.channels.columns_of(&self.emitted_terms(&terms), &amounts, 0);
+        let by_band = self.channels.columns_of(&self.made_terms(reflectance, &terms, 0), &amounts, 0);
+        let of_sheet = |emission: &Emission| {
+            let mut sent = emission.usual().clone();
+            sent.iter_mut()
+                .zip(reflectance)
+                .for_each(|(sent, r)| *sent *= r.powi(emission.power_of_reflectance()));
+            sent
+        };
         let residuals = |values: &DVector<f64>| self.left_over(self.exposure_of(values, || 1.0), values);
         let before = residuals(&values);
-        let change = |emission: &Emission| &before - residuals(&(&values + &by_band * emission.usual()));
+        let change = |emission: &Emission| &before - residuals(&(&values + &by_band * of_sheet(emission)));
         emissions.iter().map(change).collect()
     }
 
@@ -213,22 +225,52 @@ impl<'a> FacetData<'a> {
         self.scene.unknowns().len() + self.emission.as_ref().map_or(0, Emission::unknowns)
     }
 
-    /// What the sheet sends out at a point, `terms` and `slopes` being those of what it reflects; none if nothing.
-    fn emitted(&self, unknowns: &[f64], terms: &DMatrix<f64>, slopes: &DMatrix<f64>) -> Option<Emitted> {
+    /// What the sheet sends out; none if nothing.
+    fn sent(&self, unknowns: &[f64]) -> Option<(&Emission, Sent)> {
         let emission = self.emission.as_ref().filter(|emission| emission.unknowns() > 0)?;
-        let mut of_slopes = slopes.clone();
-        of_slopes.column_iter_mut().zip(self.signed_poles()).for_each(|(mut column, pole)| column *= pole);
-        let sent = emission.at(&unknowns[self.scene.unknowns().len()..]);
-        Some(Emitted { sent, terms: self.emitted_terms(terms), slopes: of_slopes })
+        Some((emission, emission.at(&unknowns[self.scene.unknowns().len()..])))
     }
 
-    /// What light that is sent out makes of the terms.
-    fn emitted_terms(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut emitted = terms.clone();
-        for (mut column, pole) in emitted.column_iter_mut().zip(self.signed_poles()) {
-            column.apply(|t| *t = 1.0 + pole * *t);
+    /// [`Made::terms`] alone.
+    fn made_terms(&self, reflectance: &[f64], terms: &DMatrix<f64>, power: i32) -> DMatrix<f64> {
+        let mut made = terms.clone();
+        for (mut column, pole) in made.column_iter_mut().zip(self.signed_poles()) {
+            for (t, r) in column.iter_mut().zip(reflectance) {
+                *t = r.powi(power) * (1.0 + pole * *t);
+            }
         }
-        emitted
+        made
+    }
+
+    /// What the sheet sends out at a point, `terms` being those of what it reflects with their derivatives; none if nothing.
+    fn emitted(&self, reflectance: &[f64], unknowns: &[f64], terms: [&DMatrix<f64>; 3]) -> Option<Emitted> {
+        let (emission, sent) = self.sent(unknowns)?;
+        Some(Emitted { sent, made: self.made(reflectance, terms, emission.power_of_reflectance()) })
+    }
+
+    /// What light that is sent out makes of the terms t: `rᵖ(1 + gt)`, g being the pole, r the reflectance, where it goes with a power p of that.
+    fn made(&self, reflectance: &[f64], [terms, slopes, curvatures]: [&DMatrix<f64>; 3], power: i32) -> Made {
+        let poles = self.signed_poles();
+        let (mut all, mut by, mut bend) = (terms.clone(), slopes.clone(), curvatures.clone());
+        for (term, pole) in poles.iter().enumerate() {
+            for (n, r) in reflectance.iter().enumerate() {
+                let bounced = [terms, slopes, curvatures].map(|of| pole * of[(n, term)]);
+                let plain = [1.0 + bounced[0], bounced[1], bounced[2]];
+                let [value, slope, curvature] = if power == 0 {
+                    plain
+                } else {
+                    let p = f64::from(power);
+                    let of_r = [r.powi(power), p * r.powi(power - 1), p * (p - 1.0) * r.powi(power - 2)];
+                    [
+                        of_r[0] * plain[0],
+                        of_r[1] * plain[0] + of_r[0] * plain[1],
+                        of_r[2] * plain[0] + 2.0 * of_r[1] * plain[1] + of_r[0] * plain[2],
+                    ]
+                };
+                (all[(n, term)], by[(n, term)], bend[(n, term)]) = (value, slope, curvature);
+            }
+        }
+        Made { terms: all, slopes: by, curvatures: bend }
     }
 
     /// Poles with their signs, one per term.
@@ -317,10 +359,9 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
         let mut terms = self.scene.facets().terms_of(reflectance);
-        if let Some(Emitted { sent, terms: of_emission, .. }) =
-            self.emitted(unknowns, &terms, &DMatrix::zeros(0, terms.ncols()))
-        {
-            terms += scaled_rows(&of_emission, sent.fraction.iter());
+        if let Some((emission, sent)) = self.sent(unknowns) {
+            let made = self.made_terms(reflectance, &terms, emission.power_of_reflectance());
+            terms += scaled_rows(&made, sent.fraction.iter());
         }
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
@@ -336,13 +377,11 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
-        let emitted = self.emitted(unknowns, &terms, &slopes);
-        if let Some(Emitted { sent, terms: of_emission, slopes: of_slopes }) = &emitted {
-            terms += scaled_rows(of_emission, sent.fraction.iter());
-            slopes += scaled_rows(of_slopes, sent.fraction.iter());
-            for (mut column, pole) in curvatures.column_iter_mut().zip(self.signed_poles()) {
-                column.iter_mut().zip(&sent.fraction).for_each(|(value, f)| *value *= 1.0 + f * pole);
-            }
+        let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
+        if let Some(Emitted { sent, made }) = &emitted {
+            terms += scaled_rows(&made.terms, sent.fraction.iter());
+            slopes += scaled_rows(&made.slopes, sent.fraction.iter());
+            curvatures += scaled_rows(&made.curvatures, sent.fraction.iter());
         }
         let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
@@ -351,7 +390,7 @@ impl<'a> FacetData<'a> {
         let (bands, scene) = (slopes.nrows(), by_unknown.ncols());
         let mut jacobian = self.channels.columns_of(&slopes, &now, self.unknowns());
         jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
-        if let Some(Emitted { sent, terms, .. }) = &emitted {
+        if let Some(Emitted { sent, made: Made { terms, .. } }) = &emitted {
             for (n, by) in sent.slopes.column_iter().enumerate() {
                 let column = self.channels.parts_of(&scaled_rows(terms, by.iter())) * &now;
                 jacobian.column_mut(bands + scene + n).copy_from(&column);
@@ -396,7 +435,7 @@ impl<'a> FacetData<'a> {
         unknowns
             .view_mut((0, 0), (scene, scene))
             .copy_from(&(at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers))));
-        if let Some(Emitted { sent, terms, slopes }) = &at.emitted {
+        if let Some(Emitted { sent, made: Made { terms, slopes, .. } }) = &at.emitted {
             let along = |terms: &DMatrix<f64>, amounts: &DVector<f64>| {
                 at.exposure * self.channels.along(multipliers, terms, amounts)
             };

@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 use nalgebra::{DMatrix, DVector};
 
 use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
-use super::emission::Fall;
+use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
@@ -71,6 +71,18 @@ impl Facets<'_> {
         (logit, unknowns)
     }
 
+    /// What the sheet sends out itself; none where that is not asked.
+    fn sent(&self, reflectance: &[f64], unknowns: &DVector<f64>) -> Option<Sent> {
+        let emission = self.data.emission()?;
+        let mut sent = emission.at(&unknowns.as_slice()[self.data.scene().unknowns().len()..]);
+        for (band, r) in reflectance.iter().enumerate() {
+            let with_reflectance = r.powi(emission.power_of_reflectance());
+            sent.fraction[band] *= with_reflectance;
+            sent.slopes.row_mut(band).scale_mut(with_reflectance);
+        }
+        Some(sent)
+    }
+
     /// How logits fall towards what excites the sheet, and the place of that among the unknowns.
     fn fall(&self, unknowns: &DVector<f64>) -> Option<(usize, Fall<'_>)> {
         let scene = self.data.scene().unknowns().len();
@@ -113,9 +125,9 @@ impl SpectrumModel for Facets<'_> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
         let Residuals { exposure, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
-        let of_scene = self.data.scene().unknowns();
-        let sent = self.data.emission().map(|emission| emission.at(&unknowns.as_slice()[of_scene.len()..]));
-        let of_scene = of_scene.iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
+        let sent = self.sent(&reflectance, &unknowns);
+        let of_scene =
+            self.data.scene().unknowns().iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
         let sent = sent.into_iter().flat_map(|sent| Vec::from(sent.fraction.data));
         reflectance.into_iter().chain(of_scene).chain([exposure]).chain(sent).collect()
     }
@@ -125,7 +137,8 @@ impl SpectrumModel for Facets<'_> {
         let (bands, coordinates) = self.gaussian.basis().shape();
         let exposure = &at.second.exposure;
         let scene = self.data.scene().unknowns().len();
-        let sent = self.data.emission().map(|emission| emission.at(&unknowns.as_slice()[scene..]));
+        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
+        let sent = self.sent(&reflectance, &unknowns);
         let place_of_exposure = bands + scene;
         let point = place_of_exposure + 1 + sent.as_ref().map_or(0, |sent| sent.fraction.len());
         // Derivatives of the values by what is whitened: value by number.
@@ -139,9 +152,14 @@ impl SpectrumModel for Facets<'_> {
             slopes.view_mut((0, coordinates + place), (bands, 1)).copy_from(&(sd * falling));
         }
         if let Some(sent) = sent {
-            slopes
-                .view_mut((place_of_exposure + 1, coordinates + scene), sent.slopes.shape())
-                .copy_from(&sent.slopes);
+            let first = place_of_exposure + 1;
+            slopes.view_mut((first, coordinates + scene), sent.slopes.shape()).copy_from(&sent.slopes);
+            let mut by_spectrum = slopes.view_mut((first, 0), (bands, coordinates));
+            by_spectrum.copy_from(self.gaussian.basis());
+            let power = f64::from(self.data.emission().map_or(0, Emission::power_of_reflectance));
+            for (band, r) in reflectance.iter().enumerate() {
+                by_spectrum.row_mut(band).scale_mut(power * sent.fraction[band] * (1.0 - r));
+            }
         }
         slopes.row_mut(place_of_exposure).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
         // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S these derivatives.

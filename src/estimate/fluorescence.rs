@@ -11,7 +11,7 @@ use super::verdict::{Doubt, EXPLAINED};
 use crate::solve::forecast::ScoreTest;
 
 /// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual size at least: less changes nothing.
-const LN_EVIDENCE_LEAST: f64 = -2.0;
+const LN_EVIDENCE_LEAST: f64 = -1.5;
 const LEAST_SIZE: f64 = 0.25;
 /// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
@@ -20,6 +20,9 @@ const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 const SURPRISE: f64 = 5.0;
 /// Probability from which on a sheet is said to fluoresce.
 const PROBABLE: f64 = 0.5;
+
+/// Light through a sheet is worth a word from this part of white on.
+const NOTEWORTHY: f64 = 0.01;
 
 /// What a sheet sends out itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,27 +47,28 @@ impl Fluorescence {
     /// What it says against an estimate: light that bounces excites what visible light excites, too, which is not estimated.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
-        let remedy = "back a thin sheet with black card; what fluoresces needs a bispectral instrument";
+        let remedy = "measure it with a bispectral instrument";
         let because = || {
-            format!(
-                "this sheet fluoresces at about {:.0} nm, or light from behind comes through it; vfold can't measure it",
-                self.rounded_peak_nm()
-            )
+            format!("this sheet fluoresces at about {:.0} nm; vfold can't measure it", self.rounded_peak_nm())
         };
         (self.excited_by == Excitation::Visible).then(|| Doubt::new(because(), remedy))
     }
 
-    /// What a brightener does, in words.
+    /// What a brightener does, or light from behind, in words.
     #[must_use]
-    pub fn brightener(&self) -> Option<String> {
+    pub fn words(&self) -> Option<String> {
         let Self { probability, size, size_sd, .. } = self;
-        (self.excited_by == Excitation::Ultraviolet).then(|| {
-            format!(
-                "with a probability of {:.0} % the sheet is brightened: at about {:.0} nm it sends out {size:.2} ± {size_sd:.2} of white under this light",
-                100.0 * probability,
+        let per_cent = 100.0 * probability;
+        match self.excited_by {
+            Excitation::Ultraviolet => Some(format!(
+                "with a probability of {per_cent:.0} % the sheet is brightened: at about {:.0} nm it sends out {size:.2} ± {size_sd:.2} of white under this light",
                 self.rounded_peak_nm()
-            )
-        })
+            )),
+            Excitation::Behind if *size > NOTEWORTHY => Some(format!(
+                "with a probability of {per_cent:.0} % light from behind comes through the sheet, {size:.2} ± {size_sd:.2} of white; back it with black card"
+            )),
+            Excitation::Behind | Excitation::Visible => None,
+        }
     }
 
     /// Nobody sees a peak closer than that.
@@ -99,6 +103,10 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
     for (emission, change) in bands.iter().zip(changes) {
+        // an exposure that is free takes up what comes from behind
+        if emission.excitation() == Some(Excitation::Behind) && data.fits_exposure() {
+            continue;
+        }
         if !is_unexplained && !is_hopeful(&test, &change, emission, &logit) {
             continue;
         }
@@ -131,15 +139,20 @@ pub fn found(
     wavelengths_nm: &[f64],
     first: usize,
 ) -> Option<Fluorescence> {
-    let (mut by_ultraviolet, mut by_light) = (0.0, 0.0);
+    let (mut by_ultraviolet, mut by_light, mut from_behind) = (0.0, 0.0, 0.0);
     for (excited_by, share) in shares {
         match excited_by {
             Some(Excitation::Ultraviolet) => by_ultraviolet += share,
             Some(Excitation::Visible) => by_light += share,
+            Some(Excitation::Behind) => from_behind += share,
             None => {}
         }
     }
-    let probability = by_ultraviolet + by_light;
+    let (probability, excited_by) = match by_ultraviolet + by_light {
+        fluorescence if fluorescence < from_behind => (from_behind, Excitation::Behind),
+        fluorescence if by_ultraviolet > by_light => (fluorescence, Excitation::Ultraviolet),
+        fluorescence => (fluorescence, Excitation::Visible),
+    };
     if probability < PROBABLE {
         return None;
     }
@@ -151,7 +164,7 @@ pub fn found(
     Some(Fluorescence {
         // shares may add up to a rounding more than 1
         probability: probability.min(1.0),
-        excited_by: if by_ultraviolet > by_light { Excitation::Ultraviolet } else { Excitation::Visible },
+        excited_by,
         peak_nm: wavelengths_nm[peak],
         size: sent[peak],
         size_sd: sd(&|all| all.column(first + peak).norm()),

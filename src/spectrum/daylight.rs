@@ -43,7 +43,7 @@ pub fn daylight_weights(cct_k: f64) -> [f64; 2] {
 /// temperatures; any other light as it is.
 ///
 /// # Errors
-/// As [`daylight`].
+/// [`Error::Spectrum`] if a table is damaged.
 ///
 /// # Example
 /// ```

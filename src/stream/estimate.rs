@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
-use super::fluorescence::FluorescenceRecord;
+use super::fluorescence::{FluorescenceRecord, LightThroughRecord};
 use super::light_found::FoundLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
@@ -14,6 +14,7 @@ use super::sample::{Sample, checked, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
+use crate::estimate::emission::Excitation;
 use crate::estimate::noise::Noise;
 use crate::estimate::photograph::Finding;
 use crate::estimate::unknowns::Unknown;
@@ -71,6 +72,9 @@ pub struct EstimateRecord {
     /// What the sheet sends out itself, if it probably does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluorescence: Option<FluorescenceRecord>,
+    /// Light from behind that comes through the sheet, if some probably does.
+    #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
+    light_through: Option<LightThroughRecord>,
     /// What was fitted along.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
@@ -341,7 +345,9 @@ impl Sample {
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate.total_reflectance", estimate.total.iter().flatten())?;
-        let fluorescence = estimate.fluorescence.as_ref();
+        let sent = estimate.fluorescence.as_ref();
+        let of = |is_behind: bool| sent.filter(|found| (found.excited_by == Excitation::Behind) == is_behind);
+        let (fluorescence, through) = (of(false), of(true));
         finite(
             "estimate.total_radiance_factor",
             fluorescence
@@ -368,6 +374,7 @@ impl Sample {
             total_radiance_factor: fluorescence.map(|found| found.total_radiance_factor.clone()),
             total_radiance_factor_sd: fluorescence.map(|found| found.total_radiance_factor_sd.clone()),
             fluorescence: fluorescence.map(FluorescenceRecord::of).transpose()?,
+            light_through: through.map(LightThroughRecord::of).transpose()?,
             fit: Quantities::of(estimate.fitted.iter().map(|fitted| (fitted.unknown, fitted.into()))),
             joined: joined.to_vec(),
             day: estimate

@@ -34,3 +34,29 @@ impl FluorescenceRecord {
         Ok(Self { probability, peak_nm, size, size_sd })
     }
 }
+
+/// Light from behind that comes through a thin sheet, added to what it reflects.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(super) struct LightThroughRecord {
+    /// Probability that there is any.
+    #[schemars(range(min = 0, max = 1))]
+    probability: f64,
+    /// The most that is sent out in a waveband, as a fraction of white.
+    #[schemars(range(min = 0))]
+    size: f64,
+    /// Standard deviation of the size.
+    #[schemars(range(min = 0))]
+    size_sd: f64,
+}
+
+impl LightThroughRecord {
+    /// That of a sheet.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn of(found: &Fluorescence) -> Result<Self> {
+        let &Fluorescence { probability, size, size_sd, .. } = found;
+        finite("estimate.light_through", [&probability, &size, &size_sd])?;
+        Ok(Self { probability, size, size_sd })
+    }
+}

@@ -33,7 +33,7 @@ fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
     let expected = Exposure::Expected(Normal { mean: 0.1, sd: 0.2 });
     for exposure in [Exposure::Known(1.2), expected] {
         let plain = FacetData::new(&scene, &Measured { rgb: &rgb, sd: &sd }, exposure, 1e-2).unwrap();
-        for emission in &scene.emissions()[1..3] {
+        for emission in &scene.emissions()[1..4] {
             let data = plain.emitting(emission).unwrap();
             // all but the fall, which moves logits
             let w = [0.2, -0.4, 0.3, 0.0];

@@ -97,3 +97,6 @@ vestimate photographs.ndjson -q -o photographed.ndjson 2>said || [ $? = 3 ]
 # a brightened sheet
 printf 'nm,f\n380,0\n410,0.08\n435,0.2\n460,0.12\n500,0.03\n540,0\n780,0\n' >brightener.csv
 vkernel --angle-deg 45 | vforward --reflectance cc24:white --fluorescence brightener.csv --noise-sd 1e-3 -q | vestimate -q -o brightened.ndjson
+# a thin sheet, through which light from behind comes
+printf 'nm,f\n380,0.06\n780,0.08\n' >behind.csv
+vkernel --angle-deg 45 | vforward --reflectance cc24:white --fluorescence behind.csv --noise-sd 1e-3 -q | vestimate --exposure 1 -q -o thin.ndjson
