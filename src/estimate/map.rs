@@ -26,6 +26,9 @@ use crate::solve::posterior::Iteration;
 const SUPPORTED: f64 = 0.8;
 const EXPOSURE_SUPPORTED: f64 = 0.5;
 
+/// Noise so many times less than that at which classes of spectra are told apart.
+const PRECISE: f64 = 10.0;
+
 /// What happened, by runs.
 type Trace = Vec<Vec<Iteration>>;
 
@@ -85,33 +88,48 @@ impl<'a> Sortings<'a> {
         let mut search = Search::new(data, prior);
         let start = start.map(|start| all.set_out_from(start));
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
-        let fluorescing = fluorescence::may_be(data, &plain, prior);
+        let is_asked = !is_precise(data, prior);
+        let fluorescing = if is_asked { fluorescence::may_be(data, &plain, prior) } else { Vec::new() };
         Some(Self { plain, fluorescing, trace: search.trace })
     }
 
     /// The mean of all maxima, whether or not all unknowns of the scene can be so, and what happened.
     fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Found<'a>, Trace)> {
         let Self { plain, fluorescing, trace } = self;
-        let nothing = data.scene().emissions().first().filter(|_| !fluorescing.is_empty());
-        let Some(nothing) = nothing else {
-            let (found, more) = Found::among(vec![(data.clone(), plain)], prior)?;
-            return Some((found, [trace, more].concat()));
-        };
-        let all = iter::once((data.emitting(nothing)?, plain)).chain(fluorescing).collect();
-        let (found, more) = Found::among(all, prior)?;
+        let asked = !fluorescing.is_empty();
+        let (found, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
         let trace = [trace, more].concat();
-        if found.mixture.best.rms < EXPLAINED {
+        if found.mixture.best.rms < EXPLAINED || !(asked || is_precise(data, prior)) {
             return Some((found, trace));
         }
-        // evidence of sheets that do not explain the facets says nothing
+        // evidence of sheets that do not explain the facets says nothing; precise facets that one without fluorescence does not explain
+        // may be those of one with
         let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
-        let (found, more) = Found::among(vec![(data.clone(), plain)], prior)?;
-        Some((found, [trace, more].concat()))
+        let fluorescing = if asked { Vec::new() } else { fluorescence::may_be(data, &plain, prior) };
+        let (other, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
+        let explains = asked || other.mixture.best.rms < EXPLAINED;
+        Some((if explains { other } else { found }, [trace, more].concat()))
     }
 }
 
+/// Facets of so little noise that a sheet either explains them or does not: nothing is asked beside one that does.
+fn is_precise(data: &FacetData, prior: &Prior) -> bool {
+    Search::new(data, prior).inflation() > PRECISE
+}
+
+/// The facets of a sheet that sends out nothing, then those of one that fluoresces.
+fn with_plain<'a>(
+    data: &FacetData<'a>,
+    plain: Sorted<(), Second>,
+    fluorescing: Vec<Fluorescing<'a>>,
+) -> Option<Vec<Fluorescing<'a>>> {
+    let nothing = data.scene().emissions().first().filter(|_| !fluorescing.is_empty());
+    let of_plain = nothing.map_or_else(|| Some(data.clone()), |nothing| data.emitting(nothing))?;
+    Some(iter::once((of_plain, plain)).chain(fluorescing).collect())
+}
+
 impl<'a> Found<'a> {
-    fn among(all: Vec<(FacetData<'a>, Sorted<(), Second>)>, prior: &Prior) -> Option<(Self, Trace)> {
+    fn among(all: Vec<Fluorescing<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
             all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
