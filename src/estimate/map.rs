@@ -88,7 +88,8 @@ impl<'a> Sortings<'a> {
         let mut search = Search::new(data, prior);
         let start = start.map(|start| all.set_out_from(start));
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
-        let is_asked = !is_precise(data, prior);
+        // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that does
+        let is_asked = search.inflation() <= PRECISE;
         let fluorescing = if is_asked { fluorescence::may_be(data, &plain, prior) } else { Vec::new() };
         Some(Self { plain, fluorescing, trace: search.trace })
     }
@@ -99,22 +100,19 @@ impl<'a> Sortings<'a> {
         let asked = !fluorescing.is_empty();
         let (found, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
         let trace = [trace, more].concat();
-        if found.mixture.best.rms < EXPLAINED || !(asked || is_precise(data, prior)) {
+        let (rms, inflation) = (found.mixture.best.rms, Search::new(data, prior).inflation());
+        // precise facets that are as far off as a noise at which more is asked may be those of a sheet that fluoresces
+        let is_open = inflation > PRECISE && rms > inflation;
+        if rms < EXPLAINED || !(asked || is_open) {
             return Some((found, trace));
         }
-        // evidence of sheets that do not explain the facets says nothing; precise facets that one without fluorescence does not explain
-        // may be those of one with
+        // evidence of sheets that do not explain the facets says nothing
         let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
         let fluorescing = if asked { Vec::new() } else { fluorescence::may_be(data, &plain, prior) };
         let (other, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
         let explains = asked || other.mixture.best.rms < EXPLAINED;
         Some((if explains { other } else { found }, [trace, more].concat()))
     }
-}
-
-/// Facets of so little noise that a sheet either explains them or does not: nothing is asked beside one that does.
-fn is_precise(data: &FacetData, prior: &Prior) -> bool {
-    Search::new(data, prior).inflation() > PRECISE
 }
 
 /// The facets of a sheet that sends out nothing, then those of one that fluoresces.
