@@ -37,25 +37,30 @@ def beside(record, field, nm, truth):
     return float(np.sqrt(np.mean(off**2))), float(np.mean(abs(off) <= 2 * sd))
 
 
+def names(record):
+    return {name: name in record for name in ("fluorescence", "light_through")}
+
+
 def judged(record, nm, reflected, total):
     """What is off of an estimate, and what is said of it."""
     rmse, within = beside(record, "reflectance", nm, reflected)
-    fluoresces = "fluorescence" in record
-    is_named = fluoresces or "light_through" in record
-    of_total, within_total = beside(record, "total_radiance_factor" if fluoresces else "reflectance", nm, total)
+    field = "total_radiance_factor" if "fluorescence" in record else "reflectance"
+    of_total, within_total = (None, None) if total is None else beside(record, field, nm, total)
     level = record["verdict"]["level"]
-    return dict(rmse=rmse, within=within, total=of_total, within_total=within_total, named=is_named, level=level)
+    return dict(rmse=rmse, within=within, total=of_total, within_total=within_total, level=level, **names(record))
 
 
 def row(name, all):
-    mean = {key: statistics.fmean(one[key] for one in all) for key in ("rmse", "within", "total", "within_total")}
+    mean = lambda key: statistics.fmean(one[key] for one in all)
     rmse = [one["rmse"] for one in all]
+    has_total = all[0]["total"] is not None
+    total = f"{mean('total'):.3f} | {mean('within_total'):.0%}" if has_total else "– | –"
+    count = lambda key: sum(one[key] for one in all)
     levels = " / ".join(str(sum(one["level"] == level for one in all)) for level in ("good", "doubtful", "wrong"))
     lies = sum(one["level"] == "good" and one["within"] < 0.7 for one in all)
-    named = sum(one["named"] for one in all)
     print(
-        f"| {name} | {len(all)} | {mean['rmse']:.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {mean['within']:.0%} |"
-        f" {mean['total']:.3f} | {mean['within_total']:.0%} | {named} | {levels} | {lies} |",
+        f"| {name} | {len(all)} | {mean('rmse'):.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {mean('within'):.0%} | {total} |"
+        f" {count('fluorescence')} | {count('light_through')} | {levels} | {lies} |",
         flush=True,
     )
 
@@ -63,13 +68,13 @@ def row(name, all):
 def folds(tools, folder, kind, each):
     """Rows of the computed folds of a folder, by what excites their sheets."""
     nm, reflected = curves(folder / ("reflected.csv" if kind is None else "single.csv"))
-    total = curves(folder / "total.csv")[1] if kind is None else reflected
+    total = curves(folder / "total.csv")[1] if kind is None else {}
     for how, flags in EXPOSURES:
         found = {}
         for path in sorted(folder.glob("*.ndjson")):
             said, _ = tools.run("vestimate", "-q", *flags, given=path.read_text(encoding="utf-8"))
             record = json.loads(said.splitlines()[1])["estimate"]
-            one = judged(record, nm, reflected[path.stem], total[path.stem])
+            one = judged(record, nm, reflected[path.stem], total.get(path.stem))
             of = kind or ("excited by visible light" if path.stem.startswith(VISIBLE) else "brightened")
             found.setdefault(of, []).append(one)
             if each:
@@ -90,8 +95,7 @@ def photographs(tools, folder, each):
     all = []
     for sidecar in sorted(folder.glob("*.json")):
         record, nm, reflected = photograph(tools, sidecar)
-        total = json.loads(sidecar.read_text(encoding="utf-8")).get("total_radiance_factor", reflected)
-        all.append(judged(record, nm, reflected, total))
+        all.append(judged(record, nm, reflected, None))
         if each:
             print(sidecar.stem, all[-1], record.get("fluorescence"), record["verdict"]["because"])
     row("photographs", all)
@@ -124,8 +128,8 @@ def main():
     parser.add_argument("--each", action="store_true", help="a line for each sheet, too")
     args = parser.parse_args()
     tools = Tools(args.tools)
-    print("| | sheets | reflected | median | worst | in 2 sd | total | in 2 sd | named | good / doubtful / wrong | good and below 70 % |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| | sheets | reflected | median | worst | in 2 sd | total | in 2 sd | said to fluoresce | said to be thin | good / doubtful / wrong | good and below 70 % |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     folds(tools, args.shared / "fluorescence", None, args.each)
     folds(tools, args.shared / "thin", "thin", args.each)
     photographs(tools, args.shared / "fluorescence/photos", args.each)

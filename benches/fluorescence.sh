@@ -20,7 +20,7 @@ made_by=$(machine "$bin/vkernel")
     echo "$made_by"
     echo
     echo 'Sheets of `../shared/fluorescence` and `../shared/thin`, computed by another model; RMSE and share within two standard deviations over 400 to'
-    echo '700 nm, of what is reflected and of the total radiance factor. Where an estimate has none, its reflectance stands for it. The last column'
+    echo '700 nm, of what is reflected and of the total radiance factor, for which the reflectance stands where an estimate has none. The last column'
     echo 'counts estimates that are called good with less than 70 % of wavebands within two standard deviations.'
     echo
     python3 -B benches/fluorescence.py "$bin" "$shared"

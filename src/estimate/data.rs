@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::channels::{ChannelModel, Channels};
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
+use super::emission::terms::{Made, made};
 use super::emission::{Emission, Sent};
 use super::measured::{Measured, usable_facets};
 use crate::camera::CameraResponse;
@@ -88,14 +89,6 @@ pub struct SecondDerivatives {
 struct Emitted {
     sent: Sent,
     made: Made,
-}
-
-/// What light that is sent out makes of the terms, each waveband sending out as much as the sheet can: waveband by term, with derivatives by
-/// reflectance.
-struct Made {
-    terms: DMatrix<f64>,
-    slopes: DMatrix<f64>,
-    curvatures: DMatrix<f64>,
 }
 
 /// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
@@ -199,7 +192,8 @@ impl<'a> FacetData<'a> {
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
         // datum by waveband, each sending out as much as white reflects
-        let by_band = self.channels.columns_of(&self.made_terms(reflectance, &terms, 0), &amounts, 0);
+        let by_band =
+            self.channels.columns_of(&made(reflectance, &terms, &self.signed_poles(), 0), &amounts, 0);
         let of_sheet = |emission: &Emission| {
             let mut sent = emission.usual().clone();
             sent.iter_mut()
@@ -231,46 +225,11 @@ impl<'a> FacetData<'a> {
         Some((emission, emission.at(&unknowns[self.scene.unknowns().len()..])))
     }
 
-    /// [`Made::terms`] alone.
-    fn made_terms(&self, reflectance: &[f64], terms: &DMatrix<f64>, power: i32) -> DMatrix<f64> {
-        let mut made = terms.clone();
-        for (mut column, pole) in made.column_iter_mut().zip(self.signed_poles()) {
-            for (t, r) in column.iter_mut().zip(reflectance) {
-                *t = r.powi(power) * (1.0 + pole * *t);
-            }
-        }
-        made
-    }
-
     /// What the sheet sends out at a point, `terms` being those of what it reflects with their derivatives; none if nothing.
     fn emitted(&self, reflectance: &[f64], unknowns: &[f64], terms: [&DMatrix<f64>; 3]) -> Option<Emitted> {
         let (emission, sent) = self.sent(unknowns)?;
-        Some(Emitted { sent, made: self.made(reflectance, terms, emission.power_of_reflectance()) })
-    }
-
-    /// What light that is sent out makes of the terms t: `rᵖ(1 + gt)`, g being the pole, r the reflectance, where it goes with a power p of that.
-    fn made(&self, reflectance: &[f64], [terms, slopes, curvatures]: [&DMatrix<f64>; 3], power: i32) -> Made {
-        let poles = self.signed_poles();
-        let (mut all, mut by, mut bend) = (terms.clone(), slopes.clone(), curvatures.clone());
-        for (term, pole) in poles.iter().enumerate() {
-            for (n, r) in reflectance.iter().enumerate() {
-                let bounced = [terms, slopes, curvatures].map(|of| pole * of[(n, term)]);
-                let plain = [1.0 + bounced[0], bounced[1], bounced[2]];
-                let [value, slope, curvature] = if power == 0 {
-                    plain
-                } else {
-                    let p = f64::from(power);
-                    let of_r = [r.powi(power), p * r.powi(power - 1), p * (p - 1.0) * r.powi(power - 2)];
-                    [
-                        of_r[0] * plain[0],
-                        of_r[1] * plain[0] + of_r[0] * plain[1],
-                        of_r[2] * plain[0] + 2.0 * of_r[1] * plain[1] + of_r[0] * plain[2],
-                    ]
-                };
-                (all[(n, term)], by[(n, term)], bend[(n, term)]) = (value, slope, curvature);
-            }
-        }
-        Made { terms: all, slopes: by, curvatures: bend }
+        let power = emission.power_of_reflectance();
+        Some(Emitted { sent, made: Made::of(reflectance, terms, &self.signed_poles(), power) })
     }
 
     /// Poles with their signs, one per term.
@@ -360,7 +319,7 @@ impl<'a> FacetData<'a> {
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
         let mut terms = self.scene.facets().terms_of(reflectance);
         if let Some((emission, sent)) = self.sent(unknowns) {
-            let made = self.made_terms(reflectance, &terms, emission.power_of_reflectance());
+            let made = made(reflectance, &terms, &self.signed_poles(), emission.power_of_reflectance());
             terms += scaled_rows(&made, sent.fraction.iter());
         }
         let amounts = self.scene.amounts(unknowns).values();

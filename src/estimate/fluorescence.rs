@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::data::FacetData;
-use super::emission::{Emission, Excitation};
+use super::emission::{Emission, Origin};
 use super::facets::{Facets, Second};
 use super::prior::Prior;
 use super::search::{Search, Sorted};
@@ -30,7 +30,7 @@ pub struct Fluorescence {
     /// How probable it is that it sends out anything.
     pub probability: f64,
     /// What most probably excites it.
-    pub excited_by: Excitation,
+    pub origin: Origin,
     /// Where most is sent out, nm.
     pub peak_nm: f64,
     /// The fraction of white there under the light of the scene, and its standard deviation.
@@ -51,7 +51,7 @@ impl Fluorescence {
         let because = || {
             format!("this sheet fluoresces at about {:.0} nm; vfold can't measure it", self.rounded_peak_nm())
         };
-        (self.excited_by == Excitation::Visible).then(|| Doubt::new(because(), remedy))
+        (self.origin == Origin::Visible).then(|| Doubt::new(because(), remedy))
     }
 
     /// What a brightener does, or light from behind, in words.
@@ -59,15 +59,15 @@ impl Fluorescence {
     pub fn words(&self) -> Option<String> {
         let Self { probability, size, size_sd, .. } = self;
         let per_cent = 100.0 * probability;
-        match self.excited_by {
-            Excitation::Ultraviolet => Some(format!(
+        match self.origin {
+            Origin::Ultraviolet => Some(format!(
                 "with a probability of {per_cent:.0} % the sheet is brightened: at about {:.0} nm it sends out {size:.2} ± {size_sd:.2} of white under this light",
                 self.rounded_peak_nm()
             )),
-            Excitation::Behind if *size > NOTEWORTHY => Some(format!(
+            Origin::Behind if *size > NOTEWORTHY => Some(format!(
                 "with a probability of {per_cent:.0} % light from behind comes through the sheet, {size:.2} ± {size_sd:.2} of white; back it with black card"
             )),
-            Excitation::Behind | Excitation::Visible => None,
+            Origin::Behind | Origin::Visible => None,
         }
     }
 
@@ -104,7 +104,7 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     let mut all = Vec::new();
     for (emission, change) in bands.iter().zip(changes) {
         // an exposure that is free takes up what comes from behind
-        if emission.excitation() == Some(Excitation::Behind) && data.fits_exposure() {
+        if emission.origin() == Some(Origin::Behind) && data.fits_exposure() {
             continue;
         }
         if !is_unexplained && !is_hopeful(&test, &change, emission, &logit) {
@@ -130,41 +130,43 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
 ///
 /// # Arguments
 /// - `shares`: what excites each thing that may be so, and how probable that is;
-/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what is sent out as a fraction of white.
+/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what is sent out as a fraction of white;
+/// - `nothing`: the emission of a sheet that sends out nothing, in the light of the scene.
 ///
 /// None if it probably sends out nothing.
 pub fn found(
-    shares: impl Iterator<Item = (Option<Excitation>, f64)>,
+    shares: impl Iterator<Item = (Option<Origin>, f64)>,
     (values, spread): (&[f64], Option<&DMatrix<f64>>),
-    wavelengths_nm: &[f64],
+    nothing: &Emission,
     first: usize,
 ) -> Option<Fluorescence> {
     let (mut by_ultraviolet, mut by_light, mut from_behind) = (0.0, 0.0, 0.0);
-    for (excited_by, share) in shares {
-        match excited_by {
-            Some(Excitation::Ultraviolet) => by_ultraviolet += share,
-            Some(Excitation::Visible) => by_light += share,
-            Some(Excitation::Behind) => from_behind += share,
+    for (origin, share) in shares {
+        match origin {
+            Some(Origin::Ultraviolet) => by_ultraviolet += share,
+            Some(Origin::Visible) => by_light += share,
+            Some(Origin::Behind) => from_behind += share,
             None => {}
         }
     }
-    let (probability, excited_by) = match by_ultraviolet + by_light {
-        fluorescence if fluorescence < from_behind => (from_behind, Excitation::Behind),
-        fluorescence if by_ultraviolet > by_light => (fluorescence, Excitation::Ultraviolet),
-        fluorescence => (fluorescence, Excitation::Visible),
+    let (probability, origin) = match by_ultraviolet + by_light {
+        fluorescence if fluorescence < from_behind => (from_behind, Origin::Behind),
+        fluorescence if by_ultraviolet > by_light => (fluorescence, Origin::Ultraviolet),
+        fluorescence => (fluorescence, Origin::Visible),
     };
     if probability < PROBABLE {
         return None;
     }
+    let wavelengths_nm = nothing.wavelengths_nm();
     let count = wavelengths_nm.len();
     let sent = &values[first..first + count];
-    let peak = (0..count).max_by(|a, b| sent[*a].total_cmp(&sent[*b]))?;
+    let peak = nothing.peak(sent);
     let sd = |of: &dyn Fn(&DMatrix<f64>) -> f64| spread.map_or(f64::INFINITY, of);
     let sd_of_total = |band: usize| sd(&|all| (all.column(band) + all.column(first + band)).norm());
     Some(Fluorescence {
         // shares may add up to a rounding more than 1
         probability: probability.min(1.0),
-        excited_by,
+        origin,
         peak_nm: wavelengths_nm[peak],
         size: sent[peak],
         size_sd: sd(&|all| all.column(first + peak).norm()),

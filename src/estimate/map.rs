@@ -142,13 +142,12 @@ impl<'a> Found<'a> {
     /// As an estimate, as far off as another mixture says.
     fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
         let emission = |alternative: usize| self.alternatives.0[alternative].emission();
-        let excitation = |alternative| emission(alternative)?.excitation();
+        let origin = |alternative| emission(alternative)?.origin();
         let Mixture { values, spread, shares, .. } = &self.mixture;
-        let shares = shares.iter().map(|(alternative, share)| (excitation(*alternative), *share));
+        let shares = shares.iter().map(|(alternative, share)| (origin(*alternative), *share));
         let first = data.scene().facets().bands() + data.scene().unknowns().len() + 1;
-        let fluorescence = emission(0).and_then(|one| {
-            fluorescence::found(shares, (values, spread.as_ref()), one.wavelengths_nm(), first)
-        });
+        let fluorescence = emission(0)
+            .and_then(|nothing| fluorescence::found(shares, (values, spread.as_ref()), nothing, first));
         Estimate { fluorescence, ..into_estimate(data, &self.mixture, off, trace) }
     }
 }

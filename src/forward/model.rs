@@ -138,13 +138,13 @@ impl FacetModel {
 
     /// Whether the surface is a sheet with nothing beside it.
     pub(super) fn is_of_one_sheet(&self) -> bool {
-        self.terms.of_one().is_some()
+        self.terms.signed_poles().is_some()
     }
 
     /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the light, by the number of the source and the
     /// mode's pole.
     pub(super) fn rgb_of_modes(&self, sent: impl Fn(usize, f64) -> Vec<f64>) -> DMatrix<f64> {
-        let poles = self.terms.of_one().unwrap_or_default();
+        let poles = self.terms.signed_poles().unwrap_or_default();
         let of_source = |(n, Source { facets, camera }): (usize, &Source)| {
             let weights =
                 DMatrix::from_fn(self.bands(), camera.channels(), |band, c| camera.channel(c)[band]);

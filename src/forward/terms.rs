@@ -42,7 +42,7 @@ impl Terms {
     }
 
     /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones; none of any other.
-    pub fn of_one(&self) -> Option<Vec<f64>> {
+    pub fn signed_poles(&self) -> Option<Vec<f64>> {
         let Self::One { poles, odd } = self else { return None };
         let subtracted = poles.iter().filter(|_| *odd).map(|pole| -pole);
         Some(poles.iter().copied().chain(subtracted).collect())
@@ -51,18 +51,6 @@ impl Terms {
     /// Whether light that leaves the surface never comes back, and no part of it is known.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))
-    }
-
-    /// What light that the surface sends out itself makes of a term t: `1 + pt`, p being a pole with its sign; none where parts of the surface are
-    /// known, which send out nothing.
-    pub fn signed_poles(&self) -> Option<Vec<f64>> {
-        match self {
-            Self::One { poles, odd } => {
-                let odd = if *odd { poles.as_slice() } else { &[] };
-                Some(poles.iter().copied().chain(odd.iter().map(|pole| -pole)).collect())
-            }
-            Self::Card { .. } | Self::BesideKnown(_) => None,
-        }
     }
 
     /// The first term of a waveband.

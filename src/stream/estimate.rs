@@ -14,7 +14,7 @@ use super::sample::{Sample, checked, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::error::{Error, Result};
-use crate::estimate::emission::Excitation;
+use crate::estimate::emission::Origin;
 use crate::estimate::noise::Noise;
 use crate::estimate::photograph::Finding;
 use crate::estimate::unknowns::Unknown;
@@ -346,7 +346,7 @@ impl Sample {
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
         finite("estimate.total_reflectance", estimate.total.iter().flatten())?;
         let sent = estimate.fluorescence.as_ref();
-        let of = |is_behind: bool| sent.filter(|found| (found.excited_by == Excitation::Behind) == is_behind);
+        let of = |is_behind: bool| sent.filter(|found| (found.origin == Origin::Behind) == is_behind);
         let (fluorescence, through) = (of(false), of(true));
         finite(
             "estimate.total_radiance_factor",

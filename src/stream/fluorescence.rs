@@ -41,7 +41,7 @@ pub(super) struct LightThroughRecord {
     /// Probability that there is any.
     #[schemars(range(min = 0, max = 1))]
     probability: f64,
-    /// The most that is sent out in a waveband, as a fraction of white.
+    /// What is sent out in the waveband with most of it, as a fraction of white.
     #[schemars(range(min = 0))]
     size: f64,
     /// Standard deviation of the size.

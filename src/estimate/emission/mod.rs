@@ -4,6 +4,8 @@
 //! bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is log-normal in wavenumbers, with its size, place and width unknown; a sheet
 //! has one band or none, which is weighed by evidence.
 
+pub(super) mod terms;
+
 use std::iter;
 
 use nalgebra::{DMatrix, DVector};
@@ -16,7 +18,7 @@ use super::unknowns::Normal;
 #[derive(Debug, PartialEq)]
 struct Band {
     /// What excites it.
-    excited_by: Excitation,
+    origin: Origin,
     /// The largest size, the size being the fraction of white under daylight that is sent out at the peak: no more photons than are taken in at shorter
     /// wavelengths.
     most: f64,
@@ -34,7 +36,7 @@ struct Band {
 
 /// Where light comes from that a sheet sends out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Excitation {
+pub enum Origin {
     /// Light from behind, which comes through a thin sheet: nothing fluoresces.
     Behind,
     /// Ultraviolet: an optical brightener.
@@ -43,7 +45,7 @@ pub enum Excitation {
     Visible,
 }
 
-impl Excitation {
+impl Origin {
     /// Power of the reflectance with which light is sent out: a sheet takes in of light that goes through it what it takes in of light that it reflects,
     /// and both grow as its colour is paler. By Kubelka and Munk's equations transmittances of sheets of 1.5 to 8 scattering lengths are as reflectances
     /// to powers of 1.8 to 2.7.
@@ -74,7 +76,7 @@ const PASTEL_LOGIT: f64 = 0.5;
 /// white as above, two of three lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed cloth has one, of
 /// other white sheets, such as painted ones, fewer. Where it takes in most, at 370 nm, the logit of reflectance has fallen by about three, from 0.8 to 0.2.
 const BRIGHTENER: Band = Band {
-    excited_by: Excitation::Ultraviolet,
+    origin: Origin::Ultraviolet,
     most: 0.7,
     size: Normal { mean: -1.7, sd: 0.9 },
     peak_per_cm: Normal { mean: 1e7 / 435.0, sd: 260.0 },
@@ -88,7 +90,7 @@ const BRIGHTENER: Band = Band {
 const fn dye(peak_nm: f64) -> Band {
     let peak_per_cm = 1e7 / peak_nm;
     Band {
-        excited_by: Excitation::Visible,
+        origin: Origin::Visible,
         most: 2.0,
         size: Normal { mean: -1.4, sd: 1.0 },
         // neighbours lie 25 nm apart
@@ -103,7 +105,7 @@ const fn dye(peak_nm: f64) -> Band {
 /// more (P. Kubelka, *Journal of the Optical Society of America* 38 (1948), p. 448): broad, rather red than blue. One sheet in twenty is thin and not
 /// backed.
 const THROUGH: Band = Band {
-    excited_by: Excitation::Behind,
+    origin: Origin::Behind,
     most: 0.3,
     size: Normal { mean: -1.2, sd: 1.0 },
     peak_per_cm: Normal { mean: 1e7 / 600.0, sd: 1500.0 },
@@ -182,7 +184,7 @@ impl Emission {
         let falling = wavelengths_nm.map(|nm| -(FALL_NM - nm).max(0.0) / FALL_WITHIN_NM);
         let mut own =
             Self { band, wavelengths_nm, by_light: power.map(f64::recip), falling, usual: DVector::zeros(0) };
-        if let Some(Band { excited_by: Excitation::Behind, .. }) = band {
+        if let Some(Band { origin: Origin::Behind, .. }) = band {
             own.by_light.fill(1.0);
         } else if let Some(band) = band {
             own.by_light *= power[own.nearest(band.peak_per_cm.mean)];
@@ -193,14 +195,14 @@ impl Emission {
 
     /// What excites it; none if nothing is sent out.
     #[must_use]
-    pub fn excitation(&self) -> Option<Excitation> {
-        Some(self.band?.excited_by)
+    pub fn origin(&self) -> Option<Origin> {
+        Some(self.band?.origin)
     }
 
     /// What light that is sent out goes with: this power of the reflectance.
     #[must_use]
     pub fn power_of_reflectance(&self) -> i32 {
-        self.band.map_or(0, |band| band.excited_by.of_reflectance())
+        self.band.map_or(0, |band| band.origin.of_reflectance())
     }
 
     /// Number of its unknowns.
@@ -236,6 +238,13 @@ impl Emission {
     #[must_use]
     pub fn wavelengths_nm(&self) -> &[f64] {
         self.wavelengths_nm.as_slice()
+    }
+
+    /// The waveband in which most is sent out of all that is this `fraction` of white: where a lamp is dark fractions are large.
+    #[must_use]
+    pub fn peak(&self, fraction: &[f64]) -> usize {
+        let power = DVector::from_column_slice(fraction).component_div(&self.by_light);
+        power.imax()
     }
 
     /// The place of the waveband that is nearest to a wavenumber.
@@ -360,6 +369,14 @@ mod tests {
                 assert!((by - curvature.column(k)).amax() < 1e-7, "{k}");
             }
         }
+    }
+
+    #[test]
+    fn where_a_lamp_is_dark_is_no_peak() {
+        let power: Vec<f64> = grid().iter().map(|nm| if *nm == 470.0 { 0.1 } else { 1.0 }).collect();
+        let all = Emission::all(&grid(), &power);
+        let brightened = all[1].usual();
+        assert!((brightened.imax(), all[0].peak(brightened.as_slice())) == (9, 6), "470 nm, 440 nm");
     }
 
     #[test]

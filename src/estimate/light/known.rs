@@ -7,7 +7,8 @@ use std::iter;
 
 use nalgebra::DVector;
 
-use super::photograph::daylight_of_known;
+use super::photograph::{LN_HOPELESS, daylight_of_known};
+use super::stated::LN_ODDS;
 use super::{Candidate, Likelier, Others, ShownWays};
 use crate::error::{Error, Result};
 use crate::estimate::data::FacetData;
@@ -27,11 +28,6 @@ const SD: f64 = 0.01;
 /// A maximum counts as found within this many standard deviations of it, and a search ends after so many iterations.
 const TOLERANCE: f64 = 1e-3;
 const LIMIT: usize = 500;
-/// Lights so far behind the best, as the logarithm of a share of its probability, are out of the question for all other sheets, too.
-const LN_HOPELESS: f64 = -20.0;
-/// Logarithm of the ratio of evidence from which on another light than the stated one is named, as for sheets that are unknown.
-const LN_ODDS: f64 = 3.0;
-
 /// A sheet whose reflectance is known, to what an instrument repeats.
 #[derive(Clone, Debug)]
 pub struct KnownSheet {

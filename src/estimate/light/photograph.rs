@@ -24,8 +24,8 @@ use crate::estimate::search::Search;
 /// daylight, in which photographs usually are: with looking through all of them that is less than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
-/// Those so far behind in a photograph of a known sheet are so for all others.
-const LN_HOPELESS: f64 = -20.0;
+/// Lights so far behind the best in the light of a known sheet, as the logarithm of a share of its evidence, are out of the question for all others.
+pub(super) const LN_HOPELESS: f64 = -20.0;
 
 /// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
 /// window.

@@ -19,7 +19,7 @@ use crate::estimate::verdict::Doubt;
 use crate::spectrum::{WavelengthGrid, likely_lights};
 
 /// Logarithm of the ratio of evidence that makes up for a statement: nineteen times, as one statement in twenty is mistaken, rounded.
-const LN_ODDS: f64 = 3.0;
+pub(super) const LN_ODDS: f64 = 3.0;
 /// A light under which facets are at least as probable as that is not asked about, in standard deviations of how improbable facets of known sheets are:
 /// what is as usual as that needs no other light to explain it.
 const USUAL: f64 = 0.5;

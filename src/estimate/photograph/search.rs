@@ -12,7 +12,7 @@ use super::joint::Photograph;
 use super::kinds::Kind;
 use super::parts::Parts;
 use crate::error::{Error, Result};
-use crate::estimate::emission::Excitation;
+use crate::estimate::emission::Origin;
 use crate::estimate::family::Family;
 use crate::estimate::fluorescence::{self, Fluorescence, is_hopeful};
 use crate::estimate::mixture::Mixture;
@@ -193,8 +193,7 @@ fn add_fluorescing(
     let is_asked = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
     let best = all.iter().find(is_asked)?;
     let (w, ln_best) = (best.solution.w.clone(), best.ln_weight());
-    let place =
-        photograph.emissions().iter().position(|one| one.excitation() == Some(Excitation::Ultraviolet))?;
+    let place = photograph.emissions().iter().position(|one| one.origin() == Some(Origin::Ultraviolet))?;
     let brightened = Hypothesis { emission: Some(place), ..best.hypothesis };
     let model = family.model(brightened, search.broad())?;
     let start = w.clone().resize_vertically(model.unknowns(), 0.0);
@@ -216,11 +215,11 @@ fn add_fluorescing(
 
 /// What the sheet of a photograph is found to send out itself, if it probably does.
 fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Option<Fluorescence> {
-    let excitation = |hypothesis: &Hypothesis| photograph.emissions().get(hypothesis.emission?)?.excitation();
-    let shares = found.shares.iter().map(|(hypothesis, share)| (excitation(hypothesis), *share));
-    let wavelengths_nm = &photograph.parts.eye.wavelengths_nm;
-    let first = 2 * wavelengths_nm.len();
-    fluorescence::found(shares, (&found.values, found.spread.as_ref()), wavelengths_nm, first)
+    let origin = |hypothesis: &Hypothesis| photograph.emissions().get(hypothesis.emission?)?.origin();
+    let shares = found.shares.iter().map(|(hypothesis, share)| (origin(hypothesis), *share));
+    let nothing = photograph.emissions().first()?;
+    let first = 2 * nothing.wavelengths_nm().len();
+    fluorescence::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
 }
 
 /// Probability of hypotheses, of which those of most evidence come first.
