@@ -373,7 +373,8 @@ mod tests {
 
     #[test]
     fn where_a_lamp_is_dark_is_no_peak() {
-        let power: Vec<f64> = grid().iter().map(|nm| if *nm == 470.0 { 0.1 } else { 1.0 }).collect();
+        // dark at 470 nm
+        let power: Vec<f64> = (0..41).map(|n| if n == 9 { 0.1 } else { 1.0 }).collect();
         let all = Emission::all(&grid(), &power);
         let brightened = all[1].usual();
         assert!((brightened.imax(), all[0].peak(brightened.as_slice())) == (9, 6), "470 nm, 440 nm");
