@@ -29,8 +29,8 @@ use samples::Batch;
 use tools::shell;
 use vfold::estimate::map;
 use vfold::estimate::prior::Prior;
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::mesh::{Mesh, respond};
+use vfold::kernel::mesh::respond;
+use vfold::paper::form_factors;
 
 const ANGLE_DEG: f64 = 45.0;
 /// Angles at which form factors are known in 60 digits.
@@ -185,8 +185,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn meshes(page: &mut String) {
     for exponent in 3..=8 {
         let tolerance = 10_f64.powi(-exponent);
-        let (took, (response, accuracy)) =
-            timed(|| respond(&fold(ANGLE_DEG, 10), Mesh::Auto, tolerance).unwrap());
+        let (took, (response, accuracy)) = timed(|| respond(&fold(ANGLE_DEG, 10), tolerance).unwrap());
         let error = accuracy.facet_mean_error.unwrap_or(f64::NAN);
         let what = format!(
             "--mesh auto, tolerance {tolerance:e}: {} unknowns, {} modes, estimated error {error:.0e}",

@@ -10,34 +10,37 @@
 //! | equation | what it says | here |
 //! |---|---|---|
 //! | eq. (1), eq. (4) | light between surfaces as integrals | [`kernel::continuum`] |
-//! | eq. (2) | geometrical kernel of two points | [`kernel::exact::form_factors`], averaged over facets |
-//! | eq. (2) | the same as printed, at facet centres | [`kernel::midpoint::form_factors`] |
-//! | eq. (2) | the same on any surface, hidden parts left out | [`kernel::surface::SurfaceKernel`] |
-//! | eqs. (5) to (7) and (11) to (14) | light bounce by bounce | [`forward::bounces`], [`forward::FacetModel::facet_rgb_after`] |
-//! | eq. (10) | kernel matrix of the facets | [`kernel::fold_kernel::FoldKernel::matrix_row`] |
-//! | eq. (16) | radiance after all bounces | [`response::Response::solve`], [`response::SurfaceResponse::solve`] |
+//! | eq. (2) | geometrical kernel of two points | [`paper::form_factors`], averaged over facets |
+//! | eq. (2) | the same as printed, at facet centres | [`paper::midpoint::form_factors`] |
+//! | eq. (2) | the same on any surface, hidden parts left out | [`surfaces::kernel::SurfaceKernel`] |
+//! | eqs. (5) to (7) and (11) to (14) | light bounce by bounce | [`paper::bounces`], [`forward::FacetModel::facet_rgb_after`] |
+//! | eq. (10) | kernel matrix of the facets | [`paper::FoldKernel::matrix_row`] |
+//! | eq. (16) | radiance after all bounces | [`response::Response::solve`], [`surfaces::SurfaceResponse::solve`] |
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
-//! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`forward::nonuniform`] |
+//! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`paper::nonuniform`] |
 //! | eq. (24) | the same, one reflectance per panel | [`forward::FacetModel::facet_rgb`] |
-//! | eq. (24) | the same, known parts of a surface beside an unknown one | [`response::ReducedExchange::beside_known`] |
+//! | eq. (24) | the same, known parts of a surface beside an unknown one | [`surfaces::ReducedExchange::beside_known`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
-//! | eq. (36) | the estimate as a bounded minimum | [`estimate::smooth`]; [`estimate::map`] with a better prior |
-//! | - | the rivals of section 5C, on flat sheets | [`estimate::park`], [`estimate::khan`] |
+//! | eq. (36) | the estimate as a bounded minimum | [`paper::smooth`]; [`estimate::map`] with a better prior |
+//! | - | the rivals of section 5C, on flat sheets | [`paper::park`], [`paper::khan`] |
 //! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
 //!
-//! Use runs one way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
+//! Two rooms can be left out of a first reading: [`paper`], the method as published and its rivals, and [`surfaces`], what is no fold. Use runs one
+//! way, downwards; the tools in `src/bin` stand above all, [`error`] below all:
 //!
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
 //! cli                  -> scene, stream, spectrum, progress, message, room
 //! measure              -> scene, stream, estimate, forward, kernel, geometry, camera, spectrum, image
-//! scene                -> stream, estimate, forward, transport, sheet, kernel, response, image
+//! scene                -> stream, surfaces, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
-//! stream               -> estimate, forward, kernel, response, solve, geometry, spectrum, image, calibrate
-//! stream               -> score, plot, colorimetry, progress, parallel, files, room
+//! stream               -> paper, surfaces, estimate, forward, kernel, response, solve, geometry, spectrum, image
+//! stream               -> calibrate, score, plot, colorimetry, progress, parallel, files, room
+//! paper                -> surfaces, estimate, forward, kernel, response, solve, geometry, camera, room
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
-//! forward              -> kernel, response, solve, geometry, camera, image, colorimetry, spectrum
+//! surfaces             -> forward, kernel, response, solve, geometry, camera, image
+//! forward              -> response, geometry, camera, image, colorimetry, spectrum
 //! transport            -> sheet, kernel, geometry, image
 //! sheet                -> kernel
 //! kernel               -> response, solve, geometry, room
@@ -68,6 +71,7 @@ pub mod kernel;
 pub mod markup;
 pub mod measure;
 pub mod message;
+pub mod paper;
 pub mod parallel;
 pub mod plot;
 pub mod progress;
@@ -80,6 +84,7 @@ pub mod sheet;
 pub mod solve;
 pub mod spectrum;
 pub mod stream;
+pub mod surfaces;
 pub mod transport;
 
 pub use error::{Error, Result};

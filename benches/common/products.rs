@@ -1,8 +1,8 @@
 //! Products with the kernel, by its entries and by FFT along the crease.
 
 use nalgebra::DMatrix;
-use vfold::kernel::FoldKernel;
-use vfold::kernel::spectra::Spectra;
+use vfold::paper::FoldKernel;
+use vfold::paper::spectra::Spectra;
 
 /// Light on the facets of panel 0 from exitance `x` of panel 1, entry by entry.
 pub fn direct(kernel: &FoldKernel, x: &[f64]) -> Vec<f64> {

@@ -1,12 +1,13 @@
 //! Samples of a stream, ready to be estimated in process as `vestimate` does.
 
+use vfold::estimate::Exposure;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::CUTOFF;
 use vfold::estimate::noise::{deviations, unexplained};
 use vfold::estimate::unknowns::SceneModel;
-use vfold::estimate::{Exposure, smooth};
 use vfold::forward::FacetValues;
+use vfold::paper::smooth;
 use vfold::scene::Setting;
 use vfold::spectrum::{Outside, WavelengthGrid, reflectances};
 use vfold::stream::{Reader, Record, Sample};

@@ -1,7 +1,6 @@
 //! The bounces between facets, and the light they lead to.
 
-use vfold::kernel::FoldKernel;
-use vfold::kernel::facets::FacetOperator;
+use vfold::paper::{FacetOperator, FoldKernel};
 use vfold::response::{ModeLight, Response};
 
 /// The operator of a kernel whose patches are the facets.

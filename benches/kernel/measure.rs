@@ -1,12 +1,11 @@
 //! Every method on one fold.
 
 use vfold::geometry::{FacetGrid, Fold};
-use vfold::kernel::check::spectral_radius;
-use vfold::kernel::mesh::{Mesh, respond};
-use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
-use vfold::kernel::{FoldKernel, Method};
-use vfold::response::PanelOperator;
-use vfold::response::Response;
+use vfold::kernel::mesh::Mesh;
+use vfold::paper::check::spectral_radius;
+use vfold::paper::monte_carlo::{MonteCarlo, Sampling};
+use vfold::paper::{FoldKernel, Method, respond};
+use vfold::response::{PanelOperator, Response};
 
 use crate::common::{self, timed};
 use crate::reference::{self, REFLECTANCES, relative_error};
@@ -126,7 +125,7 @@ fn by_method(fold: &Fold, method: Method, truth: &Truth, row: Row) -> Row {
 }
 
 fn by_mesh(fold: &Fold, mesh: Mesh, tolerance: f64, truth: &Truth, row: Row) -> Row {
-    let (total_ms, (response, _)) = timed(|| respond(fold, mesh, tolerance).unwrap());
+    let (total_ms, (response, _)) = timed(|| respond(Method::Exact, fold, mesh, tolerance).unwrap());
     let errors = truth.irradiances.as_ref().map(|irradiances| radiance_errors(&response, irradiances));
     Row { total_ms, radiance_errors: errors.unwrap_or([f64::NAN; 3]), ..row }
 }

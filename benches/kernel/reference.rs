@@ -4,8 +4,8 @@ use std::fs;
 
 use serde_json::Value;
 use vfold::geometry::Fold;
-use vfold::kernel::FoldKernel;
-use vfold::kernel::mesh::{Mesh, respond};
+use vfold::kernel::mesh::respond;
+use vfold::paper::FoldKernel;
 
 use crate::solutions::irradiance;
 
@@ -61,7 +61,7 @@ pub fn irradiances(fold: &Fold) -> Option<([Vec<f64>; 3], f64)> {
     if too_many(fold, fold.facets().rows) {
         return None;
     }
-    let (response, accuracy) = respond(fold, Mesh::Auto, tolerance(fold)).unwrap();
+    let (response, accuracy) = respond(fold, tolerance(fold)).unwrap();
     Some((REFLECTANCES.map(|r| irradiance(&response, r)), accuracy.facet_mean_error?))
 }
 

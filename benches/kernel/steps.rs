@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use vfold::kernel::exact::form_factors;
+use vfold::paper::form_factors;
 use vfold::response::Response;
 
 use crate::common::{fold, timed};

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use vfold::estimate::Estimate;
-use vfold::estimate::components::{FlatSheet, autocorrelation};
 use vfold::estimate::prior::Prior;
-use vfold::estimate::{khan, map, park, smooth};
+use vfold::estimate::{Estimate, map};
+use vfold::paper::components::{FlatSheet, autocorrelation};
+use vfold::paper::{khan, park, smooth};
 use vfold::score::rmse;
 
 use crate::common::timed_once;

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::spectra::Spectra;
+use vfold::paper::form_factors;
+use vfold::paper::spectra::Spectra;
 
 use crate::common::{fold, machine, results, timed};
 use crate::drawing;

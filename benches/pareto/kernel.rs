@@ -1,7 +1,7 @@
 //! Form factors by every method, against those of 60 digits.
 
-use vfold::kernel::Method;
-use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
+use vfold::paper::Method;
+use vfold::paper::monte_carlo::{MonteCarlo, Sampling};
 
 use crate::common::{fold, timed};
 use crate::point::Point;

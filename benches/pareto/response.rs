@@ -2,10 +2,9 @@
 
 use nalgebra::DMatrix;
 use vfold::geometry::FacetGrid;
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::mesh::{Mesh, respond};
-use vfold::response::PanelOperator;
-use vfold::response::{Modes, Response};
+use vfold::kernel::mesh::Mesh;
+use vfold::paper::{Method, form_factors, respond};
+use vfold::response::{Modes, PanelOperator, Response};
 
 use crate::common::{fold, timed};
 use crate::point::Point;
@@ -33,7 +32,7 @@ pub fn measure() {
 fn meshes() {
     let fold = fold(ANGLE_DEG, FACETS);
     let means = |mesh, tolerance| {
-        let response = respond(&fold, mesh, tolerance).unwrap().0;
+        let response = respond(Method::Exact, &fold, mesh, tolerance).unwrap().0;
         REFLECTANCES.map(|r| irradiance(&response, r)).concat()
     };
     let truth = means(Mesh::Auto, TRUTH);

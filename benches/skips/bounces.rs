@@ -1,11 +1,8 @@
 //! Skips on the way from form factors to light after all bounces.
 
 use nalgebra::DMatrix;
-use vfold::kernel::FoldKernel;
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::facets::FacetOperator;
-use vfold::response::PanelOperator;
-use vfold::response::Response;
+use vfold::paper::{FacetOperator, FoldKernel, form_factors};
+use vfold::response::{PanelOperator, Response};
 use vfold::solve::Eigen;
 
 use super::{ANGLE_DEG, Skip};

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use vfold::kernel::FoldKernel;
-use vfold::kernel::exact::{Wedge, form_factors};
+use vfold::kernel::wedge::Wedge;
+use vfold::paper::{FoldKernel, form_factors};
 
 use super::{ANGLE_DEG, Skip};
 use crate::common::fold;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::spectra::Spectra;
+use vfold::paper::form_factors;
+use vfold::paper::spectra::Spectra;
 
 use super::{ANGLE_DEG, Skip};
 use crate::common::{fold, timed};

@@ -2,12 +2,10 @@
 
 use nalgebra::DMatrix;
 use vfold::camera::CameraResponse;
-use vfold::forward::{FacetModel, Lighting, nonuniform};
+use vfold::forward::{FacetModel, Lighting};
 use vfold::geometry::Light;
-use vfold::kernel::FoldKernel;
-use vfold::kernel::exact::form_factors;
-use vfold::response::PanelOperator;
-use vfold::response::Response;
+use vfold::paper::{FoldKernel, form_factors, nonuniform};
+use vfold::response::{PanelOperator, Response};
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 
 use super::{ANGLE_DEG, Skip};

@@ -1,11 +1,10 @@
-//! From facet RGB to the spectrum. One method a file: [`map`] (the default), [`smooth`] (the paper's), and those of flat sheets
-//! that the paper compares with, [`park`] and [`khan`].
+//! From facet RGB to the spectrum: by its most probable value among the classes of known spectra ([`map`]), of photographs together with the
+//! unknowns of sheet, light and camera ([`photograph`]). The paper's own estimator and its rivals are in [`paper`](crate::paper).
 
 mod alternatives;
 mod built_in;
 mod channels;
 pub mod classes;
-pub mod components;
 mod compress;
 pub mod data;
 pub mod emission;
@@ -13,7 +12,6 @@ mod facets;
 mod family;
 pub mod fluorescence;
 pub mod gaussian;
-pub mod khan;
 pub mod light;
 mod linear;
 pub mod map;
@@ -21,13 +19,11 @@ pub mod measured;
 pub mod measurement;
 mod mixture;
 pub mod noise;
-pub mod park;
 pub mod photograph;
 pub mod prior;
 mod search;
 pub mod shading;
 pub mod shadow;
-pub mod smooth;
 mod smooth_errors;
 mod starts;
 pub mod taking;

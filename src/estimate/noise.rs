@@ -129,13 +129,13 @@ mod tests {
     use crate::camera::CameraResponse;
     use crate::forward::Lighting;
     use crate::geometry::{FacetGrid, Fold, Light};
-    use crate::kernel::mesh::{Mesh, respond};
+    use crate::kernel::mesh::respond;
     use crate::spectrum::WavelengthGrid;
 
     #[test]
     fn facets_of_unknown_noise_are_not_believed_more_than_others() {
         let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 1 }).unwrap();
-        let (response, _) = respond(&fold, Mesh::Auto, 1e-3).unwrap();
+        let (response, _) = respond(&fold, 1e-3).unwrap();
         let grid = WavelengthGrid::new(vec![500.0, 600.0]).unwrap();
         let eye = CameraResponse::new(&grid, &[vec![1.0, 1.0]], &[1.0, 1.0]).unwrap();
         let light = Light::new(&fold, 0.0, 0.0, 0.0).unwrap();

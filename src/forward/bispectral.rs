@@ -61,8 +61,7 @@ impl<'a> BispectralSheet<'a> {
     /// use nalgebra::dmatrix;
     /// use vfold::camera::CameraResponse;
     /// use vfold::forward::{BispectralLight, BispectralSheet, FacetModel};
-    /// use vfold::kernel::dense::DenseExchange;
-    /// use vfold::response::SurfaceResponse;
+    /// use vfold::surfaces::{DenseExchange, SurfaceResponse};
     /// use vfold::spectrum::{Donaldson, Spectrum, WavelengthGrid};
     /// // Two like patches hand half of their light to each other, both are lit: a pole of 0.5.
     /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);

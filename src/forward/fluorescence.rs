@@ -28,8 +28,7 @@ impl<'a> Fluorescing<'a> {
     /// use nalgebra::dmatrix;
     /// use vfold::camera::CameraResponse;
     /// use vfold::forward::{FacetModel, Fluorescing};
-    /// use vfold::kernel::dense::DenseExchange;
-    /// use vfold::response::SurfaceResponse;
+    /// use vfold::surfaces::{DenseExchange, SurfaceResponse};
     /// // Two like patches hand half of their light to each other, and one is lit.
     /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);
     /// let (response, _) = SurfaceResponse::solve(&exchange, &[1.0, 0.0], 1e-12)?;

@@ -30,7 +30,7 @@ pub struct Source {
 
 impl FacetModel {
     /// A model whose facets take of the `terms` what each of the `sources`, at least one, says.
-    pub(super) fn of(terms: Terms, sources: Vec<Source>) -> Self {
+    pub(crate) fn of(terms: Terms, sources: Vec<Source>) -> Self {
         let seen_bands = seen_bands(sources.iter().map(|source| &source.camera));
         Self { terms, sources, seen_bands }
     }

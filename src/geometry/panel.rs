@@ -1,9 +1,8 @@
 //! Panels: flat quadrilaterals divided into rows and columns of facets, as photographs show them.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::{Fold, Shape, Vec3};
+use super::{Fold, Vec3};
 
 /// Places that differ by less than this part of a panel count as one.
 const SAME: f64 = 1e-6;
@@ -39,19 +38,6 @@ impl Fold {
                 facets: panel * count..(panel + 1) * count,
             }
         })
-    }
-}
-
-impl Shape {
-    /// The groups of facets that are panels, by their numbers.
-    #[must_use]
-    pub fn panels(&self) -> BTreeMap<usize, Panel> {
-        let panel = |facets: &Range<usize>| {
-            let quads = facets.clone().map(|facet| <[Vec3; 4]>::try_from(self.facet(facet).corners()).ok());
-            Panel::of_facets(&quads.collect::<Option<Vec<_>>>()?, facets.start)
-        };
-        let groups = self.groups().iter().enumerate();
-        groups.filter_map(|(number, group)| Some((number, panel(&group.facets)?))).collect()
     }
 }
 

@@ -20,10 +20,11 @@ pub struct Skipped {
 /// # Example
 /// ```
 /// use vfold::geometry::{FacetGrid, Fold, Light};
-/// use vfold::kernel::mesh::{Mesh, respond};
+/// use vfold::kernel::mesh::Mesh;
 /// use vfold::kernel::skipped::skipped;
+/// use vfold::paper::{Method, respond};
 /// let fold = Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
-/// let (response, accuracy) = respond(&fold, Mesh::Facets, 1e-5)?;
+/// let (response, accuracy) = respond(Method::Exact, &fold, Mesh::Facets, 1e-5)?;
 /// let light = Light::new(&fold, 0.0, 0.0, 0.0)?;
 /// let skipped = skipped(&fold, &light, &accuracy, response.poles().len());
 /// // Of 2 · 100 · 100 form factors between the panels, 550 are distinct.

@@ -24,7 +24,7 @@ use crate::image::{
     CornersBy, FacetMeasurement, FoldSeen, Framing, Lens, Making, MeasuredPanels, Photograph, Point,
     REFINED_WITHIN_PX, measure_panels, open_sides, refine,
 };
-use crate::kernel::mesh::{Mesh, TOLERANCE, respond};
+use crate::kernel::mesh::{TOLERANCE, respond};
 use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, other_lights, stated, stated_fold};
 use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, likely_lights};
 use crate::stream::{self, Optics};
@@ -91,7 +91,7 @@ impl Setup<'_> {
             light: self.light,
             sky: None,
             is_lit_otherwise: false,
-            response: respond(&self.fold, Mesh::Auto, TOLERANCE)?.0,
+            response: respond(&self.fold, TOLERANCE)?.0,
             optics: Some(optics),
             is_daylight_assumed: light.is_none(),
             card: None,

@@ -76,6 +76,13 @@ impl Response {
         Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
     }
 
+    /// That of panels of so many `facets` that hand each other no light: a flat sheet.
+    #[must_use]
+    pub fn without_bounces(facets: usize) -> Self {
+        let set = ModeSet { poles: vec![0.0], residues: DMatrix::repeat(facets, 1, 1.0) };
+        Self { modes: Modes::Shared(set), facets }
+    }
+
     /// A response from its modes.
     ///
     /// # Errors

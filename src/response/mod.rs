@@ -2,24 +2,16 @@
 //!
 //! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
 //! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
-//! light does not excite. [`SurfaceResponse`] holds those of one light on any surface; a fold's [`Response`] holds those of
-//! any light on it. Surfaces with parts of several reflectances have other ones in every waveband: [`ReducedExchange`].
+//! light does not excite. A fold's [`Response`] holds those of any light on it.
 
-mod exchange;
 mod fold;
-mod known;
 mod lanczos;
 mod orthogonality;
 mod panel;
-mod reduced;
-mod surface;
 
-pub use exchange::Exchange;
 pub use fold::{Excitation, ModeLight, Modes, Response};
-pub use known::BesideKnown;
+pub(crate) use lanczos::{Excited, orthogonalise};
 pub use panel::PanelOperator;
-pub use reduced::ReducedExchange;
-pub use surface::SurfaceResponse;
 
 use nalgebra::DMatrix;
 
@@ -42,7 +34,7 @@ impl ModeSet {
     }
 
     /// Refuses shapes that disagree, and poles with which the bounces would not end.
-    fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         if self.residues.is_empty() || self.residues.ncols() != self.poles.len() {
             let problem = "needs one row per facet, with one number per pole";
             return Err(Error::field("response.residues", problem));
@@ -55,7 +47,7 @@ impl ModeSet {
     }
 
     /// Poles, each with its residue at a facet.
-    fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub(crate) fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.poles.iter().enumerate().map(move |(k, pole)| (*pole, self.residues[(facet, k)]))
     }
 }

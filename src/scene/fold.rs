@@ -52,7 +52,7 @@ impl FoldSetting {
         let is_lit = scene.has_camera() && !scene.is_light_unknown()?;
         let is_fine = scene.has_accuracy() && scene.mesh()? == Mesh::Auto.to_string();
         let (StatedLight { light, sky, is_other }, response) = if scene.has_sources() {
-            let (response, _) = respond(&fold, Mesh::Auto, PICTURE_TOLERANCE)?;
+            let (response, _) = respond(&fold, PICTURE_TOLERANCE)?;
             (StatedLight::of(&scene.sources()?, &fold)?, response)
         } else {
             (scene.light_on(&fold)?.into(), scene.response_of(&fold)?)
@@ -119,7 +119,7 @@ impl FoldSetting {
     /// As [`respond`].
     pub fn fine_model(&self, grid: FacetGrid, lighting: &Lighting) -> Result<FacetModel> {
         let fold = self.fold.with_facets(grid)?.with_spacing(Spacing::Uniform);
-        let (response, _) = respond(&fold, Mesh::Auto, PICTURE_TOLERANCE)?;
+        let (response, _) = respond(&fold, PICTURE_TOLERANCE)?;
         Ok(self.model_with(&response, lighting))
     }
 

@@ -4,10 +4,9 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::geometry::LightSource;
-use crate::kernel::dense::DenseExchange;
 use crate::kernel::mesh::Accuracy;
-use crate::response::SurfaceResponse;
 use crate::stream::{Scene, Surface, read_rows, read_square};
+use crate::surfaces::{DenseExchange, SurfaceResponse};
 
 /// Relative residual of the bounces.
 const TOLERANCE: f64 = 1e-9;

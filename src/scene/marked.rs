@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
 use crate::estimate::photograph::beliefs::Beliefs;
-use crate::geometry::sight::Sight;
 use crate::geometry::{Fold, Panel, joints};
 use crate::image::{
     FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, StatedFold, camera_position,
 };
+use crate::surfaces::Sight;
 
 /// A fold as it was stated, to be compared with corners; the standard deviation of its angle, degrees, is that of one that somebody measured
 /// unless it is known.

@@ -4,9 +4,10 @@ use super::camera::{illuminant_responses, sky_response};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::forward::{FacetModel, OpenLight};
-use crate::geometry::{LightSource, Shape};
-use crate::kernel::surface::lit::LitSurface;
+use crate::geometry::LightSource;
 use crate::stream::{Material, Optics, Scene};
+use crate::surfaces::Shape;
+use crate::surfaces::kernel::lit::LitSurface;
 
 /// A surface that is not a fold, under its sources, before a camera.
 pub struct SurfaceSetting<'a> {

@@ -1,14 +1,10 @@
-//! Solvers: linear systems, eigenvalues, smooth problems with bounds or a Gaussian prior; nothing here knows of optics or colour.
+//! Solvers: eigenvalues, and smooth problems with a Gaussian prior; nothing here knows of optics or colour.
 
-mod bounds;
-mod conjugate_gradients;
 mod dot;
 mod eigen;
 pub mod forecast;
-pub mod interior_point;
 pub mod posterior;
 
-pub use conjugate_gradients::conjugate_gradients;
 pub use dot::dot;
 pub use eigen::Eigen;
 

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
-use crate::kernel::Method;
 use crate::kernel::mesh::{Accuracy, KernelSource};
 
 /// How well the bounces are solved.
@@ -66,15 +65,11 @@ impl AccuracyRecord {
 
 impl From<&KernelSource> for KernelRecord {
     fn from(source: &KernelSource) -> Self {
-        let estimate = match source.method {
-            Method::MonteCarlo(estimate) => Some(estimate),
-            Method::Exact | Method::Midpoint => None,
-        };
         Self {
-            method: source.method.to_string(),
-            sampling: estimate.map(|estimate| estimate.sampling().to_string()),
-            samples: estimate.map(|estimate| estimate.samples()),
-            seed: estimate.map(|estimate| estimate.seed()),
+            method: source.method.to_owned(),
+            sampling: source.samples.map(|samples| samples.sampling.to_owned()),
+            samples: source.samples.map(|samples| samples.count),
+            seed: source.samples.map(|samples| samples.seed),
             entry_sd: source.entry_sd,
         }
     }

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
-use crate::geometry::{FacetGrid, Fold, Group, Spacing};
+use crate::geometry::{FacetGrid, Fold, Spacing};
+use crate::surfaces::Group;
 
 /// Where colour is measured.
 #[derive(Serialize, JsonSchema)]

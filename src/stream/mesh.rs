@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Shape;
+use crate::surfaces::Shape;
 
 /// Flat facets in space, all of them: a mesh is small beside its response.
 #[derive(Serialize, Deserialize, JsonSchema)]

@@ -8,7 +8,8 @@ use super::Scene;
 use super::fields::{BY_VKERNEL, finite};
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
-use crate::response::{ModeSet, Modes, Response, SurfaceResponse};
+use crate::response::{ModeSet, Modes, Response};
+use crate::surfaces::SurfaceResponse;
 
 /// What all bounces make of light.
 #[derive(Serialize, Deserialize, JsonSchema)]

@@ -13,7 +13,7 @@ use super::regions::RegionsRecord;
 use super::sample::{ReflectanceRecord, Sample};
 use super::scores::ColourRecord;
 use crate::error::Result;
-use crate::forward::bounces::Truncation;
+use crate::paper::bounces::Truncation;
 
 /// A sheet in the scene above it: the colours of its facets, and what the tools make of them.
 #[derive(Default, Serialize, JsonSchema)]

@@ -18,7 +18,8 @@ use super::skipped::SkippedRecord;
 use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::{Fold, Light, LightSource};
-use crate::response::{Response, SurfaceResponse};
+use crate::response::Response;
+use crate::surfaces::SurfaceResponse;
 
 /// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream belong to it.
 #[derive(Serialize, JsonSchema)]

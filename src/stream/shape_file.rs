@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 use super::json_file;
 use crate::error::{Error, Result};
-use crate::geometry::{Group, Shape, obj, ply};
+use crate::surfaces::{Group, Shape, obj, ply};
 
 const EXAMPLE: &str = "{\"vertices\": [[x, y, z], ..], \"facets\": [[0, 1, 2, 3], ..]}";
 

@@ -4,7 +4,8 @@ use super::Scene;
 use super::facets::{FacetsRecord, ListRecord};
 use super::geometry::GeometryRecord;
 use crate::error::{Error, Result};
-use crate::geometry::{Fold, Group, Shape};
+use crate::geometry::Fold;
+use crate::surfaces::{Group, Shape};
 
 /// A surface around which there are sources of light.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,8 +14,8 @@ use pulp::{Arch, Simd, WithSimd};
 use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
-use crate::kernel::exact::Wedge;
 use crate::kernel::quadrature::{Lagrange, Rule};
+use crate::kernel::wedge::Wedge;
 use crate::sheet::{Angles, Shape};
 
 /// Where rows of patches begin and end, as shares of the panel's depth.

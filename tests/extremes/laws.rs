@@ -1,8 +1,8 @@
 //! What the library makes of the ends of every range obeys the laws of light.
 
 use vfold::geometry::{FacetGrid, Fold, Spacing};
-use vfold::kernel::exact::form_factors;
 use vfold::kernel::mesh::{Mesh, respond};
+use vfold::paper::{self, Method, form_factors};
 use vfold::response::{ModeLight, Response};
 
 const ANGLES: [f64; 6] = [0.1, 1.0, 10.0, 120.0, 179.0, 179.9];
@@ -98,7 +98,7 @@ fn bounces_end_and_are_finite() {
         // Undivided panels narrower than this take seconds each.
         let meshes = if fold.angle_deg() < 10.0 { &[Mesh::Facets][..] } else { &[Mesh::Facets, Mesh::Auto] };
         for mesh in meshes {
-            let (response, _) = respond(&fold, *mesh, 1e-2).unwrap();
+            let (response, _) = paper::respond(Method::Exact, &fold, *mesh, 1e-2).unwrap();
             assert!(response.poles().iter().all(|g| g.abs() < 1.0), "{fold:?}");
             assert!(irradiances(&response).all(|e| e.is_finite() && e > -1e-2), "{fold:?} {mesh}");
         }
@@ -109,7 +109,7 @@ fn bounces_end_and_are_finite() {
 #[test]
 fn a_fold_of_one_degree_is_solved() {
     let fold = Fold::new(1.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();
-    let (response, accuracy) = respond(&fold, Mesh::Auto, 1e-2).unwrap();
+    let (response, accuracy) = respond(&fold, 1e-2).unwrap();
     assert!(accuracy.facet_mean_error.unwrap() <= 1e-2);
     assert!(irradiances(&response).all(|e| e.is_finite() && e > -1e-2));
 }

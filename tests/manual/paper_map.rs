@@ -24,7 +24,7 @@ fn cited(text: &str) -> Vec<u32> {
     numbers
 }
 
-/// The source file of a path such as `kernel::exact::FoldKernel::matrix_row`.
+/// The source file of a path such as `paper::FoldKernel::matrix_row`.
 fn source(path: &str) -> PathBuf {
     let modules: Vec<&str> =
         path.split("::").take_while(|part| part.starts_with(char::is_lowercase)).collect();

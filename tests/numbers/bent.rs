@@ -13,8 +13,8 @@ use vfold::kernel::bent::{BentExchange, BentFold};
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
 use vfold::kernel::mesh::Mesh;
 use vfold::kernel::refinement::refine;
-use vfold::kernel::surface::refinement::solve;
 use vfold::response::ModeLight;
+use vfold::surfaces::kernel::refinement::solve;
 
 const GRID: FacetGrid = FacetGrid { rows: 10, cols: 10 };
 

@@ -9,7 +9,7 @@ use vfold::estimate::noise::deviations;
 use vfold::estimate::unknowns::{Normal, SceneModel};
 use vfold::forward::{FacetModel, FacetValues, Lighting};
 use vfold::geometry::{FacetGrid, Fold, Light};
-use vfold::kernel::mesh::{Mesh, respond};
+use vfold::kernel::mesh::respond;
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant};
 
 const STEP: f64 = 1e-5;
@@ -18,7 +18,7 @@ const STEP: f64 = 1e-5;
 fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
     let grid = WavelengthGrid::uniform(400.0, 700.0, 10.0).unwrap();
     let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 4 }).unwrap();
-    let (response, _) = respond(&fold, Mesh::Auto, 1e-5).unwrap();
+    let (response, _) = respond(&fold, 1e-5).unwrap();
     let (eye, sun) = (camera("nikon-d5100").unwrap(), illuminant("D65").unwrap());
     let power = sun.on(&grid, Outside::Refuse).unwrap();
     let curves: Vec<_> = eye.channels.iter().map(|curve| curve.on(&grid, Outside::Zero).unwrap()).collect();
@@ -83,7 +83,7 @@ fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
 #[test]
 fn nothing_is_asked_beside_a_card() {
     let fold = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 2, cols: 2 }).unwrap();
-    let (response, _) = respond(&fold, Mesh::Auto, 1e-4).unwrap();
+    let (response, _) = respond(&fold, 1e-4).unwrap();
     let eye = CameraResponse::from_weights(vec![vec![0.5; 2]]);
     let lighting = Lighting { light: Light::new(&fold, 0.0, 0.0, 0.0).unwrap(), sun: eye.clone(), sky: eye };
     let beside_card = FacetModel::with_card(&response, &lighting, 1, vec![0.9; 2]);

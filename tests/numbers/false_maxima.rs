@@ -10,7 +10,7 @@ use vfold::estimate::unknowns::SceneModel;
 use vfold::estimate::{Exposure, map};
 use vfold::forward::{FacetModel, FacetValues, Lighting};
 use vfold::geometry::{FacetGrid, Fold, Light};
-use vfold::kernel::mesh::{Mesh, respond};
+use vfold::kernel::mesh::respond;
 use vfold::score::rmse;
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 
@@ -31,7 +31,7 @@ fn few_estimates_end_in_a_false_maximum() {
     let sets = std::iter::once("cc24".to_owned()).chain(files);
     let spectra: Vec<_> = sets.flat_map(|set| reflectances(&set).unwrap()).collect();
     let fold = Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();
-    let (response, _) = respond(&fold, Mesh::Auto, 1e-5).unwrap();
+    let (response, _) = respond(&fold, 1e-5).unwrap();
     let (mut estimates, mut wrong) = (0, Vec::new());
     for (eye, sun, exposure) in SETTINGS {
         let (eye, sun) = (camera(eye).unwrap(), illuminant(sun).unwrap());

@@ -1,11 +1,10 @@
 //! The paper's ways to a kernel against the exact one, and the laws that tell them apart.
 
 use vfold::geometry::{FacetGrid, Fold, Spacing};
-use vfold::kernel::check::{check, spectral_radius};
-use vfold::kernel::facets::FacetOperator;
-use vfold::kernel::mesh::{Mesh, respond_by};
-use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
-use vfold::kernel::{FoldKernel, Method};
+use vfold::kernel::mesh::Mesh;
+use vfold::paper::check::{check, spectral_radius};
+use vfold::paper::monte_carlo::{MonteCarlo, Sampling};
+use vfold::paper::{FacetOperator, FoldKernel, Method, respond};
 
 fn fold(angle_deg: f64, rows: usize, cols: usize) -> Fold {
     Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows, cols }).unwrap()
@@ -57,7 +56,7 @@ fn both_samplings_are_unbiased() {
             }
             let (mean, sd) = spread(&estimates, n);
             let off = (mean - exact).abs() / (sd / 10.0);
-            assert!(off < 5.0, "{fold:?} {sampling} {i} {j} {k}: {mean}, not {exact}: {off:.1} sd");
+            assert!(off < 5.0, "{fold:?} {sampling:?} {i} {j} {k}: {mean}, not {exact}: {off:.1} sd");
         }
     }
 }
@@ -114,7 +113,7 @@ fn midpoint_radii() {
         let kernel = Method::Midpoint.form_factors(&fold).0;
         let radius = spectral_radius(&FacetOperator::new(&kernel, fold.facets()));
         assert!((radius - want).abs() < 0.005, "{angle_deg}°: {radius}");
-        let refused = respond_by(Method::Midpoint, &fold, Mesh::Facets, 1e-5).is_err();
+        let refused = respond(Method::Midpoint, &fold, Mesh::Facets, 1e-5).is_err();
         assert_eq!(refused, want >= 1.0, "{angle_deg}°");
     }
     let kernel = Method::Midpoint.form_factors(&fold(45.0, 10, 10)).0;

@@ -9,11 +9,11 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde_json::Value;
 use vfold::camera::CameraResponse;
-use vfold::forward::bounces::Bounces;
-use vfold::forward::{FacetModel, Lighting, nonuniform};
+use vfold::forward::{FacetModel, Lighting};
 use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::mesh::{Mesh, respond};
+use vfold::kernel::mesh::Mesh;
+use vfold::paper::bounces::Bounces;
+use vfold::paper::{Method, form_factors, nonuniform, respond};
 use vfold::response::{ModeLight, Response};
 use vfold::score::pearson_distance;
 use vfold::spectrum::{Outside, WavelengthGrid, camera, illuminant};
@@ -46,7 +46,7 @@ fn matrix(fold: &Fold) -> DMatrix<f64> {
 
 /// Poles and residues of the fold with one flat patch per facet.
 fn response(fold: &Fold) -> Response {
-    respond(fold, Mesh::Facets, 1e-12).unwrap().0
+    respond(Method::Exact, fold, Mesh::Facets, 1e-12).unwrap().0
 }
 
 /// Irradiance of all facets of both panels, from poles and residues.

@@ -7,16 +7,15 @@ use nalgebra::DMatrix;
 use serde_json::Value;
 use vfold::camera::CameraResponse;
 use vfold::forward::FacetModel;
-use vfold::forward::nonuniform::surface_rgb;
-use vfold::geometry::accordion::Accordion;
-use vfold::geometry::{FacetGrid, Fold, LightSource, Panel, Shape, StandardSky, Vec3};
-use vfold::kernel::surface::SurfaceKernel;
-use vfold::kernel::surface::direct::DirectLight;
-use vfold::kernel::surface::lit::LitSurface;
-use vfold::kernel::surface::patches::{Division, patches};
-use vfold::kernel::surface::skylight::{backs, skylight};
-use vfold::kernel::surface::sunlight::solid_angle;
-use vfold::response::Exchange;
+use vfold::geometry::{FacetGrid, Fold, LightSource, Panel, StandardSky, Vec3};
+use vfold::paper::nonuniform::surface_rgb;
+use vfold::surfaces::kernel::SurfaceKernel;
+use vfold::surfaces::kernel::direct::DirectLight;
+use vfold::surfaces::kernel::lit::LitSurface;
+use vfold::surfaces::kernel::patches::{Division, patches};
+use vfold::surfaces::kernel::skylight::{backs, skylight};
+use vfold::surfaces::kernel::sunlight::solid_angle;
+use vfold::surfaces::{Accordion, Exchange, Shape};
 
 use crate::common::is_there;
 

@@ -2,6 +2,7 @@
 
 use vfold::geometry::{FacetGrid, Fold, Spacing};
 use vfold::kernel::mesh::{Mesh, respond};
+use vfold::paper::{self, Method};
 use vfold::response::{ModeLight, Response};
 
 fn fold(angle_deg: f64, width: f64, depth: f64) -> Fold {
@@ -25,11 +26,13 @@ fn patches_converge_to_the_undivided_panels() {
     for (angle_deg, width) in [(45.0, 1.0), (90.0, 1.0), (60.0, 2.0)] {
         let fold = fold(angle_deg, width, 1.0);
         let patches = |n| {
-            let (response, _) = respond(&fold, Mesh::Patches(FacetGrid { rows: n, cols: n }), 1e-8).unwrap();
+            let (response, _) =
+                paper::respond(Method::Exact, &fold, Mesh::Patches(FacetGrid { rows: n, cols: n }), 1e-8)
+                    .unwrap();
             irradiance(&response, 0.5)
         };
         let [coarse, middle, fine] = [20, 40, 80].map(patches);
-        let (auto, _) = respond(&fold, Mesh::Auto, 1e-5).unwrap();
+        let (auto, _) = respond(&fold, 1e-5).unwrap();
         let auto = irradiance(&auto, 0.5);
         // Errors fall by a constant factor from mesh to mesh, which Aitken's process takes to the limit; facets whose error
         // changes sign on the way have none.
@@ -61,9 +64,9 @@ fn folds() -> Vec<Fold> {
 #[test]
 fn facet_means_are_within_the_tolerance_of_a_finer_solution() {
     for fold in folds() {
-        let (finest, left) = respond(&fold, Mesh::Auto, 1e-6).unwrap();
+        let (finest, left) = respond(&fold, 1e-6).unwrap();
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
-            let (response, accuracy) = respond(&fold, Mesh::Auto, tolerance).unwrap();
+            let (response, accuracy) = respond(&fold, tolerance).unwrap();
             let stated = accuracy.facet_mean_error.unwrap();
             assert!(stated <= tolerance, "{fold:?}: {accuracy:?}");
             let may_be = 1.1 * stated + left.facet_mean_error.unwrap();
@@ -80,9 +83,11 @@ fn facet_means_are_within_the_tolerance_of_a_finer_solution() {
 #[test]
 fn unequal_panels_converge_like_equal_ones() {
     let fold = fold(70.0, 1.0, 1.0).with_panel1_depth(0.5).unwrap();
-    let (auto, _) = respond(&fold, Mesh::Auto, 1e-5).unwrap();
+    let (auto, _) = respond(&fold, 1e-5).unwrap();
     let mut errors = [20, 40, 80].map(|n| {
-        let (patches, _) = respond(&fold, Mesh::Patches(FacetGrid { rows: n, cols: n }), 1e-8).unwrap();
+        let (patches, _) =
+            paper::respond(Method::Exact, &fold, Mesh::Patches(FacetGrid { rows: n, cols: n }), 1e-8)
+                .unwrap();
         difference(&irradiance(&patches, 0.5), &irradiance(&auto, 0.5))
     });
     errors.sort_by(f64::total_cmp);
@@ -92,8 +97,8 @@ fn unequal_panels_converge_like_equal_ones() {
 #[test]
 fn one_flat_patch_a_facet_is_five_percent_off_at_the_crease() {
     let fold = fold(45.0, 1.0, 1.0);
-    let (facets, accuracy) = respond(&fold, Mesh::Facets, 1e-5).unwrap();
-    let (auto, _) = respond(&fold, Mesh::Auto, 1e-5).unwrap();
+    let (facets, accuracy) = paper::respond(Method::Exact, &fold, Mesh::Facets, 1e-5).unwrap();
+    let (auto, _) = respond(&fold, 1e-5).unwrap();
     let error = difference(&irradiance(&facets, 0.9), &irradiance(&auto, 0.9));
     assert!(accuracy.facet_mean_error.is_none());
     assert!((0.045..0.055).contains(&error), "{error}");
@@ -101,7 +106,12 @@ fn one_flat_patch_a_facet_is_five_percent_off_at_the_crease() {
 
 #[test]
 fn patches_that_do_not_divide_into_facets_are_refused() {
-    let refused =
-        respond(&fold(45.0, 1.0, 1.0), Mesh::Patches(FacetGrid { rows: 15, cols: 20 }), 1e-5).unwrap_err();
+    let refused = paper::respond(
+        Method::Exact,
+        &fold(45.0, 1.0, 1.0),
+        Mesh::Patches(FacetGrid { rows: 15, cols: 20 }),
+        1e-5,
+    )
+    .unwrap_err();
     assert!(refused.to_string().contains("multiples of the facets"), "{refused}");
 }

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use vfold::geometry::{FacetGrid, Fold};
-use vfold::kernel::FoldKernel;
-use vfold::kernel::exact::form_factors;
+use vfold::paper::{FoldKernel, form_factors};
 
 fn reference(name: &str) -> Value {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/reference");

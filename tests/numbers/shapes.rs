@@ -7,16 +7,15 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use serde_json::Value;
-use vfold::geometry::accordion::Accordion;
-use vfold::geometry::polygon::Polygon;
-use vfold::geometry::{FacetGrid, Fold, LightSource, Shape, Vec3, obj};
-use vfold::kernel::exact;
-use vfold::kernel::mesh::{Mesh, respond};
-use vfold::kernel::surface::patches::{Division, patches};
-use vfold::kernel::surface::refinement::{Solved, solve};
-use vfold::kernel::surface::sunlight::sunlight;
-use vfold::kernel::surface::{Census, SurfaceKernel};
-use vfold::response::{ModeLight, SurfaceResponse};
+use vfold::geometry::{FacetGrid, Fold, LightSource, Vec3};
+use vfold::kernel::mesh::Mesh;
+use vfold::paper::{Method, form_factors, respond};
+use vfold::response::ModeLight;
+use vfold::surfaces::kernel::patches::{Division, patches};
+use vfold::surfaces::kernel::refinement::{Solved, solve};
+use vfold::surfaces::kernel::sunlight::sunlight;
+use vfold::surfaces::kernel::{Census, SurfaceKernel};
+use vfold::surfaces::{Accordion, Polygon, Shape, SurfaceResponse, obj};
 
 fn shape(name: &str) -> Shape {
     obj::read(&Path::new("tests/data/shapes").join(format!("{name}.obj"))).unwrap().0
@@ -177,7 +176,7 @@ fn grazing_panels_do_not_see_each_other() {
 fn a_v_of_facets_has_the_kernel_of_the_fold() {
     for angle_deg in [20.0, 60.0, 90.0, 150.0] {
         let (fold, shape) = v(angle_deg, 6, 5);
-        let (kernel, exact) = (kernel(&shape), exact::form_factors(&fold));
+        let (kernel, exact) = (kernel(&shape), form_factors(&fold));
         for facet in 0..shape.len() {
             let off = largest_difference(&kernel.matrix_row(facet), &exact.matrix_row(facet));
             assert!(off < 1e-7, "{angle_deg}°, facet {facet}: {off:e}");
@@ -188,7 +187,7 @@ fn a_v_of_facets_has_the_kernel_of_the_fold() {
 #[test]
 fn a_v_of_facets_has_the_irradiance_of_the_fold() {
     let (fold, shape) = v(60.0, 6, 6);
-    let (response, _) = respond(&fold, Mesh::Facets, 1e-9).unwrap();
+    let (response, _) = respond(Method::Exact, &fold, Mesh::Facets, 1e-9).unwrap();
     let sun = LightSource::directional([0.0, 0.0, 1.0], 1.0).unwrap();
     let solved = solve(&shape, &[sun], Mesh::Facets, 1e-8).unwrap();
     for facet in 0..72 {

@@ -4,10 +4,9 @@
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use vfold::camera::CameraResponse;
-use vfold::forward::{FacetModel, nonuniform};
-use vfold::kernel::dense::DenseExchange;
-use vfold::response::Exchange;
-use vfold::response::{ReducedExchange, SurfaceResponse};
+use vfold::forward::FacetModel;
+use vfold::paper::nonuniform;
+use vfold::surfaces::{DenseExchange, Exchange, ReducedExchange, SurfaceResponse};
 
 /// Patches that exchange light, two of them lit.
 #[derive(Clone, Debug)]

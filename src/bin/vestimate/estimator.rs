@@ -3,7 +3,6 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use vfold::cli;
-use vfold::estimate::components::FlatSheet;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::light::{Candidate, Others};
 use vfold::estimate::measured::Measured;
@@ -14,8 +13,10 @@ use vfold::estimate::prior::Prior;
 use vfold::estimate::shadow::Shadow;
 use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
-use vfold::estimate::{Estimate, Exposure, classes, map, smooth};
+use vfold::estimate::{Estimate, Exposure, classes, map};
 use vfold::forward::FacetValues;
+use vfold::paper::components::FlatSheet;
+use vfold::paper::smooth;
 use vfold::scene::{Setting, other_lights, photographed};
 use vfold::spectrum::{
     Outside, Spectrum, WavelengthGrid, equally_likely, finely_likely_lights, likely_lights,

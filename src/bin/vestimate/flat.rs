@@ -6,9 +6,10 @@ use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
 use vfold::Result;
 use vfold::cli::refuse;
-use vfold::estimate::components::{FlatSheet, autocorrelation};
-use vfold::estimate::{Estimate, khan, park};
+use vfold::estimate::Estimate;
 use vfold::forward::FacetModel;
+use vfold::paper::components::{FlatSheet, autocorrelation};
+use vfold::paper::{khan, park};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 
 use super::settings::{NoiseSd, Smoothness};

@@ -30,10 +30,10 @@ use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
 use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
-use vfold::geometry::sight::Sight;
 use vfold::image::Photograph;
 use vfold::scene::Setting;
 use vfold::stream::{Output, Reader, Record, Scene};
+use vfold::surfaces::Sight;
 use vfold::{Error, Result};
 
 const AFTER_HELP: &str = "\

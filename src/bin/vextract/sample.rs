@@ -7,21 +7,20 @@ use std::sync::Arc;
 use vfold::calibrate::Calibration;
 use vfold::cli;
 use vfold::geometry::Panel;
-use vfold::geometry::sight::Sight;
 use vfold::image::{
     CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
     open_sides,
 };
 use vfold::scene::MarkedPanels;
 use vfold::stream::{CalibrationRecord, ImageRecord, Regions, Sample, Scene};
+use vfold::surfaces::Sight;
 use vfold::{Error, Result};
 
 use super::calibration::{GivenCalibration, apply};
 use super::pictures::name;
-use super::placing;
 use super::reading::Reading;
 use super::regions::GivenRegions;
-use super::{Args, balance, camera, finding, numbers};
+use super::{Args, balance, camera, finding, numbers, placing};
 
 /// What all photographs of a run have in common.
 pub struct Setup<'a> {

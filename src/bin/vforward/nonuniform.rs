@@ -3,11 +3,10 @@
 use nalgebra::DMatrix;
 use vfold::Result;
 use vfold::camera::CameraResponse;
-use vfold::forward::{Lighting, nonuniform};
-use vfold::kernel::FoldKernel;
-use vfold::kernel::exact::form_factors;
-use vfold::kernel::surface::SurfaceKernel;
+use vfold::forward::Lighting;
+use vfold::paper::{FoldKernel, form_factors, nonuniform};
 use vfold::scene::{GivenKernel, Setting};
+use vfold::surfaces::kernel::SurfaceKernel;
 
 /// Direct light a patch of every source, and the camera's response to it.
 type Lights = Vec<(Vec<f64>, CameraResponse)>;

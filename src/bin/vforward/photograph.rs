@@ -3,10 +3,11 @@
 use nalgebra::DMatrix;
 use vfold::camera::CameraResponse;
 use vfold::colorimetry::{Colorimeter, Observer};
-use vfold::forward::render::{FoldView, Picture, ShapeView};
+use vfold::forward::render::{FoldView, Picture};
 use vfold::forward::{FacetModel, Lighting};
 use vfold::scene::{FoldSetting, Setting, SurfaceSetting};
 use vfold::stream::Corners;
+use vfold::surfaces::ShapeView;
 use vfold::{Error, Result};
 
 use super::setup::Setup;

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
-use vfold::forward::bounces::{Bounces, Truncation};
 use vfold::forward::noise::Noise;
 use vfold::forward::render::FoldView;
 use vfold::forward::{BispectralSheet, FacetModel, FacetValues, Fluorescing};
+use vfold::paper::bounces::{Bounces, Truncation};
 use vfold::parallel::{Item, in_order};
 use vfold::scene::{FoldedSheet, GivenKernel, Setting};
 use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use vfold::cli::{self, refuse};
 use vfold::geometry::{FacetGrid, Fold, Light, Spacing};
-use vfold::kernel::check::check;
-use vfold::kernel::mesh::{Accuracy, Mesh, TOLERANCE, respond_by};
-use vfold::kernel::monte_carlo::{MonteCarlo, Sampling};
+use vfold::kernel::mesh::{Accuracy, Mesh, TOLERANCE};
 use vfold::kernel::skipped::skipped;
-use vfold::kernel::{FoldKernel, Method, exact};
+use vfold::paper::check::check;
+use vfold::paper::monte_carlo::{MonteCarlo, Sampling};
+use vfold::paper::{FoldKernel, Method, form_factors, respond};
 use vfold::plot::surface::draw;
 use vfold::scene::FoldSetting;
 use vfold::stream::{Output, Scene, write_matrix};
@@ -51,8 +51,8 @@ fn scene(
         let remedy = format!("give more than {TOO_NARROW_DEG}°, or --mesh facets");
         return Err(Error::usage("--angle-deg", problem, remedy));
     }
-    let (response, accuracy) = respond_by(method, fold, mesh, tolerance)?;
-    say_accuracy(args, fold, &accuracy)?;
+    let (response, accuracy) = respond(method, fold, mesh, tolerance)?;
+    say_accuracy(args, method, fold, &accuracy)?;
     let skipped = skipped(fold, &light, &accuracy, response.poles().len());
     say_work(args, &accuracy, response.poles().len(), &skipped);
     let mut scene = Scene::new(&args.id, fold, &light, &response)?;
@@ -93,7 +93,7 @@ fn report(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<
     }
     let laws = match method {
         Method::Exact => check(&kernel, &kernel),
-        _ => check(&kernel, &exact::form_factors(&fold)),
+        _ => check(&kernel, &form_factors(&fold)),
     };
     laws.iter().try_for_each(|law| out.text(&law.to_string()))?;
     let broken: Vec<_> = laws.iter().filter(|law| !law.holds()).map(|law| law.name).collect();
@@ -101,9 +101,9 @@ fn report(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<
 }
 
 /// Warns of an accuracy below what was expected, and refuses one below what was asked for.
-fn say_accuracy(args: &Args, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
+fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
     if let Some(source) = accuracy.kernel {
-        warn_of_spread(args, source.method, source.entry_sd);
+        warn_of_spread(args, method, source.entry_sd);
     }
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let too_large = accuracy.facet_mean_error.filter(|error| *error > tolerance).map(|error| {

@@ -2,7 +2,8 @@
 
 use clap::Args;
 use vfold::cli::{pair, vector};
-use vfold::geometry::{LightSource, Shape, StandardSky, Vec3};
+use vfold::geometry::{LightSource, StandardSky, Vec3};
+use vfold::surfaces::Shape;
 use vfold::{Error, Result};
 
 /// Where sun and zenith are if nothing is said.
@@ -147,7 +148,7 @@ impl LightArg {
 
 /// Mean of the facets' centres by area.
 fn middle(shape: &Shape) -> Vec3 {
-    let area: f64 = shape.facets().map(vfold::geometry::Polygon::area).sum();
+    let area: f64 = shape.facets().map(vfold::surfaces::Polygon::area).sum();
     shape.facets().map(|facet| facet.area() * facet.centroid()).sum::<Vec3>() / area
 }
 

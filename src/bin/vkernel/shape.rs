@@ -4,17 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
-use vfold::cli;
-use vfold::geometry::Shape;
-use vfold::geometry::accordion::Accordion;
 use vfold::kernel::mesh::Mesh;
-use vfold::kernel::surface::SurfaceKernel;
-use vfold::kernel::surface::patches::{Division, patches};
-use vfold::kernel::surface::refinement::{Solved, solve};
 use vfold::plot::surface::draw;
 use vfold::scene::SurfaceSetting;
 use vfold::stream::{Output, Scene, Surface, read_shape, write_matrix};
-use vfold::{Error, Result};
+use vfold::surfaces::kernel::SurfaceKernel;
+use vfold::surfaces::kernel::patches::{Division, patches};
+use vfold::surfaces::kernel::refinement::{Solved, solve};
+use vfold::surfaces::{Accordion, Shape};
+use vfold::{Error, Result, cli};
 
 use super::fold::{self, Opened};
 use super::light::UP;

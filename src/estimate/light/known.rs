@@ -203,7 +203,7 @@ mod tests {
     use crate::estimate::unknowns::SceneModel;
     use crate::forward::{FacetModel, FacetValues, Lighting};
     use crate::geometry::{FacetGrid, Fold, Light};
-    use crate::kernel::mesh::{Mesh, respond};
+    use crate::kernel::mesh::respond;
     use crate::spectrum::{Outside, WavelengthGrid, camera, equally_likely, illuminant};
 
     const LIGHTS: [&str; 4] = ["D65", "A", "FL11", "LED-B3"];
@@ -217,7 +217,7 @@ mod tests {
         let eye =
             CameraResponse::new(&grid, &curves, &spectra[0].on(&grid, Outside::Refuse).unwrap()).unwrap();
         let fold = Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 2 }).unwrap();
-        let (response, _) = respond(&fold, Mesh::Auto, 1e-4).unwrap();
+        let (response, _) = respond(&fold, 1e-4).unwrap();
         let light = Light::new(&fold, 0.0, 0.0, 0.0).unwrap();
         let lighting = Lighting { light, sun: eye.clone(), sky: eye };
         let scene = SceneModel::known(FacetModel::one_sheet(&response, &lighting));

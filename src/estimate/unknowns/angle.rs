@@ -6,7 +6,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::estimate::Fitted;
-use crate::kernel::mesh::{Mesh, respond};
+use crate::kernel::mesh::respond;
 
 /// Angle between the panels, degrees. It takes two more solutions of the bounces.
 pub static ANGLE: Unknown = Unknown {
@@ -56,8 +56,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     let state = |(at, node): (usize, &f64)| {
         let fold = scene.fold.with_angle_deg(*node)?;
         // the fold that was told is solved already
-        let response =
-            if at == 1 { scene.response.clone() } else { respond(&fold, Mesh::Auto, tolerance)?.0 };
+        let response = if at == 1 { scene.response.clone() } else { respond(&fold, tolerance)?.0 };
         Ok(State { fold, response, factors: vec![(&ANGLE, Factor::Node { nodes, at })] })
     };
     sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;

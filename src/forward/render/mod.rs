@@ -3,9 +3,7 @@
 mod fold;
 mod picture;
 mod pinhole;
-mod shape;
 
 pub use fold::FoldView;
 pub use picture::Picture;
 pub use pinhole::{Frame, Pinhole, Stand, Viewpoint};
-pub use shape::ShapeView;

@@ -1,7 +1,7 @@
 //! Light on a fold whose crease is rounded and whose panels are bowed.
 //!
 //! The sheet is strips along the crease ([`section`](BentExchange)), each divided into columns; they exchange light by Lambert's formula for
-//! polygons, and facets gather it from all of them. This is coarse beside [`super::exact`]: what a bend changes is the difference between
+//! polygons, and facets gather it from all of them. This is coarse beside [`super::wedge`]: what a bend changes is the difference between
 //! this of the bent fold and this of an ideal one, which cancels what strips and columns leave out.
 
 mod columns;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use vfold::geometry::Shape;
 use vfold::stream::read_shape;
+use vfold::surfaces::Shape;
 
 use super::{assert_finite, taken, with_file};
 

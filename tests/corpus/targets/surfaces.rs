@@ -1,13 +1,11 @@
 //! Light between the facets of surfaces that nobody would build.
 
 use vfold::Result;
-use vfold::geometry::accordion::Accordion;
-use vfold::geometry::{FacetGrid, Fold, LightSource, Shape};
-use vfold::kernel::surface::SurfaceKernel;
-use vfold::kernel::surface::lit::LitSurface;
-use vfold::kernel::surface::patches::{Division, Patch, patches};
-use vfold::response::Exchange;
-use vfold::response::SurfaceResponse;
+use vfold::geometry::{FacetGrid, Fold, LightSource};
+use vfold::surfaces::kernel::SurfaceKernel;
+use vfold::surfaces::kernel::lit::LitSurface;
+use vfold::surfaces::kernel::patches::{Division, Patch, patches};
+use vfold::surfaces::{Accordion, Exchange, Shape, SurfaceResponse};
 
 use super::drawn::Drawn;
 use super::{assert_finite, taken};

@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use vfold::geometry::Shape;
-use vfold::kernel::surface::SurfaceKernel;
-use vfold::kernel::surface::patches::{Division, patches};
+use vfold::surfaces::Shape;
+use vfold::surfaces::kernel::SurfaceKernel;
+use vfold::surfaces::kernel::patches::{Division, patches};
 
 use super::{assert_near, between_panels};
 

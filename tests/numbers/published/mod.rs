@@ -14,7 +14,7 @@ mod sharma;
 
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::geometry::{FacetGrid, Fold};
-use vfold::kernel::exact::form_factors;
+use vfold::paper::form_factors;
 use vfold::spectrum::{WavelengthGrid, illuminant};
 
 /// Form factor from panel 0 to panel 1, whole panels.

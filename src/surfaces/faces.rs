@@ -1,0 +1,85 @@
+//! What makes a list of corners a facet, and which faces are one.
+
+use std::collections::HashMap;
+
+use super::polygon::Polygon;
+use crate::error::{Error, Result};
+use crate::geometry::Vec3;
+
+/// How far from flat a quadrilateral may be, relative to its longer diagonal.
+const UNEVEN: f64 = 1e-4;
+/// Facets that are narrower than this, relative to their length, have no side to speak of.
+const DEGENERATE: f64 = 1e-9;
+
+/// The face as a polygon, if its corners exist and lie in a plane.
+pub(super) fn flat(vertices: &[[f64; 3]], corners: &[usize], n: usize) -> Result<Polygon> {
+    if !(3..=4).contains(&corners.len()) {
+        let problem = format!("face {n} has {} corners", corners.len());
+        return Err(Error::shape(problem, "divide it into triangles or quadrilaterals"));
+    }
+    let mut points = Vec::new();
+    for corner in corners {
+        let Some(point) = vertices.get(*corner) else {
+            let problem = format!("face {n} has vertex {corner} of {}", vertices.len());
+            return Err(Error::shape(problem, "count vertices from 0"));
+        };
+        points.push(Vec3::from(*point));
+    }
+    let polygon = Polygon::new(&points);
+    let height = |point: &Vec3| (point - points[0]).dot(&polygon.normal()).abs();
+    let uneven = points.iter().map(height).fold(0.0, f64::max) / polygon.diameter();
+    if uneven > UNEVEN {
+        let problem = format!("face {n} is not flat: a corner is {uneven:.1e} of its size off the plane");
+        return Err(Error::shape(problem, "divide it into two triangles"));
+    }
+    Ok(polygon)
+}
+
+/// Whether it has no area to speak of.
+pub(super) fn is_degenerate(polygon: &Polygon) -> bool {
+    let length = polygon.diameter();
+    polygon.area().is_nan() || polygon.area() <= DEGENERATE * length * length
+}
+
+/// Refuses face `n` if it is not convex.
+pub(super) fn convex(polygon: &Polygon, n: usize) -> Result<()> {
+    let corners = polygon.corners();
+    let turn = |k: usize| {
+        let at = |k: usize| corners[k % corners.len()];
+        (at(k + 1) - at(k)).cross(&(at(k + 2) - at(k + 1))).dot(&polygon.normal())
+    };
+    let least = (0..corners.len()).map(turn).fold(f64::INFINITY, f64::min);
+    if least < -DEGENERATE * polygon.diameter().powi(2) {
+        return Err(Error::shape(format!("face {n} is not convex"), "divide it into two triangles"));
+    }
+    Ok(())
+}
+
+/// Bits of a point, 0 and −0 alike.
+pub(super) type Bits = [u64; 3];
+
+fn bits(point: &Vec3) -> Bits {
+    [point.x, point.y, point.z].map(|x| (x + 0.0).to_bits())
+}
+
+/// Corners in cyclic order from the smallest, so that a face given twice is known.
+pub(super) fn canonical(polygon: &Polygon) -> Vec<Bits> {
+    let mut corners: Vec<Bits> = polygon.corners().iter().map(bits).collect();
+    let first = corners.iter().enumerate().min_by_key(|(_, corner)| **corner).map_or(0, |(n, _)| n);
+    corners.rotate_left(first);
+    corners
+}
+
+/// A line for the edges that more than two faces share: where surfaces meet or cross.
+pub(super) fn crowded_edges<'a>(facets: impl Iterator<Item = &'a Polygon>) -> Option<String> {
+    let mut faces = HashMap::<[Bits; 2], usize>::new();
+    for facet in facets {
+        for (a, b) in facet.edges() {
+            let mut ends = [bits(&a), bits(&b)];
+            ends.sort_unstable();
+            *faces.entry(ends).or_default() += 1;
+        }
+    }
+    let crowded = faces.values().filter(|count| **count > 2).count();
+    (crowded > 0).then(|| format!("{crowded} edges have more than two faces"))
+}
