@@ -188,7 +188,7 @@ def main():
     number = lambda x: "f64::INFINITY" if np.isinf(x) else repr(float(f"{x:.5g}"))
     print("//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be edited.")
     print("\n#![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted\n")
-    print("use super::score::FEATURES;\nuse super::trust::Tree;\n")
+    print("use super::features::FEATURES;\nuse super::tree::Tree;\n")
     print(f"/// Weights of the features of a hypothesis.\n#[rustfmt::skip]\npub(super) const RANK: [f64; FEATURES] = [{', '.join(map(number, rank))}];")
     print(f"/// The score of \"no fold\".\npub(super) const NO_FOLD: f64 = {number(no_fold)};")
     print(f"/// What is said before any tree, and how sums are made log odds.\npub(super) const BASE: f64 = {number(base)};")

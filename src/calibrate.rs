@@ -10,27 +10,16 @@
 //! (`tests/numbers/calibration.rs` measures both).
 
 mod curve;
+mod patch;
 
 use curve::Curve;
+pub use patch::Patch;
 
 use crate::error::{Error, Result};
 
 /// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to 0.12, patches in the
 /// wrong order 0.45 and more.
 const LARGEST_RESIDUAL: f64 = 0.25;
-
-/// A patch, and what it should be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Patch {
-    /// The reference's name.
-    pub name: String,
-    /// Mean light per channel in the photograph.
-    pub measured: Vec<f64>,
-    /// Standard error of the mean per channel.
-    pub standard_error: Vec<f64>,
-    /// What the scene's camera makes of it at exposure 1, above 0.
-    pub expected: Vec<f64>,
-}
 
 /// What takes a photograph's values to those of the scene's camera.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 mod generate;
 mod kernel;
 mod materials;
+mod notes;
 mod outcome;
 mod served;
 mod spectra;
@@ -17,6 +18,7 @@ use clap::{Args, Parser, ValueEnum};
 
 pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
+use notes::Notes;
 pub use served::{Reply, ServedFile, ask_on_page};
 pub use surplus::refuse;
 
@@ -73,7 +75,7 @@ pub struct Common {
         value_parser = clap::builder::BoolishValueParser::new(), hide_possible_values = true)]
     pub percent: Option<bool>,
     #[arg(skip)]
-    said: spectra::Said,
+    notes: Notes,
 }
 
 /// What `--progress` takes.

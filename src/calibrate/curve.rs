@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::Patch;
+use super::patch::Patch;
 use crate::error::{Error, Result};
 
 /// Standard deviation of the polynomial's constant before the picture, of the brightest patch: stray light and black level.

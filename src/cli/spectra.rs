@@ -1,16 +1,11 @@
-//! Spectra that flags name; what had to be done to them is said once.
+//! Spectra that flags name, with a note of what had to be done to them.
 
-use std::collections::HashSet;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
 use super::{Common, say};
 use crate::error::{Error, Result};
 use crate::spectrum::{Sensitivities, Spectrum};
 use crate::stream;
-
-/// Notes that have been said.
-pub(super) type Said = Arc<Mutex<HashSet<String>>>;
 
 impl Common {
     /// The reflectances that `spec` names.
@@ -81,9 +76,8 @@ impl Common {
 
     /// Says what was done to spectra as they were read, each thing once.
     fn say_notes<'a>(&self, spectra: impl IntoIterator<Item = &'a Spectrum>) {
-        let Ok(mut said) = self.said.lock() else { return };
         for note in spectra.into_iter().filter_map(Spectrum::note).filter(|_| !self.quiet) {
-            if said.insert(note.to_owned()) {
+            if self.notes.is_new(note) {
                 say(&called(), note);
             }
         }

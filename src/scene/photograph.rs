@@ -12,6 +12,7 @@ use framing::Pose;
 use nalgebra::{Vector2, Vector3};
 use ndarray::Array2;
 
+use self::ambient::CREASE_RADII;
 use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
@@ -28,10 +29,9 @@ use crate::response::ModeLight;
 use crate::stream::Sample;
 
 /// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may have erred by, as a share of the angle
-/// at most; radii of the crease, degrees of bow.
+/// at most; degrees of bow.
 const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
-const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 /// Depths of a panel over the distance of a lamp.
 const NEARNESSES: [f64; 2] = [0.08, 0.25];

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::family::fresnel;
-use super::table::Place;
+use super::fresnel::fresnel;
+use super::place::Place;
 
 /// Least cosine of incidence and exit: below it fits and lobes grow without bounds.
 const COS_MIN: f64 = 1e-3;

@@ -6,6 +6,9 @@
 
 mod angles;
 mod family;
+mod fresnel;
+mod measured;
+mod place;
 mod table;
 
 use std::f64::consts::PI;
@@ -18,8 +21,8 @@ use crate::kernel::quadrature::Rule;
 pub use angles::Angles;
 pub use family::Family;
 use family::Terms;
+pub use measured::{measured, measured_names};
 use table::Table;
-pub use table::{measured, measured_names};
 
 /// Nodes of the cosines and of the azimuth over which albedos are integrated.
 const COSINES: usize = 20;

@@ -3,15 +3,13 @@
 use std::iter;
 use std::sync::Arc;
 
+use super::scenes::PLACE_BYTES;
 use super::{Kept, Reader, Record, Sample, Scene, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
 /// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
 pub(super) const AHEAD: usize = 16;
-
-/// A record takes the place of as many as its line has of these bytes.
-pub(super) const PLACE_BYTES: usize = 1 << 20;
 
 /// What a tool does to the records that pass through it.
 pub trait Transform {

@@ -3,10 +3,11 @@
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use super::pipe::PLACE_BYTES;
 use super::{Sample, Scene};
 use crate::error::{Error, Result};
 
+/// A record takes the place of as many as its line has of these bytes.
+pub(super) const PLACE_BYTES: usize = 1 << 20;
 /// Scenes that samples may name, if none is as large as [`PLACE_BYTES`]; a larger one takes the place of several.
 const PLACES_MAX: usize = 64;
 

@@ -4,7 +4,6 @@
 //! reflected once is exact, and what is reflected twice is integrated over the directions at each [point](points); only what is reflected
 //! more often goes through flat [patches]. Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
 
-mod eye;
 mod frame;
 pub mod patches;
 pub mod points;
@@ -16,7 +15,6 @@ use rayon::prelude::*;
 
 use crate::geometry::Fold;
 use crate::sheet::Shape;
-pub use eye::{Eye, eye_before};
 use frame::Frame;
 use patches::Patches;
 use points::Points;

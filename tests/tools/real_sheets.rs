@@ -14,11 +14,10 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph;
 use vfold::estimate::prior::Prior;
-use vfold::image::Point;
+use vfold::image::{Point, camera_pose};
 use vfold::scene::{FoldSetting, PhotographedFold, Picture, Setting};
 use vfold::spectrum::{WavelengthGrid, illuminant};
 use vfold::stream::{Reader, Record, Sample, Scene};
-use vfold::transport::eye_before;
 
 use crate::common::{Ended, Workdir, left_out};
 
@@ -231,7 +230,7 @@ fn materials_facets_do_not_tell_all_that_an_instrument_says() {
             let corners = sidecar[name].as_array().unwrap().iter().map(numbers);
             corners.map(|at| Point::new(at[0], at[1])).collect::<Vec<_>>().try_into().unwrap()
         };
-        let eye = eye_before(&setting.fold, &[panel("panel0"), panel("panel1")]).unwrap();
+        let eye = camera_pose(&setting.fold, &[panel("panel0"), panel("panel1")]).unwrap();
         let folded = setting.folded_sheet(shape.clone(), eye.position.coords, None).unwrap();
         let model = Setting::of(&scene).unwrap().model().unwrap();
         let measured = sample.facet_rgb().unwrap();

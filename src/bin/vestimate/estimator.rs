@@ -11,7 +11,7 @@ use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::Unmodelled;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::shadow::Shadow;
-use vfold::estimate::unknowns::{self, AUTO, EXPOSURE, NONE, Unknown};
+use vfold::estimate::unknowns::{AUTO, EXPOSURE, NONE};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map};
 use vfold::forward::FacetValues;
@@ -27,11 +27,12 @@ use vfold::stream::{
 use vfold::{Error, Result};
 
 use super::Args;
+use super::asked::Asked;
 use super::context::{Context, SceneMethod};
 use super::flat::FlatEstimator;
 use super::known_fold::KnownFold;
 use super::said::{self, Deviations};
-use super::settings::{MUNSELL, NoiseSd, SHEETS, Smoothness};
+use super::settings::{MUNSELL, SHEETS, Smoothness};
 
 /// How spectra are estimated, from `--method` and `--prior`.
 enum Method {
@@ -54,10 +55,9 @@ type PriorSpectra = (Vec<Spectrum>, Option<Vec<usize>>);
 
 /// Estimates as the flags ask for.
 pub struct Estimator<'a> {
-    args: &'a Args,
+    /// What the flags say of every sample.
+    pub asked: Asked<'a>,
     method: Method,
-    /// What is fitted beside the spectrum.
-    fit: Vec<&'static Unknown>,
     /// Whether the light is to be found, whatever scenes say of it.
     forgets_light: bool,
     /// What tells the light beside them.
@@ -120,12 +120,12 @@ impl Transform for Estimator<'_> {
         if self.forgets_light {
             scene.forget_light()?;
         }
-        if let Some(spec) = &self.args.reference_panel {
-            let card = self.args.common.one_reflectance("--reference-panel", spec)?;
+        if let Some(spec) = &self.asked.args.reference_panel {
+            let card = self.asked.args.common.one_reflectance("--reference-panel", spec)?;
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
-        let materials = self.args.materials.on(&grid, &self.args.common)?;
+        let materials = self.asked.args.materials.on(&grid, &self.asked.args.common)?;
         if !materials.is_empty() {
             scene.set_materials(&materials)?;
         }
@@ -140,26 +140,27 @@ impl Transform for Estimator<'_> {
                 SceneMethod::Flat(flat.context(&grid, &Setting::of(lit.as_ref().unwrap_or(scene))?.model()?)?)
             }
         };
-        if !self.args.common.no_history {
+        if !self.asked.args.common.no_history {
             scene.fields.add_history("vestimate")?;
         }
-        let start = match &self.args.start {
+        let start = match &self.asked.args.start {
             Some(spec) => {
-                Some(self.args.common.one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?)
+                Some(self.asked.args.common.one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?)
             }
             None => None,
         };
         let lit = lit.as_ref().unwrap_or(scene);
         let others = self.shared(other_lights(&lit.optics()?, lit.is_daylight_assumed()?));
         let (lights, shown) = match &self.known_fold {
-            Some(known) => known.shown(self, (lit, &method), (lights, others.as_deref()))?,
+            Some(known) => known.shown(&self.asked, (lit, &method), (lights, others.as_deref()))?,
             None => (lights, None),
         };
-        Context::new(lit, method, start, &self.fit, (lights, others, shown))
+        Context::new(lit, method, start, &self.asked.fit, (lights, others, shown))
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
-        let (rgb, noise, exposure) = (sample.facet_rgb()?, self.noise(sample)?, self.exposure_of(sample)?);
+        let (rgb, noise, exposure) =
+            (sample.facet_rgb()?, self.asked.noise(sample)?, self.asked.exposure_of(sample)?);
         self.known_fold.iter().try_for_each(|known| known.check(sample, exposure))?;
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
@@ -179,7 +180,7 @@ impl Transform for Estimator<'_> {
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
                 let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
-                let how = format!("prior {}, {deviations}, {}", self.args.prior(), said::size(&data));
+                let how = format!("prior {}, {deviations}, {}", self.asked.args.prior(), said::size(&data));
                 (estimate, Some(verdict), how)
             }
             SceneMethod::Smooth(smoothness) => {
@@ -205,9 +206,8 @@ impl<'a> Estimator<'a> {
     /// Flags that contradict each other, or a prior that cannot be read.
     pub fn new(args: &'a Args) -> Result<Self> {
         Ok(Self {
-            args,
+            asked: Asked::new(args),
             method: method(args)?,
-            fit: if args.fit.contains(&&AUTO) { Vec::new() } else { unknowns::of_flags(&args.fit) },
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             known_fold: KnownFold::of(args)?,
             last_prior: Mutex::default(),
@@ -217,13 +217,7 @@ impl<'a> Estimator<'a> {
 
     /// The flags behind it.
     pub fn args(&self) -> &Args {
-        self.args
-    }
-
-    /// How the exposure enters, `told` being what the sample says of it.
-    pub fn exposure_or(&self, told: Exposure) -> Exposure {
-        let fits = self.fit.contains(&&EXPOSURE);
-        self.args.exposure.or(fits.then_some(Exposure::Free)).unwrap_or(told)
+        self.asked.args
     }
 
     /// The estimate from facets that all have noise of this standard deviation.
@@ -234,7 +228,7 @@ impl<'a> Estimator<'a> {
         noise_sd: f64,
         exposure: Exposure,
     ) -> Result<Estimate> {
-        let sd = deviations(rgb, |_| noise_sd, self.args.model_error.unwrap_or(0.0));
+        let sd = deviations(rgb, |_| noise_sd, self.asked.args.model_error.unwrap_or(0.0));
         let inference = context.inference(self.prior_of(context)?, self.is_auto());
         let data = inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
         map::estimate(&data, inference.prior, inference.start)
@@ -279,8 +273,8 @@ impl<'a> Estimator<'a> {
     /// # Errors
     /// [`Error::Usage`] if flags ask for what is not found along with a light; lights that do not cover the wavelengths.
     fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
-        let fits_scene = self.fit.iter().any(|unknown| **unknown != EXPOSURE);
-        if !self.args.has_prior() || self.args.join.is_some() || fits_scene {
+        let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
+        if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
             let problem = "the light is unknown, and found under a prior alone, of each photograph by itself, with nothing but exposure fitted";
             return Err(Error::usage(
                 "--illuminant",
@@ -288,8 +282,8 @@ impl<'a> Estimator<'a> {
                 "leave --prior, --method, --join and --fit out, or give vextract the light",
             ));
         }
-        let lights = match &self.args.illuminants {
-            Some(spec) => equally_likely(self.args.common.illuminants(spec)?),
+        let lights = match &self.asked.args.illuminants {
+            Some(spec) => equally_likely(self.asked.args.common.illuminants(spec)?),
             // a known sheet tells lights apart that are nearer to each other
             None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
                 finely_likely_lights()?
@@ -307,7 +301,7 @@ impl<'a> Estimator<'a> {
         match &context.method {
             SceneMethod::Map(prior) => Ok(prior),
             SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
-                let prior = self.args.prior();
+                let prior = self.asked.args.prior();
                 let problem =
                     format!("'{prior}' does not say how far off estimates are, as --plan and --join ask");
                 Err(Error::usage("--prior", problem, "leave --prior and --method out, or give spectra"))
@@ -317,22 +311,12 @@ impl<'a> Estimator<'a> {
 
     /// Whether the flags say that a photograph may be one of a real sheet.
     pub fn asks_for_auto(&self) -> bool {
-        self.args.fit.contains(&&AUTO)
-    }
-
-    /// What is fitted of an ideal fold.
-    pub fn fit(&self) -> &[&'static Unknown] {
-        &self.fit
+        self.asked.args.fit.contains(&&AUTO)
     }
 
     /// Whether what is fitted is up to the photograph.
     pub fn is_auto(&self) -> bool {
-        self.args.fit.is_empty() || self.asks_for_auto()
-    }
-
-    /// How the exposure of a sample enters.
-    pub fn exposure_of(&self, sample: &Sample) -> Result<Exposure> {
-        Ok(self.exposure_or(sample.exposure()?.map_or(Exposure::Free, Exposure::Known)))
+        self.asked.args.fit.is_empty() || self.asks_for_auto()
     }
 
     /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were several.
@@ -344,9 +328,9 @@ impl<'a> Estimator<'a> {
         how: &str,
         joined: &[String],
     ) -> Result<Made> {
-        let noise = self.noise(sample)?;
-        if self.args.common.verbose {
-            let (id, exposure) = (sample.id(), self.exposure_of(sample)?);
+        let noise = self.asked.noise(sample)?;
+        if self.asked.args.common.verbose {
+            let (id, exposure) = (sample.id(), self.asked.exposure_of(sample)?);
             cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(estimate, exposure)));
         }
         // methods that weigh no facets know their noise all the same
@@ -354,9 +338,10 @@ impl<'a> Estimator<'a> {
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
-            SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.args.prior()),
+            SceneMethod::Map(_) | SceneMethod::Smooth(_) => ("interreflection", self.asked.args.prior()),
         };
-        let with_covariance = self.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
+        let with_covariance =
+            self.asked.args.common.save.iter().any(|(field, _)| field.ends_with("covariance"));
         let record = sample.set_estimate(&NewEstimate {
             method,
             prior,
@@ -367,13 +352,13 @@ impl<'a> Estimator<'a> {
             verdict,
             with_covariance,
         })?;
-        let asked = self.args.trace.as_ref().map(|_| trace(&sample.id(), &estimate.trace));
+        let asked = self.asked.args.trace.as_ref().map(|_| trace(&sample.id(), &estimate.trace));
         Ok(Made { estimate: record, trace: asked.transpose()?.unwrap_or_default() })
     }
 
     /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.
     fn say_unmodelled(&self, sample: &Sample, ideal: &Estimate, why: Unmodelled) {
-        if !self.args.common.quiet {
+        if !self.asked.args.common.quiet {
             let (id, misfit) = (sample.id(), ideal.residual_rms);
             let text = format!(
                 "{id}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what that changes is not estimated; expect errors beyond the bars"
@@ -406,15 +391,6 @@ impl<'a> Estimator<'a> {
             }
         };
         Ok((estimate, format!("smoothness {weight}, {}", said::size(&data))))
-    }
-
-    /// What facets are worth.
-    pub fn noise(&self, sample: &Sample) -> Result<Noise> {
-        let sd = match self.args.noise_sd {
-            NoiseSd::All(sd) => Some(sd),
-            NoiseSd::Auto => None,
-        };
-        sample.noise(sd, self.args.model_error)
     }
 }
 

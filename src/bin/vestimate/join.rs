@@ -143,12 +143,12 @@ impl Estimator<'_> {
         };
         let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is no fold".to_owned()))?;
         let rgb = sample.facet_rgb()?;
-        let sd = self.noise(sample)?.deviations(context.told.facets(), &rgb)?;
+        let sd = self.asked.noise(sample)?.deviations(context.told.facets(), &rgb)?;
         let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
         let rgb = Shadow::left_out(&shadows, &rgb);
         let measured = Measured { rgb: &rgb, sd: &sd };
         let mut photograph =
-            photographed(Some(fold), sample, (&measured, shadows), self.exposure_of(sample)?)?;
+            photographed(Some(fold), sample, (&measured, shadows), self.asked.exposure_of(sample)?)?;
         match photograph.parts.take() {
             Some(Ok(parts)) => Ok((parts, (rgb, sd, photograph))),
             Some(Err(why)) => Err(alone(why.to_string())),
@@ -171,7 +171,7 @@ impl Together for Estimator<'_> {
         let joined = |((one, (rgb, sd, photograph)), estimate): ((&mut Member<Context>, Taken), _)| {
             let facets = Facets {
                 measured: &Measured { rgb: &rgb, sd: &sd },
-                exposure: self.exposure_of(&one.sample)?,
+                exposure: self.asked.exposure_of(&one.sample)?,
                 photograph: Some(&photograph),
             };
             let inference = one.context.inference(self.prior_of(&one.context)?, self.is_auto());

@@ -15,8 +15,8 @@ use vfold::stream::{Optics, Reader, Record, Sample, Scene};
 use vfold::{Error, Result};
 
 use super::Args;
+use super::asked::Asked;
 use super::context::SceneMethod;
-use super::estimator::Estimator;
 
 const FLAG: &str = "--known-fold";
 
@@ -86,7 +86,7 @@ impl KnownFold {
     /// What it shows of the light of a scene of samples, which is that scene in an assumed one if it is one of `lights`; these as it leaves them.
     pub fn shown(
         &self,
-        estimator: &Estimator,
+        asked: &Asked,
         (samples, method): (&Scene, &SceneMethod),
         (lights, others): (Vec<Candidate>, Option<&Others>),
     ) -> Result<Known> {
@@ -97,14 +97,14 @@ impl KnownFold {
         {
             return Ok(known.clone());
         }
-        let known = self.shown_anew(estimator, method, &taken, (lights, others))?;
+        let known = self.shown_anew(asked, method, &taken, (lights, others))?;
         *last = Some((taken, known.clone()));
         Ok(known)
     }
 
     fn shown_anew(
         &self,
-        estimator: &Estimator,
+        asked: &Asked,
         method: &SceneMethod,
         taken: &Taken,
         (lights, others): (Vec<Candidate>, Option<&Others>),
@@ -116,16 +116,16 @@ impl KnownFold {
         if let SceneMethod::Map(prior) = method
             && self.is_photograph()
         {
-            let parts = self.parts(estimator, &lit)?;
+            let parts = self.parts(asked, &lit)?;
             let shown = sheet.in_photograph(&parts, &lights, prior)?;
             return Ok((lights, Some(shown)));
         }
         let model = Setting::of(&lit)
-            .and_then(|setting| setting.model_to_fit(estimator.fit()))
+            .and_then(|setting| setting.model_to_fit(&asked.fit))
             .map_err(|e| self.at(&e))?;
         let rgb = self.sample.facet_rgb()?;
-        let sd = estimator.noise(&self.sample)?.deviations(model.facets(), &rgb).map_err(|e| self.at(&e))?;
-        let exposure = estimator.exposure_of(&self.sample)?;
+        let sd = asked.noise(&self.sample)?.deviations(model.facets(), &rgb).map_err(|e| self.at(&e))?;
+        let exposure = asked.exposure_of(&self.sample)?;
         let data = FacetData::new(&model, &Measured { rgb: &rgb, sd: &sd }, exposure, CUTOFF)
             .map_err(|e| self.at(&e))?;
         if lights.is_empty() {
@@ -141,17 +141,17 @@ impl KnownFold {
     }
 
     /// What its photograph is made of, its scene being `lit`.
-    fn parts(&self, estimator: &Estimator, lit: &Scene) -> Result<Parts> {
+    fn parts(&self, asked: &Asked, lit: &Scene) -> Result<Parts> {
         let fold = FoldSetting::of(lit).map_err(|e| self.at(&e))?;
         let rgb = self.sample.facet_rgb()?;
-        let sd = estimator
+        let sd = asked
             .noise(&self.sample)?
             .deviations(&fold.model().map_err(|e| self.at(&e))?, &rgb)
             .map_err(|e| self.at(&e))?;
         let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
         let rgb = Shadow::left_out(&shadows, &rgb);
         let measured = Measured { rgb: &rgb, sd: &sd };
-        let exposure = estimator.exposure_of(&self.sample)?.known();
+        let exposure = asked.exposure_of(&self.sample)?.known();
         let picture = Picture::of(&self.sample, &measured, exposure).map_err(|e| self.at(&e))?;
         let parts = PhotographedFold::of(&fold).parts(&picture).map_err(|e| self.at(&e))?;
         parts.map_err(|why| {

@@ -1,5 +1,6 @@
 //! `vestimate`: from facet RGB to the spectrum of the sheet.
 
+mod asked;
 mod context;
 mod drawing;
 mod estimator;

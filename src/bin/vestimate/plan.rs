@@ -140,7 +140,7 @@ impl PlanArgs {
     fn planned(&self, estimator: &Estimator, mut scene: Scene) -> Result<Planned> {
         let context = estimator.scene(&mut scene)?;
         let (grid, model, noise_sd) = (scene.grid()?, Setting::of(&scene)?.model()?, noise_sd(estimator));
-        let exposure = estimator.exposure_or(Exposure::Known(1.0)).known().unwrap_or(1.0);
+        let exposure = estimator.asked.exposure_or(Exposure::Known(1.0)).known().unwrap_or(1.0);
         let spectra = estimator.args().common.reflectances(self.set())?;
         let facets = spectra.iter().map(|spectrum| {
             let facets = exposure * model.facet_rgb(&spectrum.on(&grid, Outside::Refuse)?);
@@ -148,7 +148,7 @@ impl PlanArgs {
         });
         let facets: Vec<FacetValues> = facets.collect::<Result<_>>()?;
         let angle_deg = context.fold.as_ref().map(|fold| fold.fold.angle_deg());
-        let exposure = estimator.exposure_or(Exposure::Free);
+        let exposure = estimator.asked.exposure_or(Exposure::Free);
         // estimates by sums are those of ideal folds
         let is_real = estimator.asks_for_auto() && exposure != Exposure::Sum;
         let sheets = if estimator.args().join.is_some() || is_real {
@@ -195,7 +195,7 @@ impl Planned {
     fn estimates(&self, estimator: &Estimator, beside: Option<&Self>) -> Result<Vec<Estimate>> {
         match &self.sheets {
             Sheets::Ideal(sheets) => {
-                let exposure = estimator.exposure_or(Exposure::Known(1.0));
+                let exposure = estimator.asked.exposure_or(Exposure::Known(1.0));
                 let of = |rgb| estimator.of_facets(&self.context, rgb, noise_sd(estimator), exposure);
                 sheets.iter().map(of).collect()
             }

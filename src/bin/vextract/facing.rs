@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use vfold::Result;
-use vfold::image::{FoundChart, Homography, Lens};
+use vfold::image::{FoundChart, Homography, Lens, camera_pose};
 use vfold::scene::Setting;
 use vfold::stream::{Corners, Regions};
-use vfold::transport::eye_before;
 
 /// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is believed to be off by 4 %.
 const MOST_DEG: f64 = 15.0;
@@ -19,7 +18,7 @@ const MOST_DEG: f64 = 15.0;
 pub fn turned_deg(setting: &Setting, regions: &Regions, lens: Lens, cos: f64) -> Result<Option<f64>> {
     let (Setting::Fold(setting), Some(chart)) = (setting, regions.chart) else { return Ok(None) };
     let Some(panels) = fold(&regions.panels, lens) else { return Ok(None) };
-    let Some(eye) = eye_before(&setting.fold, &panels) else { return Ok(None) };
+    let Some(eye) = camera_pose(&setting.fold, &panels) else { return Ok(None) };
     let corners = setting.fold.panels().map(|panel| panel.corners);
     let middle = corners.iter().flatten().sum::<nalgebra::Vector3<f64>>() / 8.0;
     let from_sun = (eye.position.coords - middle).angle(&setting.light.towards()).to_degrees();

@@ -1,14 +1,11 @@
 //! What the sheets send out beside what they reflect, as the flags say it.
 
-use vfold::cli;
 use vfold::forward::BispectralLight;
 use vfold::scene::Setting;
-use vfold::spectrum::{Bispectral, Donaldson, Outside, Spectrum, WavelengthGrid, in_ultraviolet};
-use vfold::stream::ReflectanceRecord;
+use vfold::spectrum::{Bispectral, Outside, Spectrum, WavelengthGrid, in_ultraviolet};
 use vfold::{Error, Result};
 
 use super::Args;
-use super::subject::Sheet;
 
 /// What sheets send out.
 pub enum Emission {
@@ -31,7 +28,7 @@ impl Emission {
     ///
     /// # Errors
     /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts; as
-    /// [`Common::one_radiance_factor`](cli::Common::one_radiance_factor).
+    /// [`Common::one_radiance_factor`](vfold::cli::Common::one_radiance_factor).
     pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
         if !args.donaldson.is_empty() {
             return Lights::of(args).map(Self::Excited);
@@ -81,31 +78,7 @@ impl Lights {
     }
 
     /// The first of the lights that begins at longer wavelengths than those that excite a sheet.
-    fn begins_late(&self, excited_from_nm: f64) -> Option<&Spectrum> {
+    pub fn begins_late(&self, excited_from_nm: f64) -> Option<&Spectrum> {
         self.lamps.iter().chain([&self.sky]).find(|light| light.range_nm().0 > excited_from_nm)
     }
-}
-
-/// The sheets of the matrices that `--donaldson` names, on the wavelengths of `grid`.
-///
-/// # Errors
-/// As [`Donaldson::read`] and [`Donaldson::on`].
-pub fn sheets(args: &Args, grid: &WavelengthGrid, lights: &Lights) -> Result<Vec<Sheet>> {
-    let sheet = |path: &String| {
-        let matrix = Donaldson::read(path)?;
-        let excited_from_nm = matrix.excited_from_nm();
-        let late = excited_from_nm.and_then(|nm| Some((nm, lights.begins_late(nm)?)));
-        if let Some((nm, light)) = late.filter(|_| !args.common.quiet) {
-            let (light, from_nm) = (light.name(), light.range_nm().0);
-            cli::say(
-                "vforward",
-                &format!(
-                    "{light} is known from {from_nm} nm on: what its light from {nm} nm excites of {path} is left out"
-                ),
-            );
-        }
-        let spectrum = ReflectanceRecord::on(matrix.reflectance(), grid)?;
-        Ok(Sheet { id: matrix.reflectance().name().to_owned(), spectrum, bispectral: Some(matrix.on(grid)?) })
-    };
-    args.donaldson.iter().map(sheet).collect()
 }

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use vfold::spectrum::{Bispectral, Spectrum, WavelengthGrid};
+use vfold::cli;
+use vfold::spectrum::{Bispectral, Donaldson, Spectrum, WavelengthGrid};
 use vfold::stream::{ReferencePanel, ReflectanceRecord};
 use vfold::{Error, Result};
 
 use super::Args;
-use super::fluorescence::{self, Emission};
+use super::fluorescence::{Emission, Lights};
 
 /// What is folded.
 pub enum Subject {
@@ -37,7 +38,7 @@ impl Subject {
         }
         match emission {
             Emission::Excited(lights) => {
-                Ok(Self::Sheets { sheets: fluorescence::sheets(args, grid, lights)?, card: None })
+                Ok(Self::Sheets { sheets: excited_sheets(args, grid, lights)?, card: None })
             }
             Emission::None | Emission::Part(_) => sheets(args, grid),
         }
@@ -92,6 +93,30 @@ fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
         }
     }
     Ok(panels)
+}
+
+/// The sheets of the matrices that `--donaldson` names, on the wavelengths of `grid`.
+///
+/// # Errors
+/// As [`Donaldson::read`] and [`Donaldson::on`].
+fn excited_sheets(args: &Args, grid: &WavelengthGrid, lights: &Lights) -> Result<Vec<Sheet>> {
+    let sheet = |path: &String| {
+        let matrix = Donaldson::read(path)?;
+        let excited_from_nm = matrix.excited_from_nm();
+        let late = excited_from_nm.and_then(|nm| Some((nm, lights.begins_late(nm)?)));
+        if let Some((nm, light)) = late.filter(|_| !args.common.quiet) {
+            let (light, from_nm) = (light.name(), light.range_nm().0);
+            cli::say(
+                "vforward",
+                &format!(
+                    "{light} is known from {from_nm} nm on: what its light from {nm} nm excites of {path} is left out"
+                ),
+            );
+        }
+        let spectrum = ReflectanceRecord::on(matrix.reflectance(), grid)?;
+        Ok(Sheet { id: matrix.reflectance().name().to_owned(), spectrum, bispectral: Some(matrix.on(grid)?) })
+    };
+    args.donaldson.iter().map(sheet).collect()
 }
 
 fn sheet(spectrum: &Spectrum, grid: &WavelengthGrid) -> Result<Sheet> {

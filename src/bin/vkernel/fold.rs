@@ -170,9 +170,8 @@ fn method(args: &Args) -> Result<Method> {
     }
 }
 
-/// Angle of a fold that nobody says anything of, degrees, and its panels.
+/// Angle of a fold of which nothing is stated, degrees.
 const ANGLE_DEG: f64 = 45.0;
-pub const PANEL: (f64, f64) = (1.0, 1.0);
 
 /// A fold, and how exactly its angle is known.
 pub struct Opened {
@@ -185,7 +184,7 @@ pub struct Opened {
 pub fn fold(args: &Args) -> Result<Opened> {
     let seen = args.regions.as_deref().map(|path| regions::seen(args, path)).transpose()?;
     let angle_deg = args.angle_deg.or(seen.map(|seen| seen.angle_deg)).unwrap_or(ANGLE_DEG);
-    let panel = args.panel.or(seen.map(|seen| seen.panel)).unwrap_or(PANEL);
+    let panel = args.panel.or(seen.map(|seen| seen.panel)).unwrap_or(regions::PANEL);
     let facets = FacetGrid { rows: args.facets.0, cols: args.facets.1 };
     let fold = Fold::new(angle_deg, panel.0, panel.1, facets)?;
     let fold = args.panel1_depth.map_or(Ok(fold), |depth| fold.with_panel1_depth(depth))?;

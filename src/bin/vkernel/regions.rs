@@ -7,7 +7,10 @@ use vfold::image::{FoldAngle, FoundFold};
 use vfold::stream::{NoAngle, Regions, RegionsFile};
 use vfold::{Error, Result};
 
-use super::{Args, fold};
+use super::Args;
+
+/// Width and depth of panels of which nothing is stated.
+pub const PANEL: (f64, f64) = (1.0, 1.0);
 
 /// What regions say of a fold.
 #[derive(Clone, Copy)]
@@ -65,7 +68,7 @@ fn check_found(name: &str, regions: &Regions) -> Result<()> {
 
 /// Depths of both panels over their width, if flags tell them.
 fn told_depths(args: &Args) -> Option<[f64; 2]> {
-    let (width, depth) = args.panel.or(args.panel1_depth.map(|_| fold::PANEL))?;
+    let (width, depth) = args.panel.or(args.panel1_depth.map(|_| PANEL))?;
     Some([depth / width, args.panel1_depth.unwrap_or(depth) / width])
 }
 

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::outline::{Outline, Place};
 use super::reduced::Reduced;
-use super::score::FEATURES;
 use super::search::{Hypothesis, Views, search};
+use super::tree::CLUES;
 use crate::image::edges::{Edge, MOST_OF_PIECE, Marked, Settled, settle};
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, Point};
@@ -22,9 +22,6 @@ const SAME: f64 = 0.015;
 const RIVAL: f64 = 0.05;
 /// The log odds of a rival when there is none.
 const NO_RIVAL: f64 = -10.0;
-
-/// Numbers that tell whether all corners of a candidate are right.
-pub(super) const CLUES: usize = 12 + FEATURES;
 
 /// A fold whose sides lie along edges.
 pub(super) struct Candidate {

@@ -16,6 +16,7 @@ mod candidates;
 mod chains;
 mod chart;
 mod evidence;
+mod features;
 mod light;
 mod outline;
 mod pairs;
@@ -28,6 +29,7 @@ mod segments;
 mod snap;
 #[cfg(test)]
 mod synthetic;
+mod tree;
 mod trust;
 mod weights;
 

@@ -3,13 +3,14 @@
 use rayon::prelude::*;
 
 use super::evidence::{Evidence, curvatures, steps};
+use super::features::{FEATURES, features};
 use super::light::LogLight;
 use super::outline::{Outline, distinct};
 use super::pairs::{halves, pairs, slid, straightened};
 use super::plane::Plane;
 use super::quads::quads;
 use super::reduced::Reduced;
-use super::score::{FEATURES, features, log_odds};
+use super::score::log_odds;
 use super::segments::{FINE_PX, RIDGE_PX, segments};
 use super::snap::snapped;
 

@@ -2,8 +2,8 @@
 
 #![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted
 
-use super::score::FEATURES;
-use super::trust::Tree;
+use super::features::FEATURES;
+use super::tree::Tree;
 
 /// Weights of the features of a hypothesis.
 #[rustfmt::skip]

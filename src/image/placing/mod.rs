@@ -2,6 +2,7 @@
 
 mod corners;
 mod distortion;
+mod fold_pose;
 mod framing;
 mod grid;
 mod homography;
@@ -12,6 +13,7 @@ mod pose;
 pub(in crate::image) use corners::is_inside;
 pub use corners::{CHART_CORNERS, PANEL_CORNERS, WHITE_CORNERS, check_inside, parse_corners, parse_point};
 pub use distortion::Lens;
+pub use fold_pose::{CameraPose, camera_pose};
 pub use framing::Framing;
 pub use grid::Grid;
 pub use homography::Homography;

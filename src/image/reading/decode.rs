@@ -4,18 +4,20 @@ use std::io::{BufRead, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits};
 
 use super::exif::{self, Tags};
 use super::jpeg::Jpeg;
 use super::openexr::{self, Kind};
 use super::picture_file::PictureFile;
+use super::refused::{
+    DAMAGED, MAX_BYTES, MAX_SIDE, RESAVE, TOO_LARGE, check_size, inks, one_line, undecodable,
+};
 use super::stated::Statement;
 use super::tiff::Tiff;
 use super::{icc, openexr_pixels, png_chunks};
 use crate::image::photograph::CameraNotes;
-use crate::room;
-use crate::{Error, Result};
+use crate::{Error, Result, room};
 
 /// What a file turned out to hold.
 pub(super) enum Decoded {
@@ -32,17 +34,6 @@ pub(super) struct Picture {
     /// What the file says of its numbers.
     pub stated: Vec<Statement>,
 }
-
-/// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
-pub(super) const MAX_BYTES: u64 = 2 << 30;
-/// Largest width and height, px.
-pub(super) const MAX_SIDE: u32 = 1 << 16;
-/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other compressions fewer than these.
-const MAX_COMPRESSION: u64 = 1 << 16;
-
-pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";
-pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it again";
-const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 
 /// Reads and decodes a picture file; the content, not the name, says which format it is.
 pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
@@ -178,23 +169,6 @@ fn decode_whole(
     Ok((picture, block, stated))
 }
 
-/// Checks that a picture of so many bytes is there, is not too large, and may be in a file of that length.
-pub(super) fn check_size(path: &Path, (width, height): (u32, u32), bytes: u64, length: u64) -> Result<()> {
-    if width == 0 || height == 0 {
-        let problem = format!("the picture is {width} x {height} px");
-        return Err(Error::picture(path, problem, "copy the file again"));
-    }
-    if bytes > MAX_BYTES {
-        let problem = format!("{width} x {height} px would take more than 2 GiB");
-        return Err(Error::picture(path, problem, TOO_LARGE));
-    }
-    if bytes > length.saturating_mul(MAX_COMPRESSION) {
-        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
-        return Err(Error::picture(path, problem, DAMAGED));
-    }
-    Ok(())
-}
-
 /// The decoder of a file from its beginning.
 fn image_decoder(file: &mut PictureFile, format: ImageFormat) -> ImageResult<impl ImageDecoder> {
     file.rewind()?;
@@ -228,14 +202,6 @@ fn before_pixels(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Re
     }
 }
 
-pub(super) fn inks(path: &Path) -> Error {
-    Error::picture(
-        path,
-        "its colours are those of inks (CMYK)",
-        "photographs have red, green and blue: export it as RGB",
-    )
-}
-
 fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -243,23 +209,4 @@ fn limits() -> Limits {
     // a decoder's own buffers besides the picture
     limits.max_alloc = Some(2 * MAX_BYTES);
     limits
-}
-
-pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
-    let problem = one_line(&error.to_string());
-    // what OpenEXR's decoder says of files that are whole
-    if let Some((_, what)) = problem.split_once("not supported: ") {
-        return Error::picture(path, format!("this vfold does not read this file: {what}"), RESAVE);
-    }
-    let remedy = match &error {
-        ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
-        ImageError::Unsupported(_) => RESAVE,
-        _ => DAMAGED,
-    };
-    Error::picture(path, problem, remedy)
-}
-
-/// A decoder's message, which may have several lines, in one.
-pub(super) fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }

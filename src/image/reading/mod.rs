@@ -13,6 +13,7 @@ mod png_chunks;
 mod primaries;
 #[cfg_attr(not(feature = "raw"), path = "no_raw.rs")]
 mod raw;
+mod refused;
 mod stated;
 mod taken;
 mod tiff;

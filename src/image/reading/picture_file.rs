@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use super::decode::{MAX_BYTES, TOO_LARGE};
+use super::refused::{MAX_BYTES, TOO_LARGE};
 use crate::image::photograph::FileStamp;
 use crate::{Error, Result};
 

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::compressed::Compressed;
 use super::exchange::Exchange;
+use super::nodes::Nodes;
 use super::rows::{RowWeights, Rows};
 use super::space::Space;
-use super::table::Nodes;
 use crate::geometry::Fold;
 
 /// What functions on one panel give to functions on the other, from the `table` of their strips along the crease.

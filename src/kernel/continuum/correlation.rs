@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 
+use super::nodes::Nodes;
 use super::strips::polynomials;
-use super::table::Nodes;
 use crate::kernel::quadrature::{Lagrange, Rule, bernstein_rho};
 
 /// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0: it leaves a ρ of 2.09.

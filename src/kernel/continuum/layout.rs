@@ -1,9 +1,9 @@
 //! Where the strips of a fold lie.
 
+use super::nodes::Nodes;
 use super::resolution::Resolution;
 use super::space::Space;
 use super::strips::{Strips, graded};
-use super::table::Nodes;
 use crate::geometry::Fold;
 
 /// Distances below this share of that of the nearest strips count as equal: nothing changes there any more.

@@ -19,6 +19,7 @@ mod compressed;
 mod correlation;
 mod exchange;
 mod layout;
+mod nodes;
 mod reading;
 mod resolution;
 mod rows;

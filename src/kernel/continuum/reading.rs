@@ -6,6 +6,7 @@
 use nalgebra::{DMatrix, DVectorView};
 
 use super::layout::Layout;
+use super::resolution::Resolution;
 use super::space::Space;
 use crate::geometry::Fold;
 
@@ -57,6 +58,21 @@ impl Reading {
             }
             Some(pools) => pools[panel].facet_means(light),
         }
+    }
+}
+
+impl Resolution {
+    /// Unknowns that the larger of a fold's panels takes.
+    #[must_use]
+    pub fn unknowns(&self, fold: &Fold) -> usize {
+        let [panel0, panel1] = Layout::new(fold, self).panels;
+        panel0.len().max(panel1.len())
+    }
+
+    /// Functions that take up the light on the larger of a fold's panels, for its facets.
+    #[must_use]
+    pub fn readings(&self, fold: &Fold) -> usize {
+        Reading::new(&Layout::new(fold, self), fold).len()
     }
 }
 

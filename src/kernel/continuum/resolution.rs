@@ -2,8 +2,6 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::layout::Layout;
-use super::reading::Reading;
 use crate::geometry::Fold;
 
 /// Exchange that is left out, relative to the error that is aimed at and the share of light that a bounce loses at least.
@@ -44,19 +42,6 @@ impl Resolution {
             // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
             negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
         }
-    }
-
-    /// Unknowns that the larger of a fold's panels takes.
-    #[must_use]
-    pub fn unknowns(&self, fold: &Fold) -> usize {
-        let [panel0, panel1] = Layout::new(fold, self).panels;
-        panel0.len().max(panel1.len())
-    }
-
-    /// Functions that take up the light on the larger of a fold's panels, for its facets.
-    #[must_use]
-    pub fn readings(&self, fold: &Fold) -> usize {
-        Reading::new(&Layout::new(fold, self), fold).len()
     }
 }
 

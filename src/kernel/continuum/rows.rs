@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DMatrixView, DVectorView};
 
+use super::nodes::Nodes;
 use super::strips::polynomials;
-use super::table::Nodes;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::{Rule, bernstein_rho};
 

@@ -3,16 +3,16 @@
 use nalgebra::Vector3;
 use ndarray::Array2;
 
-use super::CREASE_RADII;
 use super::bins::Bins;
 use super::framing::Pose;
 use crate::error::Result;
 use crate::estimate::photograph::parts::{Ambient, Change, ELEVATIONS_DEG, Surroundings};
-use crate::geometry::Fold;
-use crate::geometry::StandardSky;
+use crate::geometry::{Fold, StandardSky};
 use crate::kernel::bent::BentFold;
 use crate::kernel::environment::{Environment, Surroundings as Part, facet_radiances};
 
+/// Radii of the crease for which light is computed, in panel depths.
+pub(super) const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 /// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle at most, and bow.
 const ANGLE_DEG: f64 = 3.0;
 const ANGLE_MOST: f64 = 0.15;

@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::error::Result;
 use crate::geometry::Fold;
-use crate::image::{Framing, Homography, Point};
-use crate::transport::eye_before;
+use crate::image::{Framing, Homography, Point, camera_pose};
 
 /// A camera before a fold, as the corners of the panels tell it.
 pub struct Pose {
@@ -26,7 +25,7 @@ impl Pose {
     pub fn of(framing: &Framing, fold: &Fold) -> Result<Option<Self>> {
         let [Some(panel0), Some(panel1)] = framing.panels else { return Ok(None) };
         let panels = [panel0, panel1];
-        let Some(eye) = eye_before(fold, &panels) else { return Ok(None) };
+        let Some(eye) = camera_pose(fold, &panels) else { return Ok(None) };
         let outlines = [Homography::from_unit_square(panels[0])?, Homography::from_unit_square(panels[1])?];
         let [width, height] = framing.size;
         Ok(Some(Self {

@@ -1,7 +1,9 @@
 //! Matrices of a bispectrometer Labsphere BFC-450, as its program exports them: lines on the sample, then a table in tabs that begins with `r:c:`,
 //! emission in rows, excitation in columns, nm.
 
-use super::{Place, Table, csv};
+use super::csv;
+use super::place::Place;
+use super::table::Table;
 use crate::error::Result;
 
 /// What stands above the wavelengths of emission, before those of excitation.

@@ -6,8 +6,12 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::{Place, Quantity, Said, Scale, Spectrum, Table};
+use super::place::Place;
+use super::quantity::Quantity;
+use super::table::{Stated, Table};
+use super::units::Scale;
 use crate::error::Result;
+use crate::spectrum::Spectrum;
 use crate::spectrum::grid::check_rising;
 
 pub(super) const BEGIN_FORMAT: &str = "BEGIN_DATA_FORMAT";
@@ -24,7 +28,7 @@ const ROUNDED_NM: f64 = 0.51;
 /// [`crate::Error::Table`] with the line that is wrong.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let mut lines = text.lines().zip(1..).map(|(text, line)| (text, Place { path, line }));
-    let (mut spectra, mut said, mut without_spectra) = (Vec::new(), Vec::new(), None);
+    let (mut spectra, mut stated, mut without_spectra) = (Vec::new(), Vec::new(), None);
     let mut names = HashSet::new();
     while let Some(header) = Header::read(&mut lines, path) {
         let (rows, end) = rows(&mut lines, &header)?;
@@ -41,7 +45,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
             }
             spectra.push(spectrum);
         }
-        said.resize(spectra.len(), header.said());
+        stated.resize(spectra.len(), header.stated());
         if spectra.is_empty() {
             return Err(
                 end.fails("no samples between BEGIN_DATA and END_DATA", "export them with their spectra")
@@ -49,7 +53,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         }
     }
     match (spectra.is_empty(), without_spectra) {
-        (false, _) => Ok(Table { said, ..Table::new(spectra)? }),
+        (false, _) => Ok(Table { stated, ..Table::new(spectra)? }),
         (true, Some(at)) => {
             Err(at.fails("no columns of spectra, such as SPEC_400", "export them with the samples"))
         }
@@ -115,10 +119,11 @@ impl<'a> Header<'a> {
     }
 
     /// What it says of all spectra: what is divided by its norm is in fractions.
-    fn said(&self) -> Said {
-        let scale = if self.keywords.contains_key("SPECTRAL_NORM") { Scale::Fraction } else { Scale::Unsaid };
+    fn stated(&self) -> Stated {
+        let scale =
+            if self.keywords.contains_key("SPECTRAL_NORM") { Scale::Fraction } else { Scale::Unstated };
         let quantity = self.keywords.get("MEAS_TYPE").and_then(|(name, _)| Quantity::called(name));
-        Said { scale, quantity }
+        Stated { scale, quantity }
     }
 
     /// A keyword's number, if it is there.
@@ -130,9 +135,10 @@ impl<'a> Header<'a> {
     /// Checks a count that the file gives, if it does.
     fn agrees(&self, key: &str, count: usize, what: &str) -> Result<()> {
         match self.keywords.get(key) {
-            Some((said, at)) if said.parse() != Ok(count) => Err(
-                at.fails(format!("{key} is '{said}', but there are {count} {what}"), "export the file again")
-            ),
+            Some((stated, at)) if stated.parse() != Ok(count) => Err(at.fails(
+                format!("{key} is '{stated}', but there are {count} {what}"),
+                "export the file again",
+            )),
             _ => Ok(()),
         }
     }

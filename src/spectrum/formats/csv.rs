@@ -8,9 +8,12 @@ use std::collections::HashSet;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::{MAX_SPECTRA, Place, Said, Scale, Spectrum, Table, finite, units};
+use super::place::{Place, finite};
+use super::table::{MAX_SPECTRA, Stated, Table};
+use super::units::{self, Scale};
 use crate::error::Result;
 use crate::message::is_formula;
+use crate::spectrum::Spectrum;
 
 /// Ending of the column beside `red` that has the standard deviation of `red`.
 pub(super) const SD_ENDING: &str = "_sd";
@@ -68,20 +71,20 @@ pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Tabl
     let numbered = (first > 0).then_some("row numbers left out");
     let left_out = (named.len() < count).then_some("standard deviations left out");
     let commas = (marks.found == Some(',')).then_some("commas read as decimal points");
-    let said = named.iter().map(|(column, (cell, _))| Said {
+    let stated = named.iter().map(|(column, (cell, _))| Stated {
         scale: match units::scale(unit(*column)) {
-            Scale::Unsaid if name(cell) == **cell => units::scale(cell),
+            Scale::Unstated if name(cell) == **cell => units::scale(cell),
             unit => unit,
         },
-        ..Said::default()
+        ..Stated::default()
     });
-    let said = said.collect();
+    let stated = stated.collect();
     let spectrum = |(_, (cell, values)): (usize, (&&str, _))| {
         Spectrum::from_table(name(cell).to_owned(), wavelengths_nm.clone(), values)
     };
     let table = Table::new(named.into_iter().map(spectrum).collect())?;
     let notes = [note, commas, numbered, left_out];
-    Ok(Table { said, notes: notes.into_iter().flatten().map(str::to_owned).collect(), ..table })
+    Ok(Table { stated, notes: notes.into_iter().flatten().map(str::to_owned).collect(), ..table })
 }
 
 /// The separator that a first line such as `sep=;` says, as spreadsheets have it, and the lines below.
@@ -162,7 +165,7 @@ fn name(cell: &str) -> &str {
 /// Whether a name begins as a formula does, or says a unit; marks before it do not count.
 fn is_misread(name: &str) -> bool {
     let name = name.trim_start_matches(LITERAL);
-    is_formula(name) || units::scale(name) != Scale::Unsaid
+    is_formula(name) || units::scale(name) != Scale::Unstated
 }
 
 /// Whether a row has the units of the columns above it: that of wavelengths, and no number.

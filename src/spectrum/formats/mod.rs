@@ -5,136 +5,34 @@
 mod bfc;
 mod cgats;
 mod csv;
+mod place;
 mod quantity;
+mod table;
 mod tm27;
 mod units;
 mod write;
 
 pub(super) use csv::parse as parse_csv;
+pub use table::Table;
 pub use write::{Measured, check_ending, write};
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-use std::sync::Arc;
 
 use super::Spectrum;
-use super::channels::in_order;
-use super::names::What;
 use crate::error::{Error, Result};
 use crate::files::forms::{Form, Text};
 use crate::message::printable;
-use quantity::Quantity;
-use units::Scale;
+use place::Place;
+use table::MAX_SPECTRA;
 
 /// Endings of the files that are read.
 pub(super) const ENDINGS: [&str; 6] = ["csv", "sp", "ti3", "txt", "spdx", "json"];
 /// No measured set is near it: a larger file is not a table of spectra.
 const MAX_BYTES: u64 = 64 << 20;
-/// The largest set known here has 1269 spectra.
-const MAX_SPECTRA: usize = 10_000;
-/// Sums and products of numbers up to this one stay finite.
-const LARGEST: f64 = 1e30;
-
 /// Reads the spectra of a JSON text; the path is for the errors.
 pub type JsonReader = fn(path: &str, text: &str) -> Result<Table>;
-
-/// The spectra of a file.
-#[derive(Debug)]
-pub struct Table {
-    spectra: Vec<Spectrum>,
-    /// What the file says of each.
-    said: Vec<Said>,
-    /// What was converted.
-    notes: Vec<String>,
-}
-
-/// What a file says of a spectrum.
-#[derive(Clone, Copy, Debug, Default)]
-struct Said {
-    /// In what it is written if it is a reflectance.
-    scale: Scale,
-    quantity: Option<Quantity>,
-}
-
-impl Table {
-    /// A table of spectra in nm, of which the file says nothing else.
-    ///
-    /// # Errors
-    /// [`Error::Spectrum`] if a number is larger than any measured one.
-    pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
-        for spectrum in &spectra {
-            if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
-                let (name, problem) =
-                    (spectrum.name().to_owned(), format!("{value:e} is no measured number"));
-                return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
-            }
-        }
-        Ok(Self { said: vec![Said::default(); spectra.len()], spectra, notes: Vec::new() })
-    }
-
-    /// The same table of spectra that the file calls this: `reflectance`, `irradiance`.
-    #[must_use]
-    pub fn called(mut self, quantity: &str) -> Self {
-        self.said.iter_mut().for_each(|said| said.quantity = Quantity::called(quantity));
-        self
-    }
-
-    /// Checks that the file says nothing else of its spectra, or of one of them, than that they are `what`.
-    ///
-    /// # Errors
-    /// [`Error::Spectrum`] with what they are.
-    pub(super) fn check_quantity(&self, path: &str, what: What, member: Option<&str>) -> Result<()> {
-        let mut named = self.spectra.iter().zip(&self.said);
-        let other = named.find_map(|(spectrum, said)| {
-            let is_meant = member.is_none_or(|member| spectrum.name() == member);
-            said.quantity.filter(|quantity| is_meant && !quantity.suits(what))
-        });
-        match other {
-            Some(quantity) => {
-                let problem = format!("the file says it holds {}, not {}", quantity.name(), wanted(what));
-                let remedy = "export it again with the right quantity, or name another file".to_owned();
-                Err(Error::Spectrum { name: path.to_owned(), problem, remedy })
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the file does not say it are in
-    /// percent, if that is known.
-    pub(super) fn in_fractions(mut self, path: &str, percent: Option<bool>) -> Result<Self> {
-        let scales: Vec<_> = self.said.iter().map(|said| said.scale).collect();
-        let percent = units::percent(path, &self.spectra, &scales, percent)?;
-        for (spectrum, _) in self.spectra.iter_mut().zip(&percent).filter(|(_, percent)| **percent) {
-            spectrum.values.iter_mut().for_each(|value| *value /= 100.0);
-        }
-        if percent.contains(&true) {
-            self.notes.push("percent read as fractions".to_owned());
-        }
-        Ok(self)
-    }
-
-    /// The same table with the spectra as channels of a camera, in their order.
-    pub(super) fn into_channels(mut self, path: &str) -> Result<Self> {
-        let (spectra, notes) = in_order(path, &self.spectra)?;
-        self.notes.extend(notes);
-        Ok(Self { spectra, ..self })
-    }
-
-    /// The spectra, each with a note of what was converted.
-    pub(super) fn spectra(self, path: &str) -> Vec<Spectrum> {
-        let note = (!self.notes.is_empty()).then(|| Arc::from(format!("{path}: {}", self.notes.join(", "))));
-        self.spectra.into_iter().map(|spectrum| spectrum.noted(note.as_ref())).collect()
-    }
-}
-
-fn wanted(what: What) -> &'static str {
-    match what {
-        What::Cameras => "sensitivities of a camera",
-        What::Illuminants => "the power of a light",
-        What::Reflectances => "reflectances",
-    }
-}
 
 /// Reads the spectra of a file: CSV, CGATS, IES TM-27 or, by `json`, JSON.
 ///
@@ -189,32 +87,6 @@ fn no_table(path: &str, form: &Form) -> Error {
 pub(super) fn has_ending(path: &str, endings: &[&str]) -> bool {
     let found = Path::new(path).extension();
     found.is_some_and(|found| endings.iter().any(|ending| found.eq_ignore_ascii_case(ending)))
-}
-
-/// A line of a file.
-#[derive(Clone, Copy)]
-struct Place<'a> {
-    path: &'a str,
-    line: usize,
-}
-
-impl Place<'_> {
-    fn fails(&self, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
-        let (path, line) = (self.path.to_owned(), self.line);
-        Error::Table { path, line, problem: problem.into(), remedy: remedy.into() }
-    }
-
-    /// A finite number.
-    fn number(&self, column: &str, text: &str) -> Result<f64> {
-        finite(text).ok_or_else(|| {
-            let problem = format!("column '{column}': '{text}' is not a number");
-            self.fails(problem, "write a finite number with '.' for decimals")
-        })
-    }
-}
-
-fn finite(text: &str) -> Option<f64> {
-    text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 /// Says that JSON is not read here.

@@ -8,9 +8,13 @@ use std::fmt::Write;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::{Place, Quantity, Said, Spectrum, Table, finite, units};
+use super::place::{Place, finite};
+use super::quantity::Quantity;
+use super::table::{Stated, Table};
+use super::units;
 use crate::error::Result;
 use crate::markup::escaped;
+use crate::spectrum::Spectrum;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
@@ -39,17 +43,17 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
         return Err(place(root).fails(problem, "export the spectrum as IES TM-27"));
     }
     let blocks: Vec<Node> = children(root, "SpectralDistribution").collect();
-    let (mut spectra, mut said) = (Vec::new(), Vec::new());
+    let (mut spectra, mut stated) = (Vec::new(), Vec::new());
     for (n, block) in blocks.iter().enumerate() {
         let name = if blocks.len() == 1 { "spectrum".to_owned() } else { (n + 1).to_string() };
         spectra.push(distribution(name, *block, place)?);
         let quantity = children(*block, "SpectralQuantity").next().and_then(|node| node.text());
-        said.push(Said { quantity: quantity.and_then(Quantity::called), ..Said::default() });
+        stated.push(Stated { quantity: quantity.and_then(Quantity::called), ..Stated::default() });
     }
     if spectra.is_empty() {
         return Err(place(root).fails("no <SpectralDistribution>", "export the spectrum again"));
     }
-    Ok(Table { said, ..Table::new(spectra)? })
+    Ok(Table { stated, ..Table::new(spectra)? })
 }
 
 fn distribution<'a>(name: String, block: Node, place: impl Fn(Node) -> Place<'a>) -> Result<Spectrum> {

@@ -1,7 +1,8 @@
 //! Units of files that may not say theirs: nm, micrometres or ångström, fractions or percent.
 
-use super::{Place, Spectrum};
+use super::place::Place;
 use crate::error::Result;
+use crate::spectrum::Spectrum;
 use crate::spectrum::kinds::bad;
 use crate::spectrum::names::words;
 
@@ -120,7 +121,7 @@ fn is_other_axis(column: &str) -> bool {
 pub(super) enum Scale {
     /// Nobody says: numbers tell, if they can.
     #[default]
-    Unsaid,
+    Unstated,
     Fraction,
     Percent,
     /// The name has a percent sign that may be part of it.
@@ -133,12 +134,12 @@ pub(super) fn scale(column: &str) -> Scale {
     if words(column).any(|word| word == "percent" || word == "pct") {
         return Scale::Percent;
     }
-    let Some((before, after)) = column.split_once('%') else { return Scale::Unsaid };
+    let Some((before, after)) = column.split_once('%') else { return Scale::Unstated };
     let number = before.trim_end();
     let is_number = number.rsplit(char::is_whitespace).next().is_some_and(|word| word.parse::<f64>().is_ok());
     match after.chars().any(char::is_alphanumeric) {
         _ if !is_number => Scale::Percent,
-        true => Scale::Unsaid,
+        true => Scale::Unstated,
         // `Sample 1 %` is numbered
         false if number != before => Scale::Percent,
         false => Scale::Unclear,
@@ -161,7 +162,7 @@ pub(super) fn percent(
     scales: &[Scale],
     given: Option<bool>,
 ) -> Result<Vec<bool>> {
-    let is_open = |scale: &Scale| matches!(scale, Scale::Unsaid | Scale::Unclear);
+    let is_open = |scale: &Scale| matches!(scale, Scale::Unstated | Scale::Unclear);
     let open = || spectra.iter().zip(scales).filter(|(_, scale)| is_open(scale));
     let peak = open().flat_map(|(spectrum, _)| spectrum.values()).copied().fold(f64::NEG_INFINITY, f64::max);
     let is_percent = match given {
@@ -233,10 +234,10 @@ mod tests {
             ("Sample 1 %", Scale::Percent),
             ("Sample1%", Scale::Percent),
             ("1 [%]", Scale::Percent),
-            ("50% grey", Scale::Unsaid),
-            ("50 % grey", Scale::Unsaid),
-            ("percentile", Scale::Unsaid),
-            ("red", Scale::Unsaid),
+            ("50% grey", Scale::Unstated),
+            ("50 % grey", Scale::Unstated),
+            ("percentile", Scale::Unstated),
+            ("red", Scale::Unstated),
             ("grey 50%", Scale::Unclear),
         ] {
             assert_eq!(scale(column), want, "{column}");

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use rawler::imgop::Dim2;
 
+use super::refused::{check_size, damaged, unread};
 use super::tiff_directories::{Directory, Tiff};
-use super::{check_size, damaged, unread};
 use crate::Result;
 use crate::image::reading::jpeg::Jpeg;
 use crate::image::reading::tiff::tags;

@@ -12,7 +12,7 @@ use ndarray::{Array3, Axis};
 use rawler::RawImage;
 use rawler::imgop::{Point, Rect};
 
-use super::damaged;
+use super::refused::damaged;
 use super::tiff_directories::Directory;
 use crate::Result;
 use crate::image::numbers::{ReadOptions, Scale, Transfer};

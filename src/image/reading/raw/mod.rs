@@ -4,12 +4,12 @@ mod dng;
 mod layout;
 mod levels;
 mod opcodes;
+mod refused;
 mod sensor;
 mod taken;
 mod tiff_directories;
 
 use std::any::Any;
-use std::fmt::Display;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -18,23 +18,19 @@ use std::sync::{Arc, Once};
 use rawler::decoders::RawDecodeParams;
 use rawler::exif::Exif;
 use rawler::formats::tiff::Rational;
-use rawler::imgop::Dim2;
 use rawler::imgop::xyz::Illuminant;
 use rawler::rawsource::RawSource;
 use rawler::{RawImage, RawImageData, RawlerError};
 
 use self::dng::Dng;
+use self::refused::{check_size, damaged};
 use self::sensor::Sensor;
 use self::tiff_directories::Tiff;
-use super::decode::{DAMAGED, MAX_BYTES, TOO_LARGE, one_line};
+use super::refused::one_line;
 use crate::image::numbers::{ReadOptions, Transfer};
 use crate::image::photograph::{CameraNotes, Orientation, Photograph};
-use crate::room;
 use crate::{Error, Result};
 
-/// What to do with a file that only others read, or that needs what is not done here.
-const ELSEWHERE: &str =
-    "convert it to linear TIFF with a program that does, or take the camera's own RAW file";
 /// The same where a decoder does not say why it gave up.
 const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: copy it again, or convert it to linear TIFF";
 
@@ -101,28 +97,6 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
         return Err(damaged(path, format!("{samples} numbers do not fill {width} x {height} px")));
     }
     Ok(decoded)
-}
-
-/// Whether there is room for a sensor's numbers, and there are any.
-fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> {
-    let Dim2 { w, h } = size;
-    let bytes = w.saturating_mul(h).saturating_mul(samples).saturating_mul(size_of::<f32>()) as u64;
-    if bytes > MAX_BYTES {
-        return Err(Error::picture(path, format!("{w} x {h} px would take more than 2 GiB"), TOO_LARGE));
-    }
-    if bytes == 0 {
-        return Err(damaged(path, format!("the picture is {w} x {h} px of {samples} numbers")));
-    }
-    room::ask(bytes, &path.display().to_string(), TOO_LARGE)
-}
-
-/// What only a DNG can be.
-fn unread(path: &Path, what: &str) -> Error {
-    Error::picture(path, format!("this vfold does not read DNG {what}"), ELSEWHERE)
-}
-
-fn damaged(path: &Path, problem: impl Display) -> Error {
-    Error::picture(path, problem, DAMAGED)
 }
 
 /// Panics are printed when they happen, also those that are caught: not while a file is decoded, on any thread.

@@ -11,10 +11,10 @@ use rawler::rawimage::RawPhotometricInterpretation;
 use rawler::{RawImage, RawImageData};
 use rayon::prelude::*;
 
-use super::damaged;
 use super::dng::Dng;
 use super::levels::Levels;
 use super::opcodes::Opcodes;
+use super::refused::damaged;
 use crate::image::numbers::ReadOptions;
 use crate::image::photograph::{CameraNotes, Mosaic, Photograph, PhotographInfo, SensorInfo};
 use crate::{Error, Result};

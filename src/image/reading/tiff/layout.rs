@@ -4,14 +4,13 @@ use std::path::Path;
 
 use image::ColorType;
 
-use super::damaged;
 use super::directory::Directory;
 use super::tags::{
     BITS_PER_SAMPLE, COMPRESSION, EXTRA_SAMPLES, FILL_ORDER, HEIGHT, JPEG_TABLES, PHOTOMETRIC,
     PLANAR_CONFIGURATION, PREDICTOR, ROWS_PER_STRIP, SAMPLE_FORMAT, SAMPLES_PER_PIXEL, STRIP_BYTE_COUNTS,
     STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH, TILE_OFFSETS, TILE_WIDTH, WIDTH,
 };
-use crate::image::reading::decode::{MAX_SIDE, inks};
+use crate::image::reading::refused::{MAX_SIDE, damaged, inks};
 use crate::{Error, Result};
 
 /// What a sample is.

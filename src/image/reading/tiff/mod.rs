@@ -21,10 +21,9 @@ use image::DynamicImage;
 use self::layout::Layout;
 use self::pages::Pages;
 use self::pixels::Pixels;
-use super::decode::{TOO_LARGE, check_size, undecodable};
+use super::refused::{TOO_LARGE, check_size, undecodable};
 use super::stated::Statement;
-use crate::room;
-use crate::{Error, Result};
+use crate::{Result, room};
 
 /// A TIFF file whose directories have been read.
 pub(super) struct Tiff {
@@ -72,9 +71,4 @@ impl Tiff {
         DynamicImage::from_decoder(Pixels { file, layout: &layout, length: self.length })
             .map_err(|error| undecodable(path, error))
     }
-}
-
-/// Of a file that contradicts itself.
-fn damaged(path: &Path, problem: impl Into<String>) -> Error {
-    Error::picture(path, problem.into(), super::decode::DAMAGED)
 }

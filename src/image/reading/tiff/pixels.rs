@@ -10,7 +10,7 @@ use tiff::{TiffError, TiffResult};
 
 use super::described::Described;
 use super::layout::{Kind, Layout};
-use crate::image::reading::decode::MAX_BYTES;
+use crate::image::reading::refused::MAX_BYTES;
 
 /// The pixels of a page, to be decoded to where they stay.
 pub(super) struct Pixels<'a, R> {

@@ -17,8 +17,8 @@ use rawler::imgop::{Point, Rect};
 
 use self::factor::{Area, Factor, GainMap, Radial, multiply};
 use self::parameters::Parameters;
+use super::refused::{ELSEWHERE, damaged};
 use super::tiff_directories::Directory;
-use super::{ELSEWHERE, damaged};
 use crate::image::photograph::Mosaic;
 use crate::{Error, Result};
 

@@ -2,12 +2,13 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::point::Point;
+use super::pose::camera_position;
 use crate::geometry::Fold;
-use crate::image::{Point, camera_position};
 
-/// Where the eye is, in the coordinates of [`Fold::panels`] with crease end 0 at negative y, as the facets count.
+/// Where a camera stands, in the coordinates of [`Fold::panels`] with crease end 0 at negative y, as the facets count.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eye {
+pub struct CameraPose {
     /// The place, in the fold's unit.
     pub position: Point3<f64>,
     /// Whether the corners were marked so that the scene is seen as in a mirror: y runs the other way than in space.
@@ -20,24 +21,23 @@ pub struct Eye {
 /// - `panels`: corners in the picture, px, without what a lens bends: crease end 0, crease end 1, outer end 1, outer end 0 of panels 0 and 1.
 ///
 /// # Returns
-/// The eye; none if the corners tell no place from which both panels are seen.
+/// Its pose; none if the corners fix no place from which both panels are seen.
 ///
 /// # Example
 /// ```
 /// use vfold::geometry::{FacetGrid, Fold};
-/// use vfold::image::Point;
-/// use vfold::transport::eye_before;
+/// use vfold::image::{Point, camera_pose};
 /// let fold = Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
 /// // seen from (0, 0, 5) along -z, y upwards, the picture 100 px away
 /// let seen = fold.panels().map(|panel| {
 ///     panel.corners.map(|p| Point::new(100.0 * p.x / (5.0 - p.z), -100.0 * p.y / (5.0 - p.z)))
 /// });
-/// let eye = eye_before(&fold, &seen).unwrap();
-/// assert!((eye.position.z - 5.0).abs() < 1e-6 && !eye.mirrored);
+/// let pose = camera_pose(&fold, &seen).unwrap();
+/// assert!((pose.position.z - 5.0).abs() < 1e-6 && !pose.mirrored);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]
-pub fn eye_before(fold: &Fold, panels: &[[Point; 4]; 2]) -> Option<Eye> {
+pub fn camera_pose(fold: &Fold, panels: &[[Point; 4]; 2]) -> Option<CameraPose> {
     let corners = fold.panels().map(|panel| panel.corners);
     [false, true].into_iter().find_map(|mirrored| {
         let side = if mirrored { -1.0 } else { 1.0 };
@@ -50,7 +50,7 @@ pub fn eye_before(fold: &Fold, panels: &[[Point; 4]; 2]) -> Option<Eye> {
             .map(|(panel, corner): (usize, usize)| (in_space(&corners[panel][corner]), panels[panel][corner]))
             .collect();
         let place = camera_position(&seen)?;
-        Some(Eye { position: Point3::from(in_space(&place)), mirrored })
+        Some(CameraPose { position: Point3::from(in_space(&place)), mirrored })
     })
 }
 
@@ -63,7 +63,7 @@ mod tests {
 
     /// Corners of a rendered photograph (`real/one_none`) and where its camera was, in panel depths.
     #[test]
-    fn a_photographs_eye_is_where_its_camera_was() {
+    fn a_photographs_pose_is_where_its_camera_was() {
         let point = |[x, y]: [f64; 2]| Point::new(x, y);
         let crease = [[258.541218, 286.961719], [252.027891, 29.007156]];
         let panels = [
@@ -72,12 +72,12 @@ mod tests {
         ];
         let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();
         let truth = Point3::new(0.96547, 1.10338, 8.36309);
-        let eye = eye_before(&fold, &panels).unwrap();
-        assert!((eye.position - truth).norm() < 0.01 && !eye.mirrored, "{eye:?}");
+        let pose = camera_pose(&fold, &panels).unwrap();
+        assert!((pose.position - truth).norm() < 0.01 && !pose.mirrored, "{pose:?}");
         // marked from the other end of the crease, the facets count the other way
         let turned = panels.map(|[a, b, c, d]| [b, a, d, c]);
-        let eye = eye_before(&fold, &turned).unwrap();
+        let pose = camera_pose(&fold, &turned).unwrap();
         let truth = Point3::new(truth.x, -truth.y, truth.z);
-        assert!((eye.position - truth).norm() < 0.01 && eye.mirrored, "{eye:?}");
+        assert!((pose.position - truth).norm() < 0.01 && pose.mirrored, "{pose:?}");
     }
 }

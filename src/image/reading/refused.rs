@@ -1,0 +1,67 @@
+//! Which pictures are refused, and what is to be done about it.
+
+use std::path::Path;
+
+use image::ImageError;
+
+use crate::{Error, Result};
+
+/// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
+pub(super) const MAX_BYTES: u64 = 2 << 30;
+/// Largest width and height, px.
+pub(super) const MAX_SIDE: u32 = 1 << 16;
+/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other compressions fewer than these.
+const MAX_COMPRESSION: u64 = 1 << 16;
+
+pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";
+pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it again";
+pub(super) const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
+
+/// Checks that a picture of so many bytes is there, is not too large, and may be in a file of that length.
+pub(super) fn check_size(path: &Path, (width, height): (u32, u32), bytes: u64, length: u64) -> Result<()> {
+    if width == 0 || height == 0 {
+        let problem = format!("the picture is {width} x {height} px");
+        return Err(Error::picture(path, problem, "copy the file again"));
+    }
+    if bytes > MAX_BYTES {
+        let problem = format!("{width} x {height} px would take more than 2 GiB");
+        return Err(Error::picture(path, problem, TOO_LARGE));
+    }
+    if bytes > length.saturating_mul(MAX_COMPRESSION) {
+        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
+        return Err(Error::picture(path, problem, DAMAGED));
+    }
+    Ok(())
+}
+
+pub(super) fn inks(path: &Path) -> Error {
+    Error::picture(
+        path,
+        "its colours are those of inks (CMYK)",
+        "photographs have red, green and blue: export it as RGB",
+    )
+}
+
+pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
+    let problem = one_line(&error.to_string());
+    // what OpenEXR's decoder says of files that are whole
+    if let Some((_, what)) = problem.split_once("not supported: ") {
+        return Error::picture(path, format!("this vfold does not read this file: {what}"), RESAVE);
+    }
+    let remedy = match &error {
+        ImageError::Limits(_) => "crop the picture to the sheet; at most 65536 px a side and 2 GiB are read",
+        ImageError::Unsupported(_) => RESAVE,
+        _ => DAMAGED,
+    };
+    Error::picture(path, problem, remedy)
+}
+
+/// A decoder's message, which may have several lines, in one.
+pub(super) fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Of a file that contradicts itself.
+pub(super) fn damaged(path: &Path, problem: impl Into<String>) -> Error {
+    Error::picture(path, problem.into(), DAMAGED)
+}

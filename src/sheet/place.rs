@@ -1,0 +1,48 @@
+//! Where two directions lie in the grid of a table.
+
+use std::sync::LazyLock;
+
+/// Nodes of the angles of incidence and exit and of the azimuth between the directions.
+pub(super) const ANGLES: usize = 20;
+pub(super) const AZIMUTHS: usize = 16;
+/// Last of the angles, degrees: what grazes more counts as this.
+pub(super) const STEEPEST_DEG: f64 = 86.0;
+/// Body and surface.
+pub(super) const PARTS: usize = 2;
+
+/// A place in the grid of a table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// First number of the cell.
+    pub(super) first: u32,
+    /// How far into the cell: angles of incidence and exit, azimuth.
+    pub(super) into: [f32; 3],
+}
+
+impl Place {
+    pub(super) fn of(cos_in: f64, cos_out: f64, cos_between: f64) -> Self {
+        let sines = ((1.0 - cos_in * cos_in) * (1.0 - cos_out * cos_out)).max(1e-24).sqrt();
+        let cos_azimuth = ((cos_between - cos_in * cos_out) / sines).clamp(-1.0, 1.0);
+        let [(light, a), (eye, b)] =
+            [cos_in, cos_out].map(|cos| cell(cos.acos().to_degrees() / STEEPEST_DEG, &NODES.0));
+        let (azimuth, c) = cell(cos_azimuth.acos().to_degrees() / 180.0, &NODES.1);
+        let first = PARTS * ((light * ANGLES + eye) * AZIMUTHS + azimuth);
+        Self { first: first as u32, into: [a, b, c] }
+    }
+}
+
+/// Nodes of angles and azimuths as shares of their ranges: narrow towards grazing angles and the mirror's direction.
+static NODES: LazyLock<([f64; ANGLES], [f64; AZIMUTHS])> = LazyLock::new(|| (nodes(), nodes()));
+
+/// `1 − (1 − x)^1.5`, x even from 0 to 1.
+fn nodes<const N: usize>() -> [f64; N] {
+    std::array::from_fn(|k| 1.0 - (1.0 - k as f64 / (N - 1) as f64).powf(1.5))
+}
+
+/// The cell of a share of the range, and how far into it.
+fn cell<const N: usize>(share: f64, nodes: &[f64; N]) -> (usize, f32) {
+    let share = share.min(1.0);
+    // of few nodes it is faster to compare all than to search
+    let low = nodes[1..N - 1].iter().filter(|node| **node <= share).count();
+    (low, ((share - nodes[low]) / (nodes[low + 1] - nodes[low])) as f32)
+}

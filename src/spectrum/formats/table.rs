@@ -1,0 +1,117 @@
+//! The spectra of a file, and what it states about them.
+
+use std::sync::Arc;
+
+use super::quantity::Quantity;
+use super::units::{self, Scale};
+use crate::error::{Error, Result};
+use crate::spectrum::Spectrum;
+use crate::spectrum::channels::in_order;
+use crate::spectrum::names::What;
+
+/// The largest set known here has 1269 spectra.
+pub(super) const MAX_SPECTRA: usize = 10_000;
+/// Sums and products of numbers up to this one stay finite.
+const LARGEST: f64 = 1e30;
+
+/// The spectra of a file.
+#[derive(Debug)]
+pub struct Table {
+    pub(super) spectra: Vec<Spectrum>,
+    /// What the file states about each.
+    pub(super) stated: Vec<Stated>,
+    /// What was converted.
+    pub(super) notes: Vec<String>,
+}
+
+/// What a file states about a spectrum.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stated {
+    /// In what it is written if it is a reflectance.
+    pub(super) scale: Scale,
+    pub(super) quantity: Option<Quantity>,
+}
+
+impl Table {
+    /// A table of spectra in nm, of which the file says nothing else.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] if a number is larger than any measured one.
+    pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
+        for spectrum in &spectra {
+            if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
+                let (name, problem) =
+                    (spectrum.name().to_owned(), format!("{value:e} is no measured number"));
+                return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
+            }
+        }
+        Ok(Self { stated: vec![Stated::default(); spectra.len()], spectra, notes: Vec::new() })
+    }
+
+    /// The same table of spectra that the file calls this: `reflectance`, `irradiance`.
+    #[must_use]
+    pub fn called(mut self, quantity: &str) -> Self {
+        self.stated.iter_mut().for_each(|stated| stated.quantity = Quantity::called(quantity));
+        self
+    }
+
+    /// Checks that the file says nothing else of its spectra, or of one of them, than that they are `what`.
+    ///
+    /// # Errors
+    /// [`Error::Spectrum`] with what they are.
+    pub(in crate::spectrum) fn check_quantity(
+        &self,
+        path: &str,
+        what: What,
+        member: Option<&str>,
+    ) -> Result<()> {
+        let mut named = self.spectra.iter().zip(&self.stated);
+        let other = named.find_map(|(spectrum, stated)| {
+            let is_meant = member.is_none_or(|member| spectrum.name() == member);
+            stated.quantity.filter(|quantity| is_meant && !quantity.suits(what))
+        });
+        match other {
+            Some(quantity) => {
+                let problem = format!("the file says it holds {}, not {}", quantity.name(), wanted(what));
+                let remedy = "export it again with the right quantity, or name another file".to_owned();
+                Err(Error::Spectrum { name: path.to_owned(), problem, remedy })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the file does not say it are in
+    /// percent, if that is known.
+    pub(in crate::spectrum) fn in_fractions(mut self, path: &str, percent: Option<bool>) -> Result<Self> {
+        let scales: Vec<_> = self.stated.iter().map(|stated| stated.scale).collect();
+        let percent = units::percent(path, &self.spectra, &scales, percent)?;
+        for (spectrum, _) in self.spectra.iter_mut().zip(&percent).filter(|(_, percent)| **percent) {
+            spectrum.values.iter_mut().for_each(|value| *value /= 100.0);
+        }
+        if percent.contains(&true) {
+            self.notes.push("percent read as fractions".to_owned());
+        }
+        Ok(self)
+    }
+
+    /// The same table with the spectra as channels of a camera, in their order.
+    pub(in crate::spectrum) fn into_channels(mut self, path: &str) -> Result<Self> {
+        let (spectra, notes) = in_order(path, &self.spectra)?;
+        self.notes.extend(notes);
+        Ok(Self { spectra, ..self })
+    }
+
+    /// The spectra, each with a note of what was converted.
+    pub(in crate::spectrum) fn spectra(self, path: &str) -> Vec<Spectrum> {
+        let note = (!self.notes.is_empty()).then(|| Arc::from(format!("{path}: {}", self.notes.join(", "))));
+        self.spectra.into_iter().map(|spectrum| spectrum.noted(note.as_ref())).collect()
+    }
+}
+
+fn wanted(what: What) -> &'static str {
+    match what {
+        What::Cameras => "sensitivities of a camera",
+        What::Illuminants => "the power of a light",
+        What::Reflectances => "reflectances",
+    }
+}
