@@ -41,12 +41,12 @@
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
 //! surfaces             -> forward, kernel, response, solve, geometry, camera, image
 //! forward              -> response, geometry, camera, image, colorimetry, spectrum
-//! transport            -> sheet, kernel, geometry, image
+//! transport            -> sheet, kernel, geometry
 //! sheet                -> kernel
 //! kernel               -> response, solve, geometry, room
 //! response             -> solve
 //! plot                 -> image, geometry, files, markup, message
-//! image                -> colorimetry, files, room
+//! image                -> geometry, colorimetry, files, room
 //! score, camera        -> colorimetry
 //! camera               -> solve
 //! camera, colorimetry  -> spectrum

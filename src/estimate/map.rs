@@ -10,7 +10,7 @@ use std::iter;
 use super::alternatives::Alternatives;
 use super::data::FacetData;
 use super::facets::{Facets, Second};
-use super::fluorescence::{self, Fluorescing};
+use super::fluorescence_search::{self, Fluorescing};
 use super::light::{Likelier, Others, likelier};
 use super::mixture::Mixture;
 use super::prior::Prior;
@@ -90,7 +90,8 @@ impl<'a> Sortings<'a> {
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
         // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that does
         let is_asked = search.inflation() <= PRECISE;
-        let fluorescing = if is_asked { fluorescence::may_be(data, &plain, prior) } else { Vec::new() };
+        let fluorescing =
+            if is_asked { fluorescence_search::may_be(data, &plain, prior) } else { Vec::new() };
         Some(Self { plain, fluorescing, trace: search.trace })
     }
 
@@ -108,7 +109,7 @@ impl<'a> Sortings<'a> {
         }
         // evidence of sheets that do not explain the facets says nothing
         let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
-        let fluorescing = if asked { Vec::new() } else { fluorescence::may_be(data, &plain, prior) };
+        let fluorescing = if asked { Vec::new() } else { fluorescence_search::may_be(data, &plain, prior) };
         let (other, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
         let explains = asked || other.mixture.best.rms < EXPLAINED;
         Some((if explains { other } else { found }, [trace, more].concat()))
@@ -146,8 +147,9 @@ impl<'a> Found<'a> {
         let Mixture { values, spread, shares, .. } = &self.mixture;
         let shares = shares.iter().map(|(alternative, share)| (origin(*alternative), *share));
         let first = data.scene().facets().bands() + data.scene().unknowns().len() + 1;
-        let fluorescence = emission(0)
-            .and_then(|nothing| fluorescence::found(shares, (values, spread.as_ref()), nothing, first));
+        let fluorescence = emission(0).and_then(|nothing| {
+            fluorescence_search::found(shares, (values, spread.as_ref()), nothing, first)
+        });
         Estimate { fluorescence, ..into_estimate(data, &self.mixture, off, trace) }
     }
 }

@@ -10,6 +10,7 @@ use super::family::{Family, SpectrumModel};
 use super::gaussian::Gaussian;
 use super::linear::{Candidate, Linear, Start, candidates};
 use super::mixture::{Beside, Maximum, Mixture};
+use super::most_evidence::{APART, of_most_evidence};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
 use crate::solve::Termination;
@@ -28,13 +29,7 @@ const FINE_NOISE: f64 = 1e-5;
 /// The search that leads there ends so near to its maximum, in standard deviations, or after so many iterations.
 const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
-/// Most candidates that are searched, and the least evidence for one of them, as the logarithm of its share of the first's; and where data do not
-/// tell classes apart.
-const TRIED: usize = 3;
-const LN_EVIDENCE_LEAST: f64 = -3.0;
-const UNTOLD_TRIED: usize = 24;
-const UNTOLD_LN_EVIDENCE_LEAST: f64 = -5.0;
-/// The least evidence, likewise, for one that counts without a search, how many do, and how many of many hypotheses.
+/// The least evidence, as the logarithm of its share of the first's, for one that counts without a search, how many do, and how many of many hypotheses.
 const BESIDE_LN_EVIDENCE_LEAST: f64 = -4.0;
 const BESIDE: usize = 15;
 const BESIDE_OF_MANY: usize = 100;
@@ -56,8 +51,6 @@ const CARRIED_ON: usize = 40;
 /// A maximum explains the data if it leaves them within so many times their noise; further off the scene is not the one that was
 /// photographed, and evidence says nothing.
 const MISFIT_MOST: f64 = 1.1;
-/// Spectra of a class are one if their root mean square difference is less.
-pub const APART: f64 = 0.005;
 
 /// A hypothesis under all spectra as one Gaussian.
 pub struct Sorted<H, S> {
@@ -328,13 +321,4 @@ fn add<H: Copy, S>(found: &mut Vec<Maximum<H, S>>, more: Vec<Maximum<H, S>>, ban
 fn is_doubtful<H, S>(found: &[Maximum<H, S>]) -> bool {
     let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
     most.is_none_or(|most| most.surprise > SURPRISE || most.trace.len() > LONG)
-}
-
-/// Those of most evidence, of which the first has most; more of them if data are not `telling`.
-pub fn of_most_evidence<T>(found: &[T], ln_evidence: impl Fn(&T) -> f64, is_telling: bool) -> &[T] {
-    let (most, ln_least) =
-        if is_telling { (TRIED, LN_EVIDENCE_LEAST) } else { (UNTOLD_TRIED, UNTOLD_LN_EVIDENCE_LEAST) };
-    let least = found.first().map_or(0.0, |best| ln_evidence(best) + ln_least);
-    let enough = found.partition_point(|one| ln_evidence(one) >= least);
-    &found[..enough.min(most)]
 }

@@ -8,8 +8,8 @@ use nalgebra::DVector;
 use super::family::Family;
 use super::gaussian::logistic;
 use super::linear::{Linear, Start, candidates};
+use super::most_evidence::{APART, of_most_evidence};
 use super::prior::{Class, Prior};
-use super::search::{APART, of_most_evidence};
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, first_inflation, maximise};
 

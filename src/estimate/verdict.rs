@@ -5,13 +5,14 @@
 
 use std::{fmt, iter};
 
+pub use super::doubt::{Doubt, EXPLAINED, Level};
 use super::photograph::beliefs::Beliefs;
 use super::unknowns::{ANGLE, EXPOSURE, Normal};
-use super::{Estimate, Exposure, Fitted, MISFIT};
+use super::{Estimate, Exposure, Fitted};
 use crate::error::{Error, Result};
 
-/// Residuals, in units of their expected size, up to which facets are explained.
-pub const EXPLAINED: f64 = 2.0;
+/// Residuals, in units of their expected size, beyond which the scene cannot be right.
+pub const MISFIT: f64 = 5.0;
 /// Mean standard deviation of the reflectance from which on the facets leave too much open.
 const OPEN: f64 = 0.06;
 /// Probability of no bounces from which on an estimate is doubtful, and wrong.
@@ -35,52 +36,10 @@ const UNEXPLAINED: f64 = 0.3;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
 
-/// How far an estimate can be believed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
-    /// Nothing speaks against it: its error bars hold, if what was told of light and camera is true.
-    Good,
-    /// Something speaks against it: it may be further off than its error bars.
-    Doubtful,
-    /// The facets are not those of the scene: it means nothing.
-    Wrong,
-}
-
-impl Level {
-    /// As records and messages have it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Good => "good",
-            Self::Doubtful => "doubtful",
-            Self::Wrong => "wrong",
-        }
-    }
-}
-
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.level.name(), self.because)?;
         self.remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
-    }
-}
-
-/// Something that speaks against an estimate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Doubt {
-    /// How much.
-    pub level: Level,
-    /// What it is.
-    pub because: String,
-    /// What to do.
-    pub remedy: String,
-}
-
-impl Doubt {
-    /// One for which an estimate is [`Level::Doubtful`].
-    #[must_use]
-    pub fn new(because: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { level: Level::Doubtful, because: because.into(), remedy: remedy.into() }
     }
 }
 

@@ -10,30 +10,17 @@ mod overlay;
 mod page;
 mod sample;
 mod scene;
+mod view;
 mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use gallery::{Gallery, Shown};
+pub use view::{SECTIONS_MAX, View};
 
-use crate::colorimetry::Observer;
 use crate::error::Result;
 use crate::files::Saved;
 use crate::score::Summary;
-use crate::spectrum::Spectrum;
-
-/// Most samples that have a section.
-pub const SECTIONS_MAX: usize = 24;
-
-/// How sheets are looked at.
-pub struct View<'a> {
-    /// Illuminant of their colours.
-    pub illuminant: &'a Spectrum,
-    /// Observer of their colours.
-    pub observer: Observer,
-    /// Pictures of what was measured: each has its sample's name, or `{}` in the place of it; one alone may be called anything.
-    pub overlays: &'a [PathBuf],
-}
 
 /// Writes the page of a gallery, and of the scores of all samples.
 ///

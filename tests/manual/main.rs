@@ -1,9 +1,10 @@
 //! What is written about the tools is true: man pages, completions, schemas, documentation, the map from the paper to the code,
-//! and the picture of which module uses which.
+//! and the picture of which module uses which, without circles.
 
 // a test stops at the first surprise, and prints what it found
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
+mod circles;
 #[path = "../common/mod.rs"]
 mod common;
 mod docs;

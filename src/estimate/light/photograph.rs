@@ -149,7 +149,7 @@ fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
         (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
     // of lamps one hypothesis stands for all days, with the share of a clear one
-    let ln_clear = Day::Clear.share(&parts.told).ln();
+    let ln_clear = parts.told.share_of(Day::Clear).ln();
     let of = |light: &'a Candidate| {
         let parts = parts.in_light(&light.power);
         let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
@@ -182,7 +182,7 @@ fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
         let mut search = Search::new(&family, prior);
         for day in way.days() {
             let hypothesis = Hypothesis::on_dull_day(*day, Kind::Family);
-            let ln_share = way.ln_share + day.share(&way.parts.told).ln();
+            let ln_share = way.ln_share + way.parts.told.share_of(*day).ln();
             // lights of another kind have other unknowns
             let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
             let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {
@@ -216,7 +216,7 @@ impl Way<'_> {
         mut ln_least: f64,
     ) -> Vec<(Day, f64, KnownSeen)> {
         let family = photographs.in_light_of(&self.parts);
-        let share = |day: Day| day.share(&self.parts.told);
+        let share = |day: Day| self.parts.told.share_of(day);
         let of_all: f64 = self.days().iter().map(|day| share(*day)).sum();
         let mut all = Vec::new();
         for day in self.days() {

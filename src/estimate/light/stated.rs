@@ -12,7 +12,7 @@ use super::Candidate;
 use crate::camera::CameraResponse;
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
-use crate::estimate::fluorescence::Fluorescing;
+use crate::estimate::fluorescence_search::Fluorescing;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::verdict::Doubt;

@@ -117,7 +117,7 @@ impl Lit {
         if told.daylight.is_none() {
             return vec![(&self.with_sky, Day::Clear, 1.0)];
         }
-        let share = |day: Day| (1.0 - WITHOUT_SKY) * day.share(told);
+        let share = |day: Day| (1.0 - WITHOUT_SKY) * told.share_of(day);
         let with_sky = self.days.iter().map(|day| (&self.with_sky, *day, share(*day)));
         let without_sky = self.without_sky.iter().map(|parts| (parts, Day::Clear, WITHOUT_SKY));
         with_sky.chain(without_sky).collect()

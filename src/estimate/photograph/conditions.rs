@@ -129,6 +129,23 @@ impl Told {
         self.sky_kind.filter(|kind| kind.is_zenith_stated).map(|kind| kind.elevation_deg)
     }
 
+    /// How many photographs are taken on such a day, of those of which this was stated: on days with another sky, or in the sun where there is none,
+    /// they are mistakes.
+    #[must_use]
+    pub fn share_of(&self, day: Day) -> f64 {
+        if let Some(shown) = self.shown {
+            return shown.shares[day as usize];
+        }
+        let (beliefs, is_sunny) = (self.beliefs, self.sun > 0.0);
+        let mistaken = beliefs.mistake_share * day.usual_share(beliefs);
+        match self.sky_kind {
+            Some(SkyKind { is_overcast, .. }) if day == Day::with(is_sunny, is_overcast) => 1.0,
+            Some(_) => mistaken,
+            None if day.has_sun() && !is_sunny => mistaken,
+            None => day.usual_share(beliefs),
+        }
+    }
+
     /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
     #[must_use]
     pub fn metered_exposure(&self) -> Option<Normal> {

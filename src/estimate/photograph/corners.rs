@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::findings::Finding;
+use super::finding::Finding;
 use super::parts::Place;
 
 /// How the values of all facets change, channel by channel and in each facet by facet, for each corner that is off by one depth of a

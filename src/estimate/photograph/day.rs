@@ -1,7 +1,6 @@
 //! Kinds of days: where daylight comes from.
 
 use super::beliefs::Beliefs;
-use super::conditions::{SkyKind, Told};
 use crate::estimate::unknowns::Normal;
 
 /// Where daylight comes from.
@@ -41,25 +40,8 @@ impl Day {
         }
     }
 
-    /// How many photographs are taken on such a day, of those of which this was stated: on days with another sky, or in the sun where there is none,
-    /// they are mistakes.
-    #[must_use]
-    pub fn share(self, told: &Told) -> f64 {
-        if let Some(shown) = told.shown {
-            return shown.shares[self as usize];
-        }
-        let beliefs = told.beliefs;
-        let is_sunny = told.sun > 0.0;
-        match told.sky_kind {
-            Some(SkyKind { is_overcast, .. }) if self == Self::stated(is_sunny, is_overcast) => 1.0,
-            Some(_) => beliefs.mistake_share * self.usual_share(beliefs),
-            None if self.has_sun() && !is_sunny => beliefs.mistake_share * self.usual_share(beliefs),
-            None => self.usual_share(beliefs),
-        }
-    }
-
     /// The day of which somebody speaks who states such a sky.
-    fn stated(is_sunny: bool, is_overcast: bool) -> Self {
+    pub(super) fn with(is_sunny: bool, is_overcast: bool) -> Self {
         match (is_sunny, is_overcast) {
             (true, true) => Self::Hazy,
             (true, false) => Self::Clear,
@@ -68,7 +50,7 @@ impl Day {
         }
     }
 
-    fn usual_share(self, beliefs: &Beliefs) -> f64 {
+    pub(super) fn usual_share(self, beliefs: &Beliefs) -> f64 {
         match self {
             Self::Clear => 1.0 - 2.5 * beliefs.dull_share,
             Self::Hazy | Self::Overcast => beliefs.dull_share,

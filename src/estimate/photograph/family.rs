@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beliefs::Beliefs;
 use super::hypotheses::Hypothesis;
-use super::joint::{JointModel, Member, Photograph};
+use super::joint::{JointModel, Member};
 use super::model::Point;
 use super::parts::Parts;
+use super::whitened::Photograph;
 use crate::estimate::Fitted;
 use crate::estimate::emission::Fall;
 use crate::estimate::family::{Family, SpectrumModel, widened};

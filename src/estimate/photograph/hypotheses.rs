@@ -4,8 +4,8 @@ use super::beliefs::Beliefs;
 use super::conditions::Told;
 use super::day::Day;
 use super::imperfection::Imperfection;
-use super::joint::Photograph;
 use super::kinds::Kind;
+use super::whitened::Photograph;
 
 /// What a photograph is taken to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl Hypothesis {
         let beliefs = told.beliefs;
         let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(beliefs).ln());
         let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(beliefs) };
-        let of_day = if self.imperfection.is_ideal() { 0.0 } else { self.day.share(told).ln() };
+        let of_day = if self.imperfection.is_ideal() { 0.0 } else { told.share_of(self.day).ln() };
         let of_fold = self.imperfection.ln_share(beliefs) + of_kind + of_day;
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }

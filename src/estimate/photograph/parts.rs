@@ -4,10 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Conditions, Daylight, Told};
 use super::sheets::Sheets;
+pub use super::sums::Radiance;
 use super::sums::add;
-
-/// Radiance of all facets at the nodes of albedo: facet by node.
-pub type Radiance = DMatrix<f64>;
 
 /// Where a facet is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,13 +8,14 @@ use super::day::{Day, Found};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
 use super::hypotheses::{Hypothesis, dull_days, hypotheses, hypotheses_without_bounces, usual_hypotheses};
-use super::joint::Photograph;
 use super::kinds::Kind;
 use super::parts::Parts;
+use super::whitened::Photograph;
 use crate::error::{Error, Result};
 use crate::estimate::emission::Origin;
 use crate::estimate::family::Family;
-use crate::estimate::fluorescence::{self, Fluorescence, is_hopeful};
+use crate::estimate::fluorescence::Fluorescence;
+use crate::estimate::fluorescence_search::{self, is_hopeful};
 use crate::estimate::mixture::Mixture;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
@@ -219,7 +220,7 @@ fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Opt
     let shares = found.shares.iter().map(|(hypothesis, share)| (origin(hypothesis), *share));
     let nothing = photograph.emissions().first()?;
     let first = 2 * nothing.wavelengths_nm().len();
-    fluorescence::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
+    fluorescence_search::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
 }
 
 /// Probability of hypotheses, of which those of most evidence come first.

@@ -1,7 +1,6 @@
 //! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same albedo.
 
-use super::parts::Radiance;
-use super::sums::add;
+use super::sums::{Radiance, add};
 
 /// How a sheet departs from a Lambertian one.
 #[derive(Clone, Debug)]

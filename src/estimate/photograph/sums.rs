@@ -5,6 +5,9 @@ use std::slice::ChunksExact;
 use nalgebra::DMatrix;
 use pulp::Arch;
 
+/// Radiance of all facets at the nodes of albedo: facet by node.
+pub type Radiance = DMatrix<f64>;
+
 /// Adds a share of other values.
 pub fn add(sum: &mut [f64], share: f64, values: &[f64]) {
     Arch::new().dispatch(|| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value));

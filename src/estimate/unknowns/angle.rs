@@ -1,11 +1,11 @@
 //! How far the fold is open.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom,
-    Told, Unknown, Whose,
+    Effect, Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State,
+    Symptom, Unknown, Whose,
 };
 use crate::error::{Error, Result};
-use crate::estimate::Fitted;
+use crate::estimate::photograph::Told;
 use crate::kernel::mesh::respond;
 
 /// Angle between the panels, degrees. It takes two more solutions of the bounces.
@@ -57,7 +57,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
         let fold = scene.fold.with_angle_deg(*node)?;
         // the fold that was told is solved already
         let response = if at == 1 { scene.response.clone() } else { respond(&fold, tolerance)?.0 };
-        Ok(State { fold, response, factors: vec![(&ANGLE, Factor::Node { nodes, at })] })
+        Ok(State { fold, response, factors: vec![(ANGLE.name, Factor::Node { nodes, at })] })
     };
     sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;
     Ok(())

@@ -1,6 +1,7 @@
 //! How rough the sheet is under its surface.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {

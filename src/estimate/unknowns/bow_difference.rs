@@ -1,7 +1,8 @@
 //! Panels that do not bow alike.
 
 use super::bow::BOWED;
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! How cloudy the sky is.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Share of the sky's light that is an overcast one's; the rest is a clear one's.
 pub static CLOUD: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! How far above the horizon the fold opens.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Angle between the horizon and the direction to which the fold opens, degrees.
 pub static ELEVATION: Unknown = Unknown {

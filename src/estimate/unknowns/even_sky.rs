@@ -1,7 +1,7 @@
 //! A sky that is alike in all directions, as computed scenes have it.
 
-use super::{AUTO, Effect, Known, Role, Scale, Symptom, Told, Unknown, Whose};
-use crate::estimate::Fitted;
+use super::{AUTO, Effect, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being 1.
 pub static EVEN_SKY: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! How bright the picture is.
 
-use super::{Effect, Expectation, Flag, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{Effect, Expectation, Flag, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
 pub static EXPOSURE: Unknown = Unknown {

@@ -1,7 +1,7 @@
 //! Light that falls off along the crease.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
-use crate::estimate::Fitted;
+use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// By how much one end of the crease has less light than the other, relative to its middle; negative: more.
 pub static FALL_OFF: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! How much more the first channel amplifies than it should.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! Fibres that stand up from the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// By how much the body is brighter where light grazes it, or the eye: fibres that stand up, as those of felt.
 pub static FUZZ: Unknown = Unknown {

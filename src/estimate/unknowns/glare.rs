@@ -1,6 +1,7 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Share of the picture's light that the lens spreads over all of it.
 pub static GLARE: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! What the surface of the sheet reflects before light enters it.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
 pub static GLOSS: Unknown = Unknown {

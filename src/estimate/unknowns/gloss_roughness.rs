@@ -1,6 +1,7 @@
 //! How sharply the surface of the sheet reflects.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Roughness of the surface: the width of the slopes of its microfacets (GGX's alpha).
 pub static GLOSS_ROUGHNESS: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! Light from what lies below the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {

@@ -1,6 +1,7 @@
 //! The colour of what lies below the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
 pub static GROUND_REDNESS: Unknown = Unknown {

@@ -1,7 +1,8 @@
 //! How much more the last channel amplifies than it should.
 
 use super::first_gain::UNBALANCED;
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {

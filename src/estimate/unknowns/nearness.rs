@@ -1,7 +1,7 @@
 //! A lamp near by in the place of the sun.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
-use crate::estimate::Fitted;
+use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Depth of a panel over the distance of the lamp that lights it: 0 of the sun.
 pub static NEARNESS: Unknown = Unknown {

@@ -2,10 +2,10 @@
 
 use super::sources::Source;
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Told, Unknown,
-    Whose,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Unknown, Whose,
 };
 use crate::error::Result;
+use crate::estimate::photograph::Told;
 
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
 pub static SKY: Unknown = Unknown {
@@ -43,7 +43,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
         Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
     });
     let sky = Source::new(Lamp::Sky { irradiance: 1.0 }, scene.lighting.sky.clone());
-    sources.add(sky.with(&SKY, Factor::Amount));
+    sources.add(sky.with(SKY.name, Factor::Amount));
     Ok(())
 }
 

@@ -1,11 +1,11 @@
 //! The colour of the sky: daylight of unknown temperature.
 
 use super::{
-    Effect, Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Told, Unknown,
-    Whose,
+    Effect, Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
+use crate::estimate::photograph::Told;
 use crate::spectrum::{self, Outside};
 
 /// Correlated colour temperature of the sky, K, unless the scene has a sky illuminant; its reciprocal, in 1e-6/K, is normal.
@@ -43,7 +43,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     sources.replace(|source| match source.lamp {
         Lamp::Sky { .. } => {
             let of = |(at, sky): (usize, &CameraResponse)| {
-                source.seen_by(sky.clone()).with(&SKY_COLOUR, Factor::Node { nodes, at })
+                source.seen_by(sky.clone()).with(SKY_COLOUR.name, Factor::Node { nodes, at })
             };
             skies.iter().enumerate().map(of).collect()
         }

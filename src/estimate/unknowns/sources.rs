@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Expected, Factor, Role, SceneModel, Unknown};
+use super::Factor;
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::photograph::conditions::Daylight;
-use crate::forward::{Card, FacetModel, Lighting, Lit};
+use crate::forward::{Card, Lighting, Lit};
 use crate::geometry::{Fold, Light};
 use crate::response::{ModeLight, Response};
 use crate::spectrum::WavelengthGrid;
@@ -37,8 +37,8 @@ pub struct FoldInLight {
     pub sensitivities: Vec<Vec<f64>>,
 }
 
-/// What a source's amount is of some unknowns; of all others it is the same.
-pub type Factors = Vec<(&'static Unknown, Factor)>;
+/// What a source's amount is of some unknowns, by their names; of all others it is the same.
+pub type Factors = Vec<(&'static str, Factor)>;
 
 /// A light, on any fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,9 +96,9 @@ impl Source {
         Self { lamp, camera, factors: Vec::new() }
     }
 
-    /// The same in an amount that also is this `factor` of `unknown`.
+    /// The same in an amount that also is this `factor` of the `unknown` of that name.
     #[must_use]
-    pub fn with(&self, unknown: &'static Unknown, factor: Factor) -> Self {
+    pub fn with(&self, unknown: &'static str, factor: Factor) -> Self {
         let factors = self.factors.iter().copied().chain([(unknown, factor)]).collect();
         Self { factors, ..self.clone() }
     }
@@ -135,7 +135,7 @@ pub struct Sources {
 
 impl Sources {
     /// Sources of which nothing is unknown.
-    fn of(scene: &FoldInLight) -> Self {
+    pub(super) fn of(scene: &FoldInLight) -> Self {
         let FoldInLight { fold, response, lighting, .. } = scene;
         let state = State { fold: *fold, response: response.clone(), factors: Vec::new() };
         let sun = Source::new(Lamp::Sun, lighting.sun.clone());
@@ -156,7 +156,7 @@ impl Sources {
     }
 
     /// The lamps on the states, suns before skies, with all that their amounts depend on.
-    fn on_states(&self, light: &Light) -> Result<Vec<(Lit<'_>, Factors)>> {
+    pub(super) fn on_states(&self, light: &Light) -> Result<Vec<(Lit<'_>, Factors)>> {
         let (skies, suns): (Vec<_>, Vec<_>) = self.lamps.iter().partition(|source| source.lamp.is_sky());
         let mut all = Vec::new();
         for lamps in [suns, skies] {
@@ -168,34 +168,5 @@ impl Sources {
             }
         }
         Ok(all)
-    }
-}
-
-impl SceneModel {
-    /// The model of facet RGB on a fold with those of `fit` unknown that the scene leaves open.
-    ///
-    /// # Errors
-    /// [`crate::Error::Field`] if the scene is not one in which they can be fitted.
-    pub fn of_fold(scene: &FoldInLight, fit: &[&'static Unknown]) -> Result<Self> {
-        let (mut sources, mut unknowns) = (Sources::of(scene), Vec::new());
-        for unknown in fit {
-            let (prior, enter) = match unknown.role {
-                Role::Exposure | Role::Photograph => continue,
-                Role::Sources { prior, enter } => (prior, enter),
-            };
-            if let Some(prior) = prior(scene)? {
-                enter(scene, prior, &mut sources)?;
-                unknowns.push(Expected { unknown, prior });
-            }
-        }
-        let (lit, factors): (Vec<_>, Vec<_>) = sources.on_states(&scene.lighting.light)?.into_iter().unzip();
-        let responses: Vec<_> = sources.states.iter().map(|state| state.response.clone()).collect();
-        let facets = FacetModel::new(&responses, &lit, scene.card.clone());
-        let factor = |factors: &Factors, expected: &Expected| {
-            let of = factors.iter().find(|(unknown, _)| *unknown == expected.unknown);
-            of.map_or(Factor::One, |(_, factor)| *factor)
-        };
-        let factors = factors.iter().map(|f| unknowns.iter().map(|u| factor(f, u)).collect()).collect();
-        Ok(Self::new(facets, unknowns, factors))
     }
 }

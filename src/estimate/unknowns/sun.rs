@@ -1,6 +1,7 @@
 //! How much of the sun comes through clouds, or past what throws a shadow.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane is 1.
 pub static SUN: Unknown = Unknown {

@@ -1,11 +1,12 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
     Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
+use crate::estimate::photograph::Told;
 use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::conditions::Daylight;
 
@@ -58,7 +59,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
         Lamp::Sky { .. } => vec![source],
         Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => {
             let of = |(at, sun): (usize, &CameraResponse)| {
-                source.seen_by(sun.clone()).with(&SUN_COLOUR, Factor::Node { nodes, at })
+                source.seen_by(sun.clone()).with(SUN_COLOUR.name, Factor::Node { nodes, at })
             };
             suns.iter().enumerate().map(of).collect()
         }

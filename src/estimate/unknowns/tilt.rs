@@ -1,10 +1,11 @@
 //! Where the sun stands across the crease.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Told,
+    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
     Unknown, Whose,
 };
 use crate::error::Result;
+use crate::estimate::photograph::Told;
 
 /// Angle of the sun off the bisecting plane, degrees.
 pub static TILT: Unknown = Unknown {
@@ -43,8 +44,8 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     sources.replace(|source| match source.lamp {
         Lamp::Sun => {
             vec![
-                source.with(&TILT, Factor::Cosine).shining(Lamp::EvenSun),
-                source.with(&TILT, Factor::Sine).shining(Lamp::OddSun),
+                source.with(TILT.name, Factor::Cosine).shining(Lamp::EvenSun),
+                source.with(TILT.name, Factor::Sine).shining(Lamp::OddSun),
             ]
         }
         Lamp::EvenSun | Lamp::OddSun | Lamp::Sky { .. } => vec![source],

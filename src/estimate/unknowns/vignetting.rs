@@ -1,6 +1,7 @@
 //! A lens that darkens the corners of the picture.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Told, Unknown, Whose};
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::Told;
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
