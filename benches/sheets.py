@@ -59,6 +59,13 @@ def simulated(tools, cameras, spec, draw, work):
     return records, truth, ["--exposure", told_exposure] if draw.random() < 0.5 else []
 
 
+def two_cameras(shared, work):
+    """Files of a camera's spectral sensitivities: as they are, and as another measurement has them."""
+    said = json.loads((shared / "real/all_blue_paint.json").read_text(encoding="utf-8"))
+    measured = {"true": said["camera_sensitivities_rgb"], "told": said["told"]["camera_sensitivities_rgb"]}
+    return [table(work / f"{which}.csv", said["wavelengths_nm"], columns) for which, columns in measured.items()]
+
+
 def set_of(tools, cameras, path):
     """Forty sheets of a set, as [`simulated`] has them."""
     names = path.read_text(encoding="utf-8").splitlines()[0].split(",")[1:]
@@ -114,9 +121,7 @@ def main(folder, shared, *sets):
             sidecars = sorted(shared.glob(pattern))
             if sidecars:
                 row(tools, name, [(*kind(tools, sidecar, work), flags) for sidecar in sidecars])
-        said = json.loads((shared / "real/all_blue_paint.json").read_text(encoding="utf-8"))
-        curves = {"true": said["camera_sensitivities_rgb"], "told": said["told"]["camera_sensitivities_rgb"]}
-        cameras = [table(work / f"{which}.csv", said["wavelengths_nm"], columns) for which, columns in curves.items()]
+        cameras = two_cameras(shared, work)
         for path in map(Path, sets):
             row(tools, path.stem, set_of(tools, cameras, path))
 

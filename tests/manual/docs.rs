@@ -1,17 +1,20 @@
-//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with no file that no page
-//! makes; links lead to files; tables between marks are those of benches/results. What needs pictures or machines of the reader's stands in blocks
-//! of `console`.
+//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with
+//! no file that no page makes; what a block of `text` shows is printed; pictures are those that are made; links lead
+//! to files and headings; tables between marks are those of benches/results. What needs pictures or machines of the
+//! reader's stands in blocks of `console`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::common::{Ended, Workdir};
+use crate::pictures::stale_on;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// By how many lines of text a curve in a plot that a page shows may be off from what is printed now: a change of the prior moves it a little.
-const LINES_OFF: usize = 1;
+/// By how much a number that a page shows may differ from what is printed now, of itself: a change of the prior moves
+/// it a little.
+const OFF: f64 = 0.1;
 
 /// A clone, as far as pages need it: nothing that they do not make themselves.
 const SETUP: &str = r#"
@@ -25,9 +28,9 @@ fn blocks<'a>(page: &'a str, kind: &str) -> Vec<&'a str> {
     starts.into_iter().map(|block| block.split("\n```\n").next().unwrap()).collect()
 }
 
-/// Runs a page from its first block to its last.
-fn read_along(page: &str) -> Ended {
-    Workdir::new().sh(&format!("ROOT='{ROOT}'{SETUP}{}", blocks(page, "sh").join("\n")))
+/// Runs a page from its first block to its last, in a folder.
+fn read_along(page: &str, folder: &Workdir) -> Ended {
+    folder.sh(&format!("ROOT='{ROOT}'{SETUP}{}", blocks(page, "sh").join("\n")))
 }
 
 /// README.md and all pages of docs.
@@ -40,60 +43,42 @@ fn pages() -> Vec<(PathBuf, String)> {
 }
 
 #[test]
-fn every_page_runs() {
+fn every_page_runs_and_shows_what_it_makes() {
     for (path, page) in pages() {
-        // tests/tools/cluster.rs runs the scripts of that page
-        if path.ends_with("examples/cluster/README.md") {
+        // tests/tools/cluster.rs runs the scripts of that page; examples/paper/run makes the pictures of the other
+        if path.ends_with("examples/cluster/README.md") || path.ends_with("docs/paper/README.md") {
             continue;
         }
-        let run = read_along(&page);
+        let folder = Workdir::new();
+        let run = read_along(&page, &folder);
         assert_eq!(run.status, 0, "{}: {run:?}", path.display());
+        let printed = format!("{}{}", run.stdout, run.stderr);
+        for shown in blocks(&page, "text") {
+            assert!(is_printed(shown, &printed), "{} shows {shown}, not {printed}", path.display());
+        }
+        let stale = stale_on(&page, folder.path());
+        assert!(
+            stale.is_empty(),
+            "{}: {stale:?} are stale: MANUAL=write cargo test --test manual writes them anew",
+            path.display()
+        );
     }
 }
 
-#[test]
-fn the_readme_shows_what_is_printed() {
-    let page = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
-    let shown = blocks(&page, "text");
-    let run = read_along(&page);
-    assert!(!shown.is_empty() && shown.iter().all(|text| is_printed(text, &run.stderr)), "{}", run.stderr);
-}
-
-/// Whether a plot is printed as a page shows it: frame, axes and letters exactly, the curve in each column within [`LINES_OFF`], bars
-/// anyhow.
+/// Whether lines are printed as a page shows them, one below the other: words exactly, numbers within [`OFF`].
 fn is_printed(shown: &str, printed: &str) -> bool {
-    let shown: Vec<&str> = shown.lines().collect();
     let printed: Vec<&str> = printed.lines().collect();
-    printed.windows(shown.len()).any(|lines| {
-        let frames = shown.iter().zip(lines).all(|(shown, line)| frame(shown) == frame(line));
-        frames && curve_is_near(&shown, lines) && curve_is_near(lines, &shown)
-    })
+    let shown: Vec<&str> = shown.lines().collect();
+    printed.windows(shown.len()).any(|lines| shown.iter().zip(lines).all(|(shown, line)| is_line(shown, line)))
 }
 
-/// Of a line of a plot all but what is drawn in it.
-fn frame(line: &str) -> &str {
-    match line.find(['┤', '│']) {
-        Some(axis) => &line[..axis],
-        None => line,
-    }
-}
-
-/// Dots of a curve, by line and column.
-fn dots(plot: &[&str]) -> Vec<(usize, usize)> {
-    let in_line = |(row, line): (usize, &&str)| {
-        let is_dot = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
-        let columns = line[frame(line).len()..].chars().enumerate();
-        columns.filter(|(_, letter)| is_dot(*letter)).map(|(column, _)| (row, column)).collect::<Vec<_>>()
+fn is_line(shown: &str, line: &str) -> bool {
+    let is_word = |(shown, word): (&str, &str)| match (shown.parse::<f64>(), word.parse::<f64>()) {
+        (Ok(shown), Ok(number)) => (shown - number).abs() <= OFF * number.abs(),
+        _ => shown == word,
     };
-    plot.iter().enumerate().flat_map(in_line).collect()
-}
-
-/// Whether each dot of a plot has one of another's in its column, or beside it, at most so many lines away.
-fn curve_is_near(plot: &[&str], other: &[&str]) -> bool {
-    let there = dots(other);
-    dots(plot).into_iter().all(|(row, column)| {
-        there.iter().any(|at| at.0.abs_diff(row) <= LINES_OFF && at.1.abs_diff(column) <= 1)
-    })
+    let [shown, line] = [shown, line].map(|line| line.split_whitespace().collect::<Vec<_>>());
+    shown.len() == line.len() && shown.into_iter().zip(line).all(is_word)
 }
 
 #[test]
@@ -109,7 +94,7 @@ fn tables_between_marks_are_those_of_the_results() {
 
 #[test]
 fn a_newcomer_gets_through() {
-    let run = read_along(include_str!("../../docs/tutorial.md"));
+    let run = read_along(include_str!("../../docs/tutorial.md"), &Workdir::new());
     assert!(
         run.stderr.contains(r#"--panel0 "358.28,441.60 346.13,100.03 155.42,55.00 166.27,426.90""#),
         "{run:?}"
@@ -131,12 +116,29 @@ fn a_newcomer_gets_through() {
 fn links_lead_somewhere() {
     let mut missing = Vec::new();
     for (path, page) in pages() {
-        for link in page.split("](").skip(1).map(|rest| rest.split([')', '#']).next().unwrap()) {
-            let inside = !link.is_empty() && !link.contains("://");
-            if inside && !path.with_file_name(link).exists() {
+        for link in page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()) {
+            if !link.contains("://") && !leads_somewhere(&path, link) {
                 missing.push(format!("{}: {link}", path.display()));
             }
         }
     }
     assert!(missing.is_empty(), "{missing:#?}");
+}
+
+/// Whether a link of a page leads to a file, and to a heading in it.
+fn leads_somewhere(page: &Path, link: &str) -> bool {
+    let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+    let to = if file.is_empty() { page.to_owned() } else { page.with_file_name(file) };
+    let has_heading = || {
+        let text = fs::read_to_string(&to).unwrap();
+        text.lines().filter(|line| line.starts_with('#')).any(|line| anchor(line) == heading)
+    };
+    to.exists() && (heading.is_empty() || has_heading())
+}
+
+/// What a heading is called in links: small letters, digits and hyphens.
+fn anchor(heading: &str) -> String {
+    let letters = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = letters.chars().filter(|letter| letter.is_alphanumeric() || " -_".contains(*letter));
+    kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
 }

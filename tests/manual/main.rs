@@ -12,4 +12,5 @@ mod flags;
 mod imports;
 mod pages;
 mod paper_map;
+mod pictures;
 mod schema;
