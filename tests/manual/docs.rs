@@ -69,7 +69,9 @@ fn every_page_runs_and_shows_what_it_makes() {
 fn is_printed(shown: &str, printed: &str) -> bool {
     let printed: Vec<&str> = printed.lines().collect();
     let shown: Vec<&str> = shown.lines().collect();
-    printed.windows(shown.len()).any(|lines| shown.iter().zip(lines).all(|(shown, line)| is_line(shown, line)))
+    printed
+        .windows(shown.len())
+        .any(|lines| shown.iter().zip(lines).all(|(shown, line)| is_line(shown, line)))
 }
 
 fn is_line(shown: &str, line: &str) -> bool {

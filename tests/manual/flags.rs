@@ -10,11 +10,9 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
 /// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and vfold-measure.
-const OTHERS: [&str; 14] = [
+const OTHERS: [&str; 12] = [
     "--bench",
     "--features",
-    "--nocapture",
-    "--path",
     "--release",
     "--test",
     "--fullpixels",

@@ -9,7 +9,10 @@ const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
 
 /// Pictures that no block of a page makes, and the lines that do, in an empty folder; `ROOT` is the project.
 const MADE_BY: [(&[&str], &str); 3] = [
-    (&["fold.png", "spectrum.svg"], r#"sed -n '/^mkdir -p/,$p' "$ROOT/examples/quickstart" >steps; say() { :; }; out=$PWD; . ./steps"#),
+    (
+        &["fold.png", "spectrum.svg"],
+        r#"sed -n '/^mkdir -p/,$p' "$ROOT/examples/quickstart" >steps; say() { :; }; out=$PWD; . ./steps"#,
+    ),
     (&["bounces.svg"], r#"python3 -B "$ROOT/docs/bounces.py" >bounces.svg"#),
     (&["picker.png"], PICKER),
 ];
@@ -79,9 +82,8 @@ fn pixels_are_alike(kept: &PathBuf, made: &PathBuf) -> bool {
     if kept.dimensions() != made.dimensions() {
         return false;
     }
-    let differs = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| {
-        a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VALUE)
-    };
+    let differs =
+        |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VALUE);
     let differing = kept.pixels().zip(made.pixels()).filter(|pair| differs(*pair)).count();
     (differing as f64) < PIXELS * f64::from(kept.width()) * f64::from(kept.height())
 }
