@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::common::{Ended, Workdir};
+use crate::imports::files;
 use crate::pictures::stale_on;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -143,4 +144,37 @@ fn anchor(heading: &str) -> String {
     let letters = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = letters.chars().filter(|letter| letter.is_alphanumeric() || " -_".contains(*letter));
     kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
+}
+
+/// Messages on the page of symptoms, in bold and quotes, are those of the tools: what stands between their numbers and
+/// names is found in a string of the source.
+#[test]
+fn symptoms_are_messages_of_the_tools() {
+    let page =
+        fs::read_to_string(Path::new(ROOT).join("docs/troubleshooting.md")).unwrap().replace('\n', " ");
+    let sources: String = files(&Path::new(ROOT).join("src")).iter().map(|path| unbroken(path)).collect();
+    let quoted = page.split("**\"").skip(1).map(|rest| rest.split("\"**").next().unwrap());
+    let is_varying = |word: &str| {
+        let bare = word.trim_matches(|letter: char| !letter.is_alphanumeric());
+        bare.is_empty() || bare.len() == 1 || bare.contains(|letter: char| letter.is_ascii_digit())
+    };
+    let pieces = quoted.flat_map(|message| {
+        let words: Vec<&str> = message.split([' ', '\'']).collect();
+        words.split(|word| is_varying(word)).map(|words| words.join(" ")).collect::<Vec<_>>()
+    });
+    let pieces: Vec<String> = pieces.filter(|piece| piece.len() >= LONG).collect();
+    let unknown: Vec<&String> =
+        pieces.iter().filter(|piece| !sources.contains(piece.trim_end_matches(['.', ',', ';', ':']))).collect();
+    assert!(pieces.len() > 20 && unknown.is_empty(), "{unknown:#?}");
+}
+
+/// Letters of a piece of a message that is looked for: shorter ones are words between two names.
+const LONG: usize = 16;
+
+/// A file with strings that go on in the next line as one.
+fn unbroken(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let mut pieces = text.split("\\\n");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |text, piece| text + piece.trim_start())
 }
