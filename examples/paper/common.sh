@@ -1,14 +1,18 @@
 # Sourced by the scripts of this folder: the tools, a folder for results, and what all sections share.
 set -eu
 project=$(cd "$(dirname "$0")/../.." && pwd)
-cargo build --quiet --release --bins --example paper-plot --manifest-path "$project/Cargo.toml"
-target=$(cargo metadata --format-version 1 --no-deps --manifest-path "$project/Cargo.toml" |
-    sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
-PATH=$project/examples/paper:$target/release:$target/release/examples:$PATH
+PATH=$project/examples/paper:$PATH
+# TOOLS: set where the tools are on the path already
+if [ -z "${TOOLS:-}" ]; then
+    cargo build --quiet --release --bins --example paper-plot --manifest-path "$project/Cargo.toml"
+    target=$(cargo metadata --format-version 1 --no-deps --manifest-path "$project/Cargo.toml" |
+        sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
+    PATH=$target/release:$target/release/examples:$PATH
+fi
 mkdir -p vfold-paper
 cd vfold-paper
 
-# The paper's camera is a Sigma SD-10, whose curves are not published; this is a later one of the same kind of sensor.
+# The paper's camera is a Sigma SD-10, whose sensitivities are not published; this is a later one with the same type of sensor.
 camera=${CAMERA:-sigma-sd-merrill}
 # The paper's weight of smoothness, 2.5, has the unit of its pictures, which it does not give; here white is 1.
 smooth='--prior smooth --smoothness 1e-6'

@@ -1,6 +1,6 @@
-//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with
-//! no file that no page makes; what a block of `text` shows is printed; pictures are those that are made; links lead
-//! to files and headings; tables between marks are those of benches/results. What needs pictures or machines of the
+//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with no
+//! file that no page makes; what a block of `text` shows is printed; pictures are those that are made; links lead to
+//! files and headings; tables between marks are those of benches/results. What needs pictures or machines of the
 //! reader's stands in blocks of `console`.
 
 use std::fs;
@@ -13,8 +13,8 @@ use crate::pictures::stale_on;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// By how much a number that a page shows may differ from what is printed now, of itself: a change of the prior moves
-/// it a little.
+/// By how much a number that a page shows may differ from what is printed now, of itself: a change of the prior
+/// moves it a little.
 const OFF: f64 = 0.1;
 
 /// A clone, as far as pages need it: nothing that they do not make themselves.
@@ -46,7 +46,7 @@ fn pages() -> Vec<(PathBuf, String)> {
 #[test]
 fn every_page_runs_and_shows_what_it_makes() {
     for (path, page) in pages() {
-        // tests/tools/cluster.rs runs the scripts of that page; examples/paper/run makes the pictures of the other
+        // tests/tools/cluster.rs runs the scripts of the one, tests/manual/pictures.rs those of the other
         if path.ends_with("examples/cluster/README.md") || path.ends_with("docs/paper/README.md") {
             continue;
         }
@@ -146,8 +146,8 @@ fn anchor(heading: &str) -> String {
     kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
 }
 
-/// Messages on the page of symptoms, in bold and quotes, are those of the tools: what stands between their numbers and
-/// names is found in a string of the source.
+/// Messages on the page of symptoms, in bold and quotes, are those of the tools: what stands between their numbers
+/// and names is found in a string of the source.
 #[test]
 fn symptoms_are_messages_of_the_tools() {
     let page =
@@ -163,8 +163,10 @@ fn symptoms_are_messages_of_the_tools() {
         words.split(|word| is_varying(word)).map(|words| words.join(" ")).collect::<Vec<_>>()
     });
     let pieces: Vec<String> = pieces.filter(|piece| piece.len() >= LONG).collect();
-    let unknown: Vec<&String> =
-        pieces.iter().filter(|piece| !sources.contains(piece.trim_end_matches(['.', ',', ';', ':']))).collect();
+    let unknown: Vec<&String> = pieces
+        .iter()
+        .filter(|piece| !sources.contains(piece.trim_end_matches(['.', ',', ';', ':'])))
+        .collect();
     assert!(pieces.len() > 20 && unknown.is_empty(), "{unknown:#?}");
 }
 

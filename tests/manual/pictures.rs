@@ -1,4 +1,5 @@
-//! Pictures that pages show are those that the commands beside them make: the blocks of the page, or what [`MADE_BY`] names.
+//! Pictures that pages show are those that the commands beside them make: the blocks of the page, or what
+//! [`MADE_BY`] names.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,12 +9,16 @@ use crate::common::{Workdir, left_out};
 const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
 
 /// Pictures that no block of a page makes, and the lines that do, in an empty folder; `ROOT` is the project.
-const MADE_BY: [(&[&str], &str); 3] = [
+const MADE_BY: [(&[&str], &str); 4] = [
     (
         &["fold.png", "spectrum.svg"],
         r#"sed -n '/^mkdir -p/,$p' "$ROOT/examples/quickstart" >steps; say() { :; }; out=$PWD; . ./steps"#,
     ),
     (&["bounces.svg"], r#"python3 -B "$ROOT/docs/bounces.py" >bounces.svg"#),
+    (
+        &["paper/green-45.png", "paper/munsell-45.png", "paper/munsell-60.png", "paper/metamers-default.svg"],
+        r#"TOOLS=here "$ROOT/examples/paper/figures" >report.md; mv vfold-paper paper"#,
+    ),
     (&["picker.png"], PICKER),
 ];
 
