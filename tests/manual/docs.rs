@@ -1,7 +1,7 @@
-//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a clone, with no
-//! file that no page makes; what a block of `text` shows is printed; pictures are those that are made; links lead to
-//! files and headings; tables between marks are those of benches/results. What needs pictures or machines of the
-//! reader's stands in blocks of `console`.
+//! The documentation is true as far as it can be run: blocks of `sh` of every page, in their order, in a
+//! clone, with no file that no page makes; what a block of `text` shows is printed; pictures are those that
+//! are made; links lead to files and headings; tables between marks are those of benches/results. What
+//! needs pictures or machines of the reader's stands in blocks of `console`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ use crate::pictures::stale_on;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// By how much a number that a page shows may differ from what is printed now, of itself: a change of the prior
-/// moves it a little.
+/// By how much a number that a page shows may differ from what is printed now, of itself: a change of the
+/// prior moves it a little.
 const OFF: f64 = 0.1;
 
 /// A clone, as far as pages need it: nothing that they do not make themselves.
@@ -66,7 +66,8 @@ fn every_page_runs_and_shows_what_it_makes() {
     }
 }
 
-/// Whether lines are printed as a page shows them, one below the other: words exactly, numbers within [`OFF`].
+/// Whether lines are printed as a page shows them, one below the other: words exactly, numbers within
+/// [`OFF`].
 fn is_printed(shown: &str, printed: &str) -> bool {
     let printed: Vec<&str> = printed.lines().collect();
     let shown: Vec<&str> = shown.lines().collect();
@@ -146,8 +147,8 @@ fn anchor(heading: &str) -> String {
     kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
 }
 
-/// Messages on the page of symptoms, in bold and quotes, are those of the tools: what stands between their numbers
-/// and names is found in a string of the source.
+/// Messages on the page of symptoms, in bold and quotes, are those of the tools: what stands between their
+/// numbers and names is found in a string of the source.
 #[test]
 fn symptoms_are_messages_of_the_tools() {
     let page =

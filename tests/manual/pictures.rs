@@ -8,7 +8,8 @@ use crate::common::{Workdir, left_out};
 
 const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
 
-/// Pictures that no block of a page makes, and the lines that do, in an empty folder; `ROOT` is the project.
+/// Pictures that no block of a page makes, and the lines that do, in an empty folder; `ROOT` is the
+/// project.
 const MADE_BY: [(&[&str], &str); 4] = [
     (
         &["fold.png", "spectrum.svg"],
@@ -56,7 +57,8 @@ fn pictures_of_no_page_are_what_is_made() {
     assert!(stale.is_empty(), "{stale:?} are stale: MANUAL=write cargo test --test manual writes them anew");
 }
 
-/// Pictures of docs that a page shows and its blocks did not make as they are, in the folder where they ran.
+/// Pictures of docs that a page shows and its blocks did not make as they are, in the folder where they
+/// ran.
 pub fn stale_on(page: &str, folder: &Path) -> Vec<String> {
     let shown = page.split("![").skip(1).filter_map(|rest| rest.split_once("](")?.1.split(')').next());
     let of_docs = shown.map(|link| link.trim_start_matches("docs/")).filter(|link| !link.contains('/'));
