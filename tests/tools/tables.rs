@@ -24,7 +24,17 @@ const STRESS: &str = "benches/results/stress.md";
 const PRIORS: &str = "benches/results/priors.md";
 const NOISY: &str = "vkernel | vforward --reflectance cc24 --noise-sd 1e-3";
 
-const CELLS: [Cell; 9] = [
+const CELLS: [Cell; 10] = [
+    Cell {
+        page: "benches/results/accuracy.md",
+        heading: "# Accuracy",
+        row: "| ideal, simulated |",
+        column: 2,
+        samples: "for seed in $(seq 20); do
+            vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill --noise-sd 1e-3 --seed $seed
+        done",
+        estimate: "vestimate",
+    },
     Cell {
         page: ESTIMATES,
         heading: "# Estimates",
