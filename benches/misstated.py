@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""README's photograph, an ideal fold of 50 degrees under D65 by a Canon EOS 5D Mark II, with something stated wrongly: rows of a table.
+"""Photographs with something stated wrongly, as rows of a table: README's, an ideal fold of 50 degrees under D65 by a Canon EOS 5D Mark II, or
+rendered photographs of real sheets in the sun, under each of several lights.
 
-misstated.py TOOLS PHOTOS    TOOLS: folder of the tools; PHOTOS: tests/data/photos
+misstated.py TOOLS PHOTOS         TOOLS: folder of the tools; PHOTOS: tests/data/photos
+misstated.py TOOLS SHARED real    SHARED: folder of `real`
 """
 
 import json
 import statistics
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
-from photographs import Tools, points
+import sheets
+from photographs import Tools, of_real, points
 
 RIGHT = {"angle": 50, "light": "D65", "camera": "canon-5d-mark-ii", "flags": [], "out": 0}
 STATED = [
@@ -28,6 +32,7 @@ STATED = [
     ("outer corners 40 px outside", {"out": 40}),
     ("outer corners 60 px inside", {"out": -60}),
 ]
+LIGHTS = ["sun:40deg", "D50", "D55", "D65", "daylight:8000", "A"]
 
 
 def corners(photo, out):
@@ -57,7 +62,26 @@ def row(tools, photo, name, stated):
     print(f"| {' | '.join(cells)} |", flush=True)
 
 
-def main(folder, photos):
+def of_light(tools, shared, light, work):
+    """Rendered photographs of real sheets, a light being stated for all."""
+    sidecars = [sidecar for pattern in ("real/all_*.json", "real/more/*.json") for sidecar in sorted(shared.glob(pattern))]
+    errors, off, good = [], [], 0
+    for sidecar in sidecars:
+        records, truth = of_real(tools, sidecar, work, light)
+        nm, estimate, _ = sheets.estimated(tools, records, [])
+        error, of_one = sheets.errors(nm, estimate, truth)
+        errors.append(error)
+        off += of_one
+        good += estimate["verdict"]["level"] == "good"
+    print(f"| {light} | {len(errors)} | {statistics.fmean(errors):.4f} | {sheets.within(off)} | {good} |", flush=True)
+
+
+def main(folder, photos, *real):
+    if real:
+        with tempfile.TemporaryDirectory() as work:
+            for light in LIGHTS:
+                of_light(Tools(folder), Path(photos), light, Path(work))
+        return
     for name, wrong in STATED:
         row(Tools(folder), Path(photos) / "a_ideal_magenta_50.exr", name, {**RIGHT, **wrong})
 

@@ -44,8 +44,9 @@ class Tools:
         return said, 1e3 * (after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
 
 
-def of_real(tools, sidecar, work):
-    """Records of a picture with all that real ones have, and its truth: reflectance at wavelengths."""
+def of_real(tools, sidecar, work, light=None):
+    """Records of a picture with all that real ones have, in another light than its own statement, if one is given, and its truth: reflectance at
+    wavelengths."""
     said = json.loads(sidecar.read_text(encoding="utf-8"))
     told, nm = said["told"], said["wavelengths_nm"]
     calibration = []
@@ -56,7 +57,7 @@ def of_real(tools, sidecar, work):
         calibration += ["--white-reflectance", told["white_reflectance"]]
     fold = ["--angle-deg", told["angle_deg"], "--tilt-deg", told["tilt_deg"], "--slant-deg", told["slant_deg"]]
     camera = table(work / "camera.csv", nm, told["camera_sensitivities_rgb"])
-    light = table(work / "light.csv", nm, [told["illuminant_spd"]])
+    light = light or table(work / "light.csv", nm, [told["illuminant_spd"]])
     records = extracted(tools, fold, sidecar.with_suffix(".tif"), camera, light, told, [*calibration, "--refine"])
     return records, dict(zip(nm, said["reflectance"], strict=True))
 
