@@ -3,13 +3,17 @@
 //! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced between them as in
 //! [`super::bent`].
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, Vector3};
 use ndarray::Array2;
+use pulp::Arch;
 
 use crate::error::Result;
 use crate::geometry::{Fold, StandardSky};
 
 use super::bent::{BentExchange, BentFold, Seen};
+use super::quadrature::{Lagrange, Rule};
 
 /// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many of them (R. Swinbank, R. J. Purser,
 /// *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p. 1769).
@@ -43,39 +47,82 @@ impl Surroundings {
 
 /// Parts of the surroundings as directions that share their light.
 pub struct Environment<const PARTS: usize> {
-    /// Unit vectors towards the light, with irradiance by each part on a plane that faces them.
-    rays: Vec<(Vector3<f64>, [f64; PARTS])>,
+    rays: Rays,
+    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below, and is 0 in the other half.
+    irradiances: [(Range<usize>, Vec<Lanes>); PARTS],
+}
+
+/// Numbers of rays that are computed with at once.
+type Lanes = [f64; LANES];
+const LANES: usize = 8;
+const CHUNKS: usize = DIRECTIONS / LANES;
+const _: () = assert!(DIRECTIONS.is_multiple_of(LANES));
+
+/// Unit vectors towards the light, coordinate by coordinate.
+#[derive(Default)]
+struct Rays(Vec<[Lanes; 3]>);
+
+impl Rays {
+    /// Cosines with a unit normal, those of rays from behind being 0.
+    #[inline(always)]
+    fn cosines(&self, normal: Vector3<f64>) -> Vec<Lanes> {
+        let cosine = |x: f64, y: f64, z: f64| (normal.x * x + normal.y * y + normal.z * z).max(0.0);
+        self.0.iter().map(|[x, y, z]| std::array::from_fn(|n| cosine(x[n], y[n], z[n]))).collect()
+    }
+
+    /// Makes those rays 0 that a screen hides from a place so high above it.
+    #[inline(always)]
+    fn hide(&self, screen: &Screen, (place, height): (Vector3<f64>, f64), cosines: &mut [Lanes]) {
+        let Screen { facing, out, depth, half_width } = *screen;
+        let outwards = out.dot(&place);
+        for (cosines, [x, y, z]) in cosines.iter_mut().zip(&self.0) {
+            for n in 0..LANES {
+                // what is met is known but for the approach, by which nothing is divided: without branches many rays go at once
+                let approach = -(facing.x * x[n] + facing.y * y[n] + facing.z * z[n]);
+                let met_out = outwards * approach + height * (out.x * x[n] + out.y * y[n] + out.z * z[n]);
+                let met_along = (place.y * approach + height * y[n]).abs();
+                let is_hidden = (approach > 0.0)
+                    & (met_out >= 0.0)
+                    & (met_out <= depth * approach)
+                    & (met_along <= half_width * approach);
+                cosines[n] = if is_hidden { 0.0 } else { cosines[n] };
+            }
+        }
+    }
 }
 
 impl<const PARTS: usize> Environment<PARTS> {
     /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of [`Fold::panels`].
     #[must_use]
     pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
-        let mut rays = Vec::with_capacity(2 * DIRECTIONS);
-        for pole in [up, -up] {
-            let is_of = |part: &Surroundings| (*part == Surroundings::Ground) == (pole != up);
+        let mut rays = Rays::default();
+        let mut irradiances = std::array::from_fn(|_| (0..0, Vec::new()));
+        for (pole, is_below) in [(up, false), (-up, true)] {
+            let is_of = |part: &Surroundings| (*part == Surroundings::Ground) == is_below;
+            if !parts.iter().any(is_of) {
+                continue;
+            }
             let east = pole.cross(&if pole.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() }).normalize();
             let north = pole.cross(&east);
-            for n in 0..DIRECTIONS {
+            let ray = |n: usize| {
                 let height = (n as f64 + 0.5) / DIRECTIONS as f64;
                 let (sin, cos) = (GOLDEN_ANGLE * n as f64).sin_cos();
                 let spread = (1.0 - height * height).sqrt();
-                let towards = height * pole + spread * (cos * east + sin * north);
-                let of =
-                    |part: Surroundings| if is_of(&part) { part.radiance(&towards, height) } else { 0.0 };
-                rays.push((towards, parts.map(of)));
+                (height, height * pole + spread * (cos * east + sin * north))
+            };
+            let all: Vec<(f64, Vector3<f64>)> = (0..DIRECTIONS).map(ray).collect();
+            let (first, chunks) = (rays.0.len(), all.as_chunks::<LANES>().0);
+            rays.0.extend(
+                chunks.iter().map(|rays| [0, 1, 2].map(|axis| rays.map(|(_, towards)| towards[axis]))),
+            );
+            for (part, irradiance) in parts.iter().zip(&mut irradiances).filter(|(part, _)| is_of(part)) {
+                let radiance = |(height, towards): (f64, Vector3<f64>)| part.radiance(&towards, height);
+                let horizontal: f64 = all.iter().map(|ray| ray.0 * radiance(*ray)).sum();
+                let of_chunks = chunks.iter().map(|rays| rays.map(|ray| radiance(ray) / horizontal));
+                *irradiance = (first..first + CHUNKS, of_chunks.collect());
             }
         }
-        let mut horizontal = [0.0; PARTS];
-        for (towards, irradiance) in &rays {
-            let height = towards.dot(&up).abs();
-            horizontal.iter_mut().zip(irradiance).for_each(|(sum, irradiance)| *sum += height * irradiance);
-        }
-        for (_, irradiance) in &mut rays {
-            irradiance.iter_mut().zip(&horizontal).for_each(|(irradiance, all)| *irradiance /= all);
-        }
-        rays.retain(|(_, irradiance)| irradiance.iter().any(|irradiance| *irradiance > 0.0));
-        Self { rays }
+        Self { rays, irradiances }
     }
 
     /// Irradiance of an open plane with this unit normal, by each part.
@@ -89,25 +136,37 @@ impl<const PARTS: usize> Environment<PARTS> {
     /// ```
     #[must_use]
     pub fn on_plane(&self, normal: Vector3<f64>) -> [f64; PARTS] {
-        self.sum(normal, |_| true)
-    }
-
-    fn sum(&self, normal: Vector3<f64>, seen: impl Fn(&Vector3<f64>) -> bool) -> [f64; PARTS] {
-        let mut sum = [0.0; PARTS];
-        for (towards, irradiance) in &self.rays {
-            let cos = towards.dot(&normal);
-            if cos > 0.0 && seen(towards) {
-                sum.iter_mut().zip(irradiance).for_each(|(sum, irradiance)| *sum += cos * irradiance);
-            }
-        }
-        sum
+        self.sums(&self.rays.cosines(normal))
     }
 
     /// Irradiance of a place on the fold past its panels, which are flat but where they meet.
     fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
-        let above = panels.each_ref().map(|panel| panel.facing.dot(&place));
-        let before = || panels.iter().zip(above).filter(|(_, height)| *height > ON_PANEL);
-        self.sum(normal, |towards| !before().any(|(panel, height)| panel.hides(towards, place, height)))
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut cosines = self.rays.cosines(normal);
+                for panel in panels {
+                    let height = panel.facing.dot(&place);
+                    if height > ON_PANEL {
+                        self.rays.hide(panel, (place, height), &mut cosines);
+                    }
+                }
+                self.sums(&cosines)
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn sums(&self, cosines: &[Lanes]) -> [f64; PARTS] {
+        self.irradiances.each_ref().map(|(rays, irradiances)| {
+            let mut sums = [0.0; LANES];
+            for (cosines, irradiances) in cosines[rays.clone()].iter().zip(irradiances) {
+                for n in 0..LANES {
+                    sums[n] += cosines[n] * irradiances[n];
+                }
+            }
+            sums.iter().sum()
+        })
     }
 }
 
@@ -128,19 +187,22 @@ pub fn facet_radiances<const PARTS: usize>(
     let half = cols.div_ceil(2);
     let panels = &[0, 1].map(|panel| Screen::of(bent, fold, panel));
     let exchanges = [1.0, -1.0].map(|image| (image, BentExchange::of_light(bent, fold, eye, image)));
+    let along = Along::of(cols);
     let direct = |light: &Environment<PARTS>| {
         let mut radiances: [Array2<f64>; PARTS] =
             std::array::from_fn(|_| Array2::zeros((2 * rows * cols, albedos.len())));
         for (row, seen) in exchanges[0].1.rows().iter().enumerate() {
-            for col in 0..cols {
-                let y = ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width();
+            for (y, shares) in along.places.iter().zip(&along.shares) {
+                let y = (y - 0.5) * fold.width();
                 for Seen { share, place, normal } in seen {
                     let (place, normal) =
                         (Vector3::new(place.x, y, place.y), Vector3::new(normal.x, 0.0, normal.y));
                     let direct = light.on_sheet(place, normal, panels);
                     for (radiance, direct) in radiances.iter_mut().zip(direct) {
-                        for (node, albedo) in albedos.iter().enumerate() {
-                            radiance[(row * cols + col, node)] += share * albedo * direct;
+                        for (col, of_col) in shares.iter().enumerate() {
+                            for (node, albedo) in albedos.iter().enumerate() {
+                                radiance[(row * cols + col, node)] += of_col * share * albedo * direct;
+                            }
                         }
                     }
                 }
@@ -175,6 +237,31 @@ pub fn facet_radiances<const PARTS: usize>(
     Ok(radiances)
 }
 
+/// Places along the crease between which direct light is interpolated, as it varies little.
+struct Along {
+    /// As shares of the crease.
+    places: Vec<f64>,
+    /// What each counts in the middle of each column of facets.
+    shares: Vec<Vec<f64>>,
+}
+
+/// How many there are, but where columns are fewer.
+const PLACES: usize = 4;
+
+impl Along {
+    fn of(cols: usize) -> Self {
+        let middles: Vec<f64> = (0..cols).map(|col| (col as f64 + 0.5) / cols as f64).collect();
+        let places = if cols > PLACES {
+            Rule::gauss_legendre(PLACES).on(0.0, 1.0).map(|(place, _)| place).collect()
+        } else {
+            middles.clone()
+        };
+        let mut weights = vec![0.0; places.len() * cols];
+        Lagrange::new(&places).at_all(&middles, &mut weights);
+        Self { shares: weights.chunks_exact(cols).map(<[f64]>::to_vec).collect(), places }
+    }
+}
+
 /// A panel as it hides light from the rest of the sheet.
 struct Screen {
     out: Vector3<f64>,
@@ -196,16 +283,6 @@ impl Screen {
             depth: fold.depths()[panel],
             half_width: 0.5 * fold.width(),
         }
-    }
-
-    /// Whether it hides that direction from a place so high above it.
-    fn hides(&self, towards: &Vector3<f64>, place: Vector3<f64>, height: f64) -> bool {
-        let approach = -self.facing.dot(towards);
-        if approach <= 0.0 {
-            return false;
-        }
-        let met = place + towards * (height / approach);
-        (0.0..=self.depth).contains(&self.out.dot(&met)) && met.y.abs() <= self.half_width
     }
 }
 

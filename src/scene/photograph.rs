@@ -7,6 +7,8 @@ pub(super) mod eye;
 mod framing;
 mod sheets;
 
+use std::sync::Arc;
+
 use bins::Bins;
 use framing::Pose;
 use nalgebra::{Vector2, Vector3};
@@ -170,10 +172,10 @@ impl<'a> PhotographedFold<'a> {
             places: bins.places().to_vec(),
             sd: bins.sd().clone(),
             values: values.clone(),
-            sun: lit,
+            sun: Arc::new(lit),
             even_sky: bins.pool(&even),
-            surroundings,
-            sheets,
+            surroundings: Arc::new(surroundings),
+            sheets: Arc::new(sheets),
             eye,
         }))
     }

@@ -44,6 +44,8 @@ const LEAST_PROMISE: f64 = 0.01;
 /// searches end in another maximum.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
+/// Where even this share of the cost that the linear model foresees at the last noise is too much, less noise is not tried.
+const FORESEEN: f64 = 0.1;
 /// Columns of a symmetric product that are computed at once.
 const COLUMNS: usize = 16;
 
@@ -187,6 +189,9 @@ pub fn maximise<M: Model>(
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;
             }
+            if limits.cost.is_finite() && search.foreseen_cost(last) * FORESEEN > limits.cost {
+                break Termination::NoProgress { gradient_norm };
+            }
         } else if gradient_norm <= tolerance {
             break Termination::Converged { gradient_norm };
         }
@@ -269,6 +274,12 @@ impl<M: Model> Search<'_, M> {
 
     fn cost(&self, newton: &GaussNewton) -> f64 {
         cost(newton.weight, &self.w, &self.at.residuals)
+    }
+
+    /// Cost at the minimum of the linear model, the noise being `inflation` times its size; not finite if the model is not.
+    fn foreseen_cost(&self, inflation: f64) -> f64 {
+        let newton = self.gauss_newton(inflation.powi(-2));
+        newton.map_or(f64::INFINITY, |newton| self.cost(&newton) - newton.decrement.powi(2))
     }
 
     fn note(&mut self, newton: &GaussNewton) {

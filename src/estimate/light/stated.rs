@@ -177,16 +177,19 @@ fn seen_alike(reflectance: &[f64], camera: &CameraResponse, light: &Candidate) -
 /// Those of most evidence among the lights that are `ahead`: one of [`STEP`] is tried, then the neighbours of the best.
 pub(super) fn coarse_to_fine<'l, L, T>(
     lights: &'l [L],
-    ahead: impl Fn(&'l L) -> Option<T>,
+    mut ahead: impl FnMut(&'l L) -> Option<T>,
     ln_evidence: impl Fn(&T) -> f64,
 ) -> Vec<(&'l L, T)> {
-    let tried = |at: usize| Some((at, ahead(lights.get(at)?)?));
-    let mut all: Vec<_> = (STEP / 2..lights.len()).step_by(STEP).filter_map(tried).collect();
+    let mut all = Vec::new();
+    for at in (STEP / 2..lights.len()).step_by(STEP) {
+        all.extend(ahead(&lights[at]).map(|one| (at, one)));
+    }
     let order = |(_, a): &(usize, T), (_, b): &(usize, T)| ln_evidence(b).total_cmp(&ln_evidence(a));
     if let Some((best, _)) = all.iter().min_by(|a, b| order(a, b)) {
         let best = *best;
-        let beside = (best.saturating_sub(STEP - 1)..best + STEP).filter(|at| *at != best);
-        all.extend(beside.filter_map(tried));
+        for at in (best.saturating_sub(STEP - 1)..lights.len().min(best + STEP)).filter(|at| *at != best) {
+            all.extend(ahead(&lights[at]).map(|one| (at, one)));
+        }
     }
     all.sort_by(order);
     all.truncate(TOLD_APART);

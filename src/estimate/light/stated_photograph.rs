@@ -39,6 +39,21 @@ struct Best {
     tried: Tried,
 }
 
+/// Where the last search under a light led, for each number of unknowns: lights of another kind have others.
+#[derive(Default)]
+struct Starts(Vec<DVector<f64>>);
+
+impl Starts {
+    fn of(&self, unknowns: Option<usize>) -> Option<DVector<f64>> {
+        self.0.iter().find(|w| Some(w.len()) == unknowns).cloned()
+    }
+
+    fn keep(&mut self, w: &DVector<f64>) {
+        self.0.retain(|kept| kept.len() != w.len());
+        self.0.push(w.clone());
+    }
+}
+
 /// The light in which a photograph is much more probable than in the one that was stated, if there is any among `others`; in that the kind of `day`
 /// has been found, if it is daylight.
 pub fn likelier_in_photograph(
@@ -50,14 +65,15 @@ pub fn likelier_in_photograph(
     let photographs = Photographs::of(slice::from_ref(parts));
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let stated = Lit { days, ..Lit::of(String::new(), parts.clone(), others) };
-    let best_of_stated = stated.best(&photographs, prior, None, f64::NEG_INFINITY)?;
+    let mut starts = Starts::default();
+    let best_of_stated = stated.best(&photographs, prior, &mut starts, f64::NEG_INFINITY)?;
     let least = best_of_stated.tried.ln_weight() + LN_AHEAD;
     let ahead = |light: &Option<&Candidate>| {
         let lit = match light {
             Some(lamp) => Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others),
             None => Lit::of("daylight".to_owned(), parts.in_any_daylight(), others),
         };
-        let best = lit.best(&photographs, prior, Some(&best_of_stated.tried.solution.w), least)?;
+        let best = lit.best(&photographs, prior, &mut starts, least)?;
         (best.tried.ln_weight() > least).then_some((lit, best))
     };
     let lights = other_lights(parts, others);
@@ -94,7 +110,7 @@ impl Lit {
         &self,
         photographs: &Photographs,
         prior: &Prior,
-        start: Option<&DVector<f64>>,
+        starts: &mut Starts,
         ln_least: f64,
     ) -> Option<Best> {
         let mut best: Option<Best> = None;
@@ -102,11 +118,14 @@ impl Lit {
             let family = photographs.in_light_of(parts);
             let hypothesis = Hypothesis::on_dull_day(day, Kind::Family);
             let least = best.as_ref().map_or(ln_least, |best| best.tried.ln_weight());
-            // lights of another kind have other unknowns
-            let from = best.as_ref().map(|best| &best.tried.solution.w).or(start);
-            let from = from.filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior)).cloned();
-            let tried = Search::new(&family, prior).sort((hypothesis, share.ln()), from, least);
-            best = tried.filter(|one| one.ln_weight() >= least).map(|tried| Best { way, tried }).or(best);
+            let from = starts.of(family.unknowns(hypothesis, prior));
+            let Some(tried) = Search::new(&family, prior).sort((hypothesis, share.ln()), from, least) else {
+                continue;
+            };
+            starts.keep(&tried.solution.w);
+            if tried.ln_weight() >= least {
+                best = Some(Best { way, tried });
+            }
         }
         best
     }

@@ -77,15 +77,16 @@ impl ModelError {
     #[must_use]
     pub fn whitening(&self, places: &[Place], values: &DMatrix<f64>, sd: &DMatrix<f64>) -> Option<Whitening> {
         let facets = values.nrows();
+        let correlations = DMatrix::from_fn(facets, facets, |a, b| {
+            if a < b { 0.0 } else { self.correlation(&places[a], &places[b]) }
+        });
+        let at_sides: Vec<f64> = places.iter().map(|place| self.at_sides(place)).collect();
         let covariance = |i: usize, j: usize| {
             let ((a, c), (b, d)) = ((i % facets, i / facets), (j % facets, j / facets));
             let own = if c == d { self.own.powi(2) } else { 0.0 };
-            let mut relative = (self.shared.powi(2) + own) * self.correlation(&places[a], &places[b]);
+            let mut relative = (self.shared.powi(2) + own) * correlations[(a.max(b), a.min(b))];
             if a == b {
-                let at = |sd: f64, away: f64| (sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
-                let sides =
-                    at(self.at_crease, places[a].depth) + at(self.at_outer_side, 1.0 - places[a].depth);
-                relative += sides * if c == d { 1.0 } else { SIDE_SHARED };
+                relative += at_sides[a] * if c == d { 1.0 } else { SIDE_SHARED };
             }
             if i == j {
                 relative += self.white.powi(2);
@@ -114,6 +115,12 @@ impl ModelError {
         }
         let ln_determinant = inverse.diagonal().iter().map(|value| value.ln()).sum();
         Some(Whitening { inverse, ln_determinant })
+    }
+
+    /// Variance of what a facet has to itself at the crease and at the outer side.
+    fn at_sides(&self, place: &Place) -> f64 {
+        let at = |sd: f64, away: f64| (sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
+        at(self.at_crease, place.depth) + at(self.at_outer_side, 1.0 - place.depth)
     }
 
     fn correlation(&self, a: &Place, b: &Place) -> f64 {

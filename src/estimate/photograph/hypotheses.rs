@@ -109,6 +109,17 @@ impl Hypothesis {
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }
 
+    /// What it does not share with another, that comes first which changes most of where the search under it leads.
+    pub fn differences(&self, other: &Self) -> [bool; 5] {
+        [
+            self.imperfection != other.imperfection,
+            self.day.has_sun() != other.day.has_sun(),
+            self.day != other.day,
+            self.mistake != other.mistake,
+            self.kind != other.kind,
+        ]
+    }
+
     /// Whether it is a fold on a clear day as people take them.
     pub fn is_usual_fold(&self) -> bool {
         *self == Self::usual(self.kind)

@@ -23,7 +23,7 @@ impl Lighting {
     pub fn new(parts: &Parts, conditions: &Conditions) -> Self {
         let [sun, sky, ground] = powers(parts, conditions);
         let sky_amount = conditions.sky.max(0.0);
-        let Surroundings { clear, overcast, ground: below } = &parts.surroundings;
+        let Surroundings { clear, overcast, ground: below } = parts.surroundings.as_ref();
         let shares = shares_at(conditions.elevation_deg);
         let sun_height = conditions.elevation_deg.clamp(0.0, 90.0).to_radians().sin();
         let ground_amount = conditions.ground * (sun_height * conditions.sun + sky_amount);

@@ -18,7 +18,7 @@ use super::number::Number;
 use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheets::Departure;
-use super::sums::{add, add_product, columns};
+use super::sums::{add_product, columns};
 use crate::estimate::emission::{Emission, Fall, Sent};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
@@ -44,6 +44,8 @@ pub struct PhotographModel<'a> {
     numbers: Vec<Number>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
+    /// Errors of the camera's curves: waveband by error.
+    curve_errors: DMatrix<f64>,
 }
 
 /// A point of the model in its own units.
@@ -82,6 +84,7 @@ impl<'a> PhotographModel<'a> {
             told,
             numbers: Number::all(&told, hypothesis),
             coefficients,
+            curve_errors: curve_errors(parts),
         }
     }
 
@@ -331,15 +334,21 @@ impl<'a> PhotographModel<'a> {
         Predicted { values, lights, lens, .. }: &Predicted,
     ) {
         let facets = values.nrows();
-        for (mut out, (channel, error)) in out.column_iter_mut().zip(&self.parts.eye.errors) {
-            let seen = &mut out.as_mut_slice()[channel * facets..][..facets];
-            for light in lights {
-                let of_nodes = terms * error.component_mul(&light.power);
-                for (share, radiance) in of_nodes.iter().zip(columns(&light.radiance)) {
-                    add(seen, *share, radiance);
-                }
+        let errors = &self.parts.eye.errors;
+        let mut seen = DMatrix::zeros(facets, errors.len());
+        for light in lights {
+            let mut lit = terms.clone();
+            for (mut of_band, power) in lit.column_iter_mut().zip(light.power.iter()) {
+                of_band *= *power;
             }
-            lens.see(*channel, seen);
+            let of_nodes = lit * &self.curve_errors;
+            add_product(&mut seen, &light.radiance, &of_nodes);
+        }
+        for ((mut out, mut seen), (channel, _)) in
+            out.column_iter_mut().zip(seen.column_iter_mut()).zip(errors)
+        {
+            lens.see(*channel, seen.as_mut_slice());
+            out.rows_mut(channel * facets, facets).copy_from(&seen);
         }
     }
 
@@ -417,6 +426,12 @@ impl<'a> PhotographModel<'a> {
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
         &self.parts.values - self.predicted(w).values
     }
+}
+
+/// Errors of the camera's curves side by side.
+fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
+    let errors = eye.errors.iter().flat_map(|(_, error)| error.iter().copied());
+    DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
 }
 
 /// How many times as strong light looks to a sheet of an albedo that sends out a fraction f of white itself, and the derivative by albedo.

@@ -1,5 +1,7 @@
 //! What the facets of a photograph are made of: light of each kind, as functions of the sheet's albedo.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Conditions, Daylight, Told};
@@ -155,7 +157,7 @@ impl Eye {
     }
 }
 
-/// All of it.
+/// All of it. The same fold in another light shares what does not depend on that.
 #[derive(Clone, Debug)]
 pub struct Parts {
     /// What was said of the photograph.
@@ -167,13 +169,13 @@ pub struct Parts {
     /// Standard deviations of their noise.
     pub sd: DMatrix<f64>,
     /// Light of the sun.
-    pub sun: Sunlit,
+    pub sun: Arc<Sunlit>,
     /// Light that is alike in all directions, for an irradiance of 1 on an open plane.
     pub even_sky: Radiance,
     /// Light of sky and ground.
-    pub surroundings: Surroundings,
+    pub surroundings: Arc<Surroundings>,
     /// Kinds of sheets.
-    pub sheets: Sheets,
+    pub sheets: Arc<Sheets>,
     /// The camera.
     pub eye: Eye,
 }

@@ -112,7 +112,7 @@ impl<'a> Predictor<'a, '_> {
         let mut lights = vec![light(Cow::Owned(sunlit), lighting.sun.clone())];
         if parts.told.daylight.is_some() {
             let [(sky, sky_power), (ground, ground_power)] = &lighting.ambient;
-            let Surroundings { clear, overcast, ground: below } = &parts.surroundings;
+            let Surroundings { clear, overcast, ground: below } = parts.surroundings.as_ref();
             let of_sky = ambient(
                 conditions,
                 &[(clear, 1.0 - conditions.cloud), (overcast, conditions.cloud)],

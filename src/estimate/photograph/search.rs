@@ -69,10 +69,11 @@ fn under(
     prior: &Prior,
     (hypotheses, dull_days): (impl Fn(&[Photograph]) -> Vec<Hypothesis>, impl Fn(&[Photograph]) -> Vec<Day>),
 ) -> Option<SheetEstimate> {
-    let family = relative_to_predictions(Photographs::of(parts), prior)?;
+    let (family, start) = relative_to_predictions(Photographs::of(parts), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let mut sorted = sorted(&mut search, &family.0.first()?.parts.told, all, &dull_days(&family.0));
+    let told = &family.0.first()?.parts.told;
+    let mut sorted = sorted(&mut search, told, (all, start), &dull_days(&family.0));
     if let [only] = family.0.as_slice() {
         add_fluorescing(&mut search, (&family, only), &mut sorted);
     }
@@ -95,8 +96,11 @@ fn under(
     })
 }
 
-/// Photographs with errors relative to the values that a model predicts, not to those that were measured.
-fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option<Photographs<'a>> {
+/// Photographs with errors relative to the values that a model predicts, not to those that were measured; and where that is.
+fn relative_to_predictions<'a>(
+    family: Photographs<'a>,
+    prior: &Prior,
+) -> Option<(Photographs<'a>, DVector<f64>)> {
     let first = *usual_hypotheses().first()?;
     let found = Search::new(&family, prior).sort((first, 0.0), None, f64::NEG_INFINITY)?;
     let model = family.model(first, prior.broad())?;
@@ -109,27 +113,27 @@ fn relative_to_predictions<'a>(family: Photographs<'a>, prior: &Prior) -> Option
         one.relative_to(values)
     };
     drop(model);
-    Some(Photographs(family.0.into_iter().zip(predicted).map(relative).collect()))
+    Some((Photographs(family.0.into_iter().zip(predicted).map(relative).collect()), found.solution.w))
 }
 
-/// Hypotheses with their evidence under all spectra, each from where the best before led, those of most evidence first. On each dull day the kind
-/// of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
+/// Hypotheses with their evidence under all spectra, the first from `start`, each other from where the nearest before led, those of most evidence
+/// first. On each dull day the kind of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
     told: &Told,
-    hypotheses: impl Iterator<Item = Hypothesis>,
+    (hypotheses, start): (impl Iterator<Item = Hypothesis>, DVector<f64>),
     dull_days: &[Day],
 ) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
     for hypothesis in hypotheses {
-        sort(search, told, hypothesis, &mut all);
+        sort(search, told, (hypothesis, &start), &mut all);
     }
     let mut kinds: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
     kinds.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     let kinds: Vec<Kind> = kinds.into_iter().map(|one| one.hypothesis.kind).collect();
     for day in dull_days {
         for kind in &kinds {
-            let behind = sort(search, told, Hypothesis::on_dull_day(*day, *kind), &mut all);
+            let behind = sort(search, told, (Hypothesis::on_dull_day(*day, *kind), &start), &mut all);
             if behind < LN_EVIDENCE_FAR {
                 break;
             }
@@ -140,14 +144,21 @@ fn sorted(
     all
 }
 
-/// Adds a hypothesis to those that are sorted; by how much it is behind the best, as the logarithm of a share of its evidence.
-fn sort(search: &mut Search<Photographs>, told: &Told, hypothesis: Hypothesis, all: &mut Vec<Tried>) -> f64 {
-    let best = |of: &dyn Fn(&&Tried) -> bool| {
-        all.iter().filter(of).max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))
-    };
+/// Adds a hypothesis to those that are sorted, from `first` if it is the first; by how much it is behind the best, as the logarithm of a share of
+/// its evidence.
+fn sort(
+    search: &mut Search<Photographs>,
+    told: &Told,
+    (hypothesis, first): (Hypothesis, &DVector<f64>),
+    all: &mut Vec<Tried>,
+) -> f64 {
     // a spectrum without bounces is none of a fold's
-    let start = best(&|one| one.hypothesis.has_bounces()).map(|one| one.solution.w.clone());
-    let ln_best = best(&|_| true).map_or(f64::NEG_INFINITY, Tried::ln_weight);
+    let nearest = all.iter().filter(|one| one.hypothesis.has_bounces()).min_by(|a, b| {
+        let [of_a, of_b] = [a, b].map(|one| one.hypothesis.differences(&hypothesis));
+        of_a.cmp(&of_b).then(b.ln_weight().total_cmp(&a.ln_weight()))
+    });
+    let start = Some(nearest.map_or(first, |one| &one.solution.w).clone());
+    let ln_best = all.iter().map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
     let ln_share = hypothesis.ln_share(told);
     let Some(found) = search.sort((hypothesis, ln_share), start, ln_best + LN_EVIDENCE_HOPELESS) else {
         return f64::NEG_INFINITY;
