@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, Vector3};
 use ndarray::Array2;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::Result;
 use crate::geometry::{Fold, StandardSky};
@@ -66,8 +66,13 @@ impl Rays {
     /// Cosines with a unit normal, those of rays from behind being 0.
     #[inline(always)]
     fn cosines(&self, normal: Vector3<f64>) -> Vec<Lanes> {
-        let cosine = |x: f64, y: f64, z: f64| (normal.x * x + normal.y * y + normal.z * z).max(0.0);
-        self.0.iter().map(|[x, y, z]| std::array::from_fn(|n| cosine(x[n], y[n], z[n]))).collect()
+        let mut cosines = vec![[0.0; LANES]; self.0.len()];
+        for (cosines, [x, y, z]) in cosines.iter_mut().zip(&self.0) {
+            for n in 0..LANES {
+                cosines[n] = (normal.x * x[n] + normal.y * y[n] + normal.z * z[n]).max(0.0);
+            }
+        }
+        cosines
     }
 
     /// Makes those rays 0 that a screen hides from a place so high above it.
@@ -141,19 +146,7 @@ impl<const PARTS: usize> Environment<PARTS> {
 
     /// Irradiance of a place on the fold past its panels, which are flat but where they meet.
     fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                let mut cosines = self.rays.cosines(normal);
-                for panel in panels {
-                    let height = panel.facing.dot(&place);
-                    if height > ON_PANEL {
-                        self.rays.hide(panel, (place, height), &mut cosines);
-                    }
-                }
-                self.sums(&cosines)
-            },
-        )
+        Arch::new().dispatch(OnSheet { light: self, place, normal, panels })
     }
 
     #[inline(always)]
@@ -167,6 +160,32 @@ impl<const PARTS: usize> Environment<PARTS> {
             }
             sums.iter().sum()
         })
+    }
+}
+
+/// The computation of [`Environment::on_sheet`], by the widest vectors that the processor has.
+struct OnSheet<'a, const PARTS: usize> {
+    light: &'a Environment<PARTS>,
+    place: Vector3<f64>,
+    normal: Vector3<f64>,
+    panels: &'a [Screen; 2],
+}
+
+impl<const PARTS: usize> WithSimd for OnSheet<'_, PARTS> {
+    type Output = [f64; PARTS];
+
+    // what is inlined here takes those vectors, too; what is called does not
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [f64; PARTS] {
+        let Self { light, place, normal, panels } = self;
+        let mut cosines = light.rays.cosines(normal);
+        for panel in panels {
+            let height = panel.facing.dot(&place);
+            if height > ON_PANEL {
+                light.rays.hide(panel, (place, height), &mut cosines);
+            }
+        }
+        light.sums(&cosines)
     }
 }
 

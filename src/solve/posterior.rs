@@ -46,8 +46,10 @@ const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
 /// Where even this share of the cost that the linear model foresees at the last noise is too much, less noise is not tried.
 const FORESEEN: f64 = 0.1;
+/// A step that lowers the cost by less than this share of what it is too high leads nowhere.
+const TOO_LITTLE: f64 = 0.05;
 /// Columns of a symmetric product that are computed at once.
-const COLUMNS: usize = 16;
+const COLUMNS: usize = 32;
 
 /// A model seen through data of known noise.
 pub trait Model {
@@ -200,7 +202,10 @@ pub fn maximise<M: Model>(
         }
         // the linear model says how low the cost may fall, but at the start
         let is_near = now < inflation.0 || gradient_norm < END_OF_STAGE;
-        if is_near && search.cost(&newton) - gradient_norm.powi(2) > limits.cost {
+        let cost = search.cost(&newton);
+        let last_gain = search.trace.last().filter(|_| steps > 0).map(|before| before.cost - cost);
+        let is_stuck = last_gain.is_some_and(|gain| gain < TOO_LITTLE * (cost - limits.cost));
+        if is_stuck || (is_near && cost - gradient_norm.powi(2) > limits.cost) {
             break Termination::NoProgress { gradient_norm };
         }
         steps += 1;

@@ -3,6 +3,8 @@
 //! CIE 15:2018, section 4.1.2: chromaticity from the temperature, then a mean and two characteristic vectors of
 //! measured daylight, S(λ) = S0(λ) + M1 S1(λ) + M2 S2(λ).
 
+use std::sync::OnceLock;
+
 use super::Spectrum;
 use super::tables::builtin;
 use crate::error::{Error, Result};
@@ -25,7 +27,7 @@ pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
         });
     }
     let (m1, m2) = weights(chromaticity(cct_k));
-    let basis = builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    let basis = basis()?;
     let [s0, s1, s2] = [0, 1, 2].map(|i| basis[i].values());
     let values = s0.iter().zip(s1).zip(s2).map(|((s0, s1), s2)| s0 + m1 * s1 + m2 * s2).collect();
     // CIE 15 joins the values by lines
@@ -83,8 +85,18 @@ const ROUNDING: f64 = 0.06;
 /// # Errors
 /// [`Error::Spectrum`] if the table is damaged.
 pub fn daylight_vectors() -> Result<[Spectrum; 3]> {
-    let basis = builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    let basis = basis()?;
     Ok([0, 1, 2].map(|i| basis[i].clone().linear()))
+}
+
+/// Mean daylight and its characteristic vectors, parsed once.
+fn basis() -> Result<&'static [Spectrum]> {
+    static BASIS: OnceLock<Vec<Spectrum>> = OnceLock::new();
+    if let Some(basis) = BASIS.get() {
+        return Ok(basis);
+    }
+    let table = builtin("share/daylight.csv", include_str!("../../share/daylight.csv"))?;
+    Ok(BASIS.get_or_init(|| table))
 }
 
 /// CIE 1931 (x, y) of daylight.

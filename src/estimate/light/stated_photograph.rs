@@ -64,23 +64,32 @@ pub fn likelier_in_photograph(
 ) -> Option<Likelier> {
     let photographs = Photographs::of(slice::from_ref(parts));
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
-    let stated = Lit { days, ..Lit::of(String::new(), parts.clone(), others) };
+    let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
     let mut starts = Starts::default();
-    let best_of_stated = stated.best(&photographs, prior, &mut starts, f64::NEG_INFINITY)?;
-    let least = best_of_stated.tried.ln_weight() + LN_AHEAD;
+    let best_under_sky = under_sky.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
+    let lamp = parts.clone().without_sky();
+    let of_sky = (&photographs, &best_under_sky.tried.solution.w);
+    let hypothesis = Hypothesis::on_dull_day(Day::Clear, Kind::Family);
+    starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
+    let mut least = best_under_sky.tried.ln_weight() + LN_AHEAD;
     let ahead = |light: &Option<&Candidate>| {
         let lit = match light {
             Some(lamp) => Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others),
             None => Lit::of("daylight".to_owned(), parts.in_any_daylight(), others),
         };
-        let best = lit.best(&photographs, prior, &mut starts, least)?;
+        let best = lit.best(&photographs, prior, (&mut starts, least))?;
         (best.tried.ln_weight() > least).then_some((lit, best))
     };
     let lights = other_lights(parts, others);
-    let ahead = coarse_to_fine(&lights, ahead, |(_, best)| best.tried.ln_weight());
+    let mut ahead = coarse_to_fine(&lights, ahead, |(_, best)| best.tried.ln_weight());
     if ahead.is_empty() {
         return None;
     }
+    // the stated one may be ahead of these without a sky
+    let stated = Lit { days: under_sky.days.clone(), ..Lit::of(String::new(), parts.clone(), others) };
+    let best_of_stated = stated.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
+    least = best_of_stated.tried.ln_weight() + LN_AHEAD;
+    ahead.retain(|(_, (_, best))| best.tried.ln_weight() > least);
     let by_classes = |lit: &Lit, Best { way, tried }: &Best| {
         let (parts, ..) = *lit.ways().get(*way)?;
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
@@ -110,8 +119,7 @@ impl Lit {
         &self,
         photographs: &Photographs,
         prior: &Prior,
-        starts: &mut Starts,
-        ln_least: f64,
+        (starts, ln_least): (&mut Starts, f64),
     ) -> Option<Best> {
         let mut best: Option<Best> = None;
         for (way, (parts, day, share)) in self.ways().into_iter().enumerate() {

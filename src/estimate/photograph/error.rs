@@ -136,7 +136,7 @@ pub struct Whitening {
 }
 
 /// Rows that are multiplied at once: of a triangle, half of the work is saved but for these.
-const ROWS: usize = 48;
+const ROWS: usize = 60;
 
 impl Whitening {
     /// Logarithm of the factor by which it makes volumes of errors larger.

@@ -59,6 +59,17 @@ impl<'a> Photographs<'a> {
         self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
     }
 
+    /// Where `other` photographs are at `w` under a hypothesis, carried to these; none if a model is not finite.
+    pub fn carried(
+        &self,
+        (other, w): (&Photographs, &DVector<f64>),
+        hypothesis: Hypothesis,
+        prior: &Prior,
+    ) -> Option<DVector<f64>> {
+        let [here, there] = [self, other].map(|one| one.model(hypothesis, prior.broad()));
+        Some(here?.carried(&there?, w))
+    }
+
     /// What is believed of them.
     pub fn beliefs(&self) -> &'static Beliefs {
         self.0.first().map_or(&Beliefs::USUAL, |photograph| photograph.parts.told.beliefs)

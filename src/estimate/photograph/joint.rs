@@ -104,6 +104,20 @@ impl<'a> JointModel<'a> {
         &self.members
     }
 
+    /// Where another model of the same photographs is at `w`, as far as this one has the same numbers; the others are at their means.
+    #[must_use]
+    pub fn carried(&self, other: &JointModel, w: &DVector<f64>) -> DVector<f64> {
+        let mut carried = DVector::zeros(self.count);
+        for (member, from) in self.members.iter().zip(&other.members) {
+            for (n, place) in from.places.iter().enumerate() {
+                if let Some(own) = member.place_like(&from.model, n) {
+                    carried[own] = w[*place];
+                }
+            }
+        }
+        carried
+    }
+
     /// Residuals of each photograph.
     #[must_use]
     pub fn each(&self, residuals: &DVector<f64>) -> Vec<DVector<f64>> {
