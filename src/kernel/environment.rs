@@ -47,60 +47,22 @@ impl Surroundings {
 
 /// Parts of the surroundings as directions that share their light.
 pub struct Environment<const PARTS: usize> {
-    rays: Rays,
-    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below, and is 0 in the other half.
-    irradiances: [(Range<usize>, Vec<Lanes>); PARTS],
+    /// Unit vectors towards the light, coordinate by coordinate.
+    rays: [Vec<f64>; 3],
+    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below, and is 0
+    /// in the other half.
+    irradiances: [(Range<usize>, Vec<f64>); PARTS],
 }
 
-/// Numbers of rays that are computed with at once.
-type Lanes = [f64; LANES];
+/// Numbers that are computed with at once: vectors of all processors hold a power of two up to this.
 const LANES: usize = 8;
-const CHUNKS: usize = DIRECTIONS / LANES;
 const _: () = assert!(DIRECTIONS.is_multiple_of(LANES));
-
-/// Unit vectors towards the light, coordinate by coordinate.
-#[derive(Default)]
-struct Rays(Vec<[Lanes; 3]>);
-
-impl Rays {
-    /// Cosines with a unit normal, those of rays from behind being 0.
-    #[inline(always)]
-    fn cosines(&self, normal: Vector3<f64>) -> Vec<Lanes> {
-        let mut cosines = vec![[0.0; LANES]; self.0.len()];
-        for (cosines, [x, y, z]) in cosines.iter_mut().zip(&self.0) {
-            for n in 0..LANES {
-                cosines[n] = (normal.x * x[n] + normal.y * y[n] + normal.z * z[n]).max(0.0);
-            }
-        }
-        cosines
-    }
-
-    /// Makes those rays 0 that a screen hides from a place so high above it.
-    #[inline(always)]
-    fn hide(&self, screen: &Screen, (place, height): (Vector3<f64>, f64), cosines: &mut [Lanes]) {
-        let Screen { facing, out, depth, half_width } = *screen;
-        let outwards = out.dot(&place);
-        for (cosines, [x, y, z]) in cosines.iter_mut().zip(&self.0) {
-            for n in 0..LANES {
-                // what is met is known but for the approach, by which nothing is divided: without branches many rays go at once
-                let approach = -(facing.x * x[n] + facing.y * y[n] + facing.z * z[n]);
-                let met_out = outwards * approach + height * (out.x * x[n] + out.y * y[n] + out.z * z[n]);
-                let met_along = (place.y * approach + height * y[n]).abs();
-                let is_hidden = (approach > 0.0)
-                    & (met_out >= 0.0)
-                    & (met_out <= depth * approach)
-                    & (met_along <= half_width * approach);
-                cosines[n] = if is_hidden { 0.0 } else { cosines[n] };
-            }
-        }
-    }
-}
 
 impl<const PARTS: usize> Environment<PARTS> {
     /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of [`Fold::panels`].
     #[must_use]
     pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
-        let mut rays = Rays::default();
+        let mut rays: [Vec<f64>; 3] = Default::default();
         let mut irradiances = std::array::from_fn(|_| (0..0, Vec::new()));
         for (pole, is_below) in [(up, false), (-up, true)] {
             let is_of = |part: &Surroundings| (*part == Surroundings::Ground) == is_below;
@@ -116,15 +78,15 @@ impl<const PARTS: usize> Environment<PARTS> {
                 (height, height * pole + spread * (cos * east + sin * north))
             };
             let all: Vec<(f64, Vector3<f64>)> = (0..DIRECTIONS).map(ray).collect();
-            let (first, chunks) = (rays.0.len(), all.as_chunks::<LANES>().0);
-            rays.0.extend(
-                chunks.iter().map(|rays| [0, 1, 2].map(|axis| rays.map(|(_, towards)| towards[axis]))),
-            );
+            let first = rays[0].len();
+            for (axis, coordinates) in rays.iter_mut().enumerate() {
+                coordinates.extend(all.iter().map(|(_, towards)| towards[axis]));
+            }
             for (part, irradiance) in parts.iter().zip(&mut irradiances).filter(|(part, _)| is_of(part)) {
-                let radiance = |(height, towards): (f64, Vector3<f64>)| part.radiance(&towards, height);
-                let horizontal: f64 = all.iter().map(|ray| ray.0 * radiance(*ray)).sum();
-                let of_chunks = chunks.iter().map(|rays| rays.map(|ray| radiance(ray) / horizontal));
-                *irradiance = (first..first + CHUNKS, of_chunks.collect());
+                let radiance = |(height, towards): &(f64, Vector3<f64>)| part.radiance(towards, *height);
+                let horizontal: f64 = all.iter().map(|ray| ray.0 * radiance(ray)).sum();
+                let by_ray = all.iter().map(|ray| radiance(ray) / horizontal);
+                *irradiance = (first..first + DIRECTIONS, by_ray.collect());
             }
         }
         Self { rays, irradiances }
@@ -141,52 +103,82 @@ impl<const PARTS: usize> Environment<PARTS> {
     /// ```
     #[must_use]
     pub fn on_plane(&self, normal: Vector3<f64>) -> [f64; PARTS] {
-        self.sums(&self.rays.cosines(normal))
+        Arch::new().dispatch(Gathered { light: self, place: Vector3::zeros(), normal, screens: &[] })
     }
 
     /// Irradiance of a place on the fold past its panels, which are flat but where they meet.
     fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
-        Arch::new().dispatch(OnSheet { light: self, place, normal, panels })
-    }
-
-    #[inline(always)]
-    fn sums(&self, cosines: &[Lanes]) -> [f64; PARTS] {
-        self.irradiances.each_ref().map(|(rays, irradiances)| {
-            let mut sums = [0.0; LANES];
-            for (cosines, irradiances) in cosines[rays.clone()].iter().zip(irradiances) {
-                for n in 0..LANES {
-                    sums[n] += cosines[n] * irradiances[n];
-                }
-            }
-            sums.iter().sum()
-        })
+        Arch::new().dispatch(Gathered { light: self, place, normal, screens: panels })
     }
 }
 
-/// The computation of [`Environment::on_sheet`], by the widest vectors that the processor has.
-struct OnSheet<'a, const PARTS: usize> {
+/// Irradiance of a place, by the widest vectors that the processor has.
+struct Gathered<'a, const PARTS: usize> {
     light: &'a Environment<PARTS>,
     place: Vector3<f64>,
     normal: Vector3<f64>,
-    panels: &'a [Screen; 2],
+    screens: &'a [Screen],
 }
 
-impl<const PARTS: usize> WithSimd for OnSheet<'_, PARTS> {
+impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
     type Output = [f64; PARTS];
 
-    // what is inlined here takes those vectors, too; what is called does not
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [f64; PARTS] {
-        let Self { light, place, normal, panels } = self;
-        let mut cosines = light.rays.cosines(normal);
-        for panel in panels {
-            let height = panel.facing.dot(&place);
-            if height > ON_PANEL {
-                light.rays.hide(panel, (place, height), &mut cosines);
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; PARTS] {
+        let Self { light, place, normal, screens } = self;
+        let rays = light.rays.each_ref().map(|coordinates| S::as_simd_f64s(coordinates).0);
+        let zero = simd.splat_f64s(0.0);
+        let mut cosines = vec![zero; rays[0].len()];
+        let normal = splat(simd, normal);
+        for (n, cosine) in cosines.iter_mut().enumerate() {
+            *cosine = simd.max_f64s(along(simd, normal, rays, n), zero);
+        }
+        for Screen { facing, out, depth, half_width } in screens {
+            let height = facing.dot(&place);
+            if height <= ON_PANEL {
+                continue;
+            }
+            let (towards, outwards) = (splat(simd, -facing), splat(simd, height * out));
+            let [from_crease, from_middle, height] =
+                [out.dot(&place), place.y, height].map(|value| simd.splat_f64s(value));
+            let [depth, half_width] = [*depth, *half_width].map(|value| simd.splat_f64s(value));
+            for (n, cosine) in cosines.iter_mut().enumerate() {
+                // where the panel's plane is met, times how steeply it is approached: nothing is divided
+                let approach = along(simd, towards, rays, n);
+                let met_out = simd.mul_add_f64s(from_crease, approach, along(simd, outwards, rays, n));
+                let met_along = simd.mul_add_f64s(from_middle, approach, simd.mul_f64s(height, rays[1][n]));
+                let within_depth =
+                    simd.min_f64s(met_out, simd.sub_f64s(simd.mul_f64s(depth, approach), met_out));
+                let within_width =
+                    simd.sub_f64s(simd.mul_f64s(half_width, approach), simd.abs_f64s(met_along));
+                let within = simd.min_f64s(approach, simd.min_f64s(within_depth, within_width));
+                *cosine = simd.select_f64s(simd.greater_than_f64s(within, zero), zero, *cosine);
             }
         }
-        light.sums(&cosines)
+        let lanes = DIRECTIONS / S::as_simd_f64s(&light.rays[0][..DIRECTIONS]).0.len();
+        let mut sums = [0.0; PARTS];
+        for (sum, (rays, irradiances)) in sums.iter_mut().zip(&light.irradiances) {
+            let of_part = &cosines[rays.start / lanes..rays.end / lanes];
+            let mut products = zero;
+            for (cosine, irradiance) in of_part.iter().zip(S::as_simd_f64s(irradiances).0) {
+                products = simd.mul_add_f64s(*cosine, *irradiance, products);
+            }
+            *sum = simd.reduce_sum_f64s(products);
+        }
+        sums
     }
+}
+
+/// The same vector for many rays.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, vector: Vector3<f64>) -> [S::f64s; 3] {
+    [simd.splat_f64s(vector.x), simd.splat_f64s(vector.y), simd.splat_f64s(vector.z)]
+}
+
+/// How far rays go along a vector.
+#[inline(always)]
+fn along<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], n: usize) -> S::f64s {
+    simd.mul_add_f64s(a, x[n], simd.mul_add_f64s(b, y[n], simd.mul_f64s(c, z[n])))
 }
 
 /// Radiance of the facets of a sheet bent like this in each of these lights, part by part, all bounces included: in the unit in which a perfect
