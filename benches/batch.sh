@@ -96,7 +96,7 @@ again() { # N FILE
 }
 for light in D65 A; do
     for chip in orange foliage blue-sky red yellow neutral-8 cyan magenta; do
-        vforward scene.json --reflectance cc24:$chip --illuminant $light --exposure 0.5 --gloss 0.5 --body-roughness-deg 15 \
+        vforward scene.json --reflectance cc24:$chip --illuminant $light --exposure 0.5 --specular-weight 0.5 --body-roughness-deg 15 \
             --noise-sd 1e-3 --render $chip-$light.tif --render-size 320x240 >/dev/null 2>&1
     done
     eval "vextract $(cat flags-320x240) --illuminant $light ./*-$light.tif" > real-$light.ndjson

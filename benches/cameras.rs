@@ -6,24 +6,25 @@
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 
-use nalgebra::Matrix3xX;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3xX, Vector3};
 use vfold::Result;
 use vfold::camera::{
-    CameraResponse, ColourMatrix, KnownCurves, LeftOut, Predictor, StandIns, curve_error, known_curves,
+    CameraResponse, ColourMatrix, KnownSensitivities, LeftOut, Predictor, StandIns, known_sensitivities,
+    sensitivity_error,
 };
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 
 fn main() -> Result<()> {
     let grid = WavelengthGrid::default();
-    let known = known_curves(&grid)?;
+    let known = known_sensitivities(&grid)?;
     let published = Predictor::new(&grid)?;
     let computed = Predictor::by_matrices(&grid, &computed_matrices(&grid, &known)?)?;
     let nearest = |name: &str| {
         let nearest = published.nearest_to(name)?;
-        let curves = |name: &str| known.iter().find(|one| one.camera.name() == name).map(|one| &one.curves);
-        Some(curve_error(curves(name)?, curves(&nearest.name())?))
+        let curves =
+            |name: &str| known.iter().find(|one| one.camera.name() == name).map(|one| &one.sensitivities);
+        Some(sensitivity_error(curves(name)?, curves(&nearest.name())?))
     };
     println!(
         "| camera left out | predicted | by computed matrix | nearest matrix | by maker | error | by neither | error | mean of all |"
@@ -59,11 +60,14 @@ fn main() -> Result<()> {
 /// How far off the curves of a camera are as the others predict them; none if its matrix is not known.
 fn predicted_error(predictor: &Predictor, camera: &str) -> Option<f64> {
     let left_out = predictor.left_out().into_iter().find(|one| one.camera.name() == camera)?;
-    Some(curve_error(&left_out.predicted, &left_out.measured))
+    Some(sensitivity_error(&left_out.predicted, &left_out.measured))
 }
 
 /// Of every camera the matrix that takes the Munsell chips' XYZ under D65 nearest to what it sees of them.
-fn computed_matrices(grid: &WavelengthGrid, known: &[KnownCurves]) -> Result<Vec<(String, ColourMatrix)>> {
+fn computed_matrices(
+    grid: &WavelengthGrid,
+    known: &[KnownSensitivities],
+) -> Result<Vec<(String, ColourMatrix)>> {
     let daylight = illuminant("D65")?;
     let power = daylight.on(grid, Outside::Refuse)?;
     let eye = Colorimeter::new(grid, &daylight, Observer::Cie1931_2deg)?;
@@ -72,8 +76,8 @@ fn computed_matrices(grid: &WavelengthGrid, known: &[KnownCurves]) -> Result<Vec
     let xyz =
         Matrix3xX::from_columns(&chips.iter().map(|chip| Vector3::from(eye.xyz(chip))).collect::<Vec<_>>());
     let inverse = (&xyz * xyz.transpose()).try_inverse().unwrap_or_default();
-    let matrix = |known: &KnownCurves| {
-        let response = CameraResponse::new(grid, &known.curves, &power)?;
+    let matrix = |known: &KnownSensitivities| {
+        let response = CameraResponse::new(grid, &known.sensitivities, &power)?;
         let rgb: Vec<_> = chips.iter().map(|chip| Vector3::from_vec(response.of_flat(chip))).collect();
         let matrix = Matrix3xX::from_columns(&rgb) * xyz.transpose() * inverse;
         Ok((known.camera.name(), [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]))))

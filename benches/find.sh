@@ -53,6 +53,6 @@ fi
     echo 'Photographs with fold, angle and chart told as a careful user has them, and found, camera and light told in both; `train` is what finding was'
     echo 'fitted on. A chart that is turned from the sun is used where it is told how far, and left out where it is found.'
     echo
-    "$python" -B benches/find_told.py "$bin" "$shared"/{train,real,real/more,real/pairs,sky,ground}/*.json
+    "$python" -B benches/find_stated.py "$bin" "$shared"/{train,real,real/more,real/pairs,sky,ground}/*.json
 } | tee "$page.new"
 mv "$page.new" "$page"

@@ -107,18 +107,18 @@ def true_sizes(said):
         "exposure": max(said["white_rgb"]),
         "angle_deg": said["angle_deg"],
         "tilt_deg": said["light_tilt_deg"],
-        "gloss": sheet["gloss"],
+        "specular_weight": sheet["gloss"],
         "body_roughness_deg": sheet["sigma_deg"],
-        "fuzz": 0.0,
+        "sheen": 0.0,
         "crease_radius": rendered["crease_radius"],
         "bow_deg": -rendered["bow_deg"],
         "bow_difference_deg": 0.0,
         "vignetting": lens["vignetting"],
-        "glare": lens["glare"],
+        "veiling_glare": lens["glare"],
         "sky": 0.0,
     }
     if sheet["gloss"] > 0:
-        true["gloss_roughness"] = sheet["alpha"]
+        true["specular_roughness"] = sheet["alpha"]
     if isinstance(rendered["illuminant"], str):
         true["sun_cct_k"] = float(rendered["illuminant"].rsplit(" ", 1)[1])
     if "sky" in rendered:

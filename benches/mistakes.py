@@ -294,7 +294,7 @@ kind("control", "vignetting 10 %", lambda s: setattr(s, "light", vignetted(s.lig
 kind("control", "tilt 2 degrees", lambda s: s.rendered(["--tilt-deg", 2]))
 kind("control", "60 degrees", lambda s: (s.rendered(["--angle-deg", 60]), s.stated_fold.__setitem__(1, 60)))
 kind("control", "sky 0.1, blue", lambda s: s.rendered(["--sky", 0.1], [LIGHT, "daylight:11000"]))
-kind("control", "gloss 0.2", lambda s: s.rendered(flags=["--gloss", 0.2]))
+kind("control", "gloss 0.2", lambda s: s.rendered(flags=["--specular-weight", 0.2]))
 kind("control", "14 bits", lambda s: setattr(s, "store", "tif14") or s.extract.extend(["--white-level", 16383]))
 
 kind("flat sheet", "even light", flat)
@@ -471,7 +471,7 @@ for size in (1, 3, 10):
 for size in (5, 15):
     kind("stray light", f"{size} % of the mean", lambda s, k=size / 100: setattr(s, "light", s.light * (1 - k) + k * s.light.mean(axis=(0, 1))))
 
-for flags in (["--gloss", 0.5], ["--gloss", 1], ["--body-roughness-deg", 20], ["--body-roughness-deg", 35], ["--fuzz", 0.3], ["--fuzz", 0.6]):
+for flags in (["--specular-weight", 0.5], ["--specular-weight", 1], ["--body-roughness-deg", 20], ["--body-roughness-deg", 35], ["--sheen", 0.3], ["--sheen", 0.6]):
     kind("sheet", f"{flags[0][2:]} {flags[1]}", lambda s, f=flags: s.rendered(flags=f))
 
 

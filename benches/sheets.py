@@ -41,7 +41,7 @@ def simulated(tools, cameras, spec, draw, work):
     sky, tilt_deg = draw.uniform(0.05, 0.15), draw.gauss(0, TILT_SD_DEG)
     scene, _ = tools.run("vkernel", "--angle-deg", angle_deg, "--tilt-deg", tilt_deg, "--sky", sky)
     light = ["--illuminant", f"daylight:{draw.uniform(5100, 5500):.0f}", "--sky-illuminant", f"daylight:{SKY_CCT_K}"]
-    surface = ["--gloss", draw.uniform(0, 0.5), "--gloss-roughness", draw.uniform(0.38, 0.55), "--body-roughness-deg", draw.uniform(0, 20)]
+    surface = ["--specular-weight", draw.uniform(0, 0.5), "--specular-roughness", draw.uniform(0.38, 0.55), "--body-roughness-deg", draw.uniform(0, 20)]
     noise = ["--noise-sd", 1e-3, "--photon-noise", 1e-2, "--seed", draw.randrange(10000)]
     picture = ["--exposure", exposure, *noise, "--render", work / "sheet.tif", "--render-size", "400x300"]
     said, _ = tools.run("vforward", "-q", "--percent=no", "--reflectance", spec, "--camera", true_camera, *light, *surface, *picture, given=scene)

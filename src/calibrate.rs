@@ -9,11 +9,11 @@
 //! large as the residuals say, and constant and curvature have priors: 2.5 %, and 0.5 % at 30 % of white
 //! (`tests/numbers/calibration.rs` measures both).
 
-mod curve;
 mod patch;
+mod polynomial;
 
-use curve::Curve;
 pub use patch::Patch;
+use polynomial::Polynomial;
 
 use crate::error::{Error, Result};
 
@@ -24,7 +24,7 @@ const LARGEST_RESIDUAL: f64 = 0.25;
 /// What takes a photograph's values to those of the scene's camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    curves: Vec<Curve>,
+    polynomials: Vec<Polynomial>,
     exposure: f64,
     exposure_sd: f64,
 }
@@ -60,13 +60,14 @@ impl Calibration {
     pub fn fit(patches: &[Patch], reference_channel: usize) -> Result<Self> {
         let channels = patches.first().map_or(0, |patch| patch.expected.len());
         patches.iter().try_for_each(|patch| check(patch, channels))?;
-        let curves = (0..channels).map(|n| Curve::fit(patches, n)).collect::<Result<Vec<_>>>()?;
-        let Some(reference) = curves.get(reference_channel) else {
+        let polynomials = (0..channels).map(|n| Polynomial::fit(patches, n)).collect::<Result<Vec<_>>>()?;
+        let Some(reference) = polynomials.get(reference_channel) else {
             return Err(Error::Numeric("there is nothing to calibrate with".to_owned()));
         };
         let (exposure, exposure_sd) = reference.gain();
-        let curves = curves.into_iter().map(|curve| curve.at_exposure(exposure)).collect();
-        let calibration = Self { curves, exposure, exposure_sd };
+        let polynomials =
+            polynomials.into_iter().map(|polynomial| polynomial.at_exposure(exposure)).collect();
+        let calibration = Self { polynomials, exposure, exposure_sd };
         let worst = calibration.residual_rms(patches).into_iter().fold(0.0, f64::max);
         if worst > LARGEST_RESIDUAL {
             return Err(Error::Numeric(format!(
@@ -94,34 +95,34 @@ impl Calibration {
     /// patch the polynomial goes on as its tangent.
     #[must_use]
     pub fn value(&self, channel: usize, measured: f64) -> f64 {
-        self.curves[channel].value(measured)
+        self.polynomials[channel].value(measured)
     }
 
     /// The same for a standard deviation about a value.
     #[must_use]
     pub fn sd(&self, channel: usize, measured: f64, sd: f64) -> f64 {
-        self.curves[channel].slope(measured) * sd
+        self.polynomials[channel].slope(measured) * sd
     }
 
     /// The polynomial of a channel: constant, linear and quadratic coefficient.
     #[must_use]
     pub fn coefficients(&self, channel: usize) -> [f64; 3] {
-        self.curves[channel].coefficients()
+        self.polynomials[channel].coefficients()
     }
 
     /// How far a patch is from what it should be, a share of that per channel.
     #[must_use]
     pub fn residual(&self, patch: &Patch) -> Vec<f64> {
-        let channel = |(channel, curve): (usize, &Curve)| {
-            curve.value(patch.measured[channel]) / (self.exposure * patch.expected[channel]) - 1.0
+        let channel = |(channel, polynomial): (usize, &Polynomial)| {
+            polynomial.value(patch.measured[channel]) / (self.exposure * patch.expected[channel]) - 1.0
         };
-        self.curves.iter().enumerate().map(channel).collect()
+        self.polynomials.iter().enumerate().map(channel).collect()
     }
 
     /// Root mean square of the patches' residuals per channel.
     #[must_use]
     pub fn residual_rms(&self, patches: &[Patch]) -> Vec<f64> {
-        let mut squares = vec![0.0; self.curves.len()];
+        let mut squares = vec![0.0; self.polynomials.len()];
         for patch in patches {
             self.residual(patch)
                 .iter()

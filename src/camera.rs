@@ -6,7 +6,7 @@ mod predicted;
 mod stand_in;
 
 pub use from_chart::{ChartCamera, ChartPatch};
-pub use measured::{KnownCurves, curve_error, known_curves};
+pub use measured::{KnownSensitivities, known_sensitivities, sensitivity_error};
 pub use predicted::{ColourMatrix, PREDICTED_ERROR, PredictedLeftOut, Predictor};
 pub use stand_in::{LeftOut, StandIn, StandIns, Why};
 

@@ -41,20 +41,20 @@ pub struct Common {
     /// Write here instead of standard output; the file appears when it is whole
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Write here as --output does, line by line, and go on where an interrupted run of the same command stopped
+    /// Write here as --output does, line by line, and resume an interrupted run of the same command
     #[arg(long, value_name = "FILE", conflicts_with = "output")]
     pub resume: Option<PathBuf>,
     /// Threads to use [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
-    /// Say what was decided, measured and skipped
+    /// Report what was decided, measured and skipped
     #[arg(short, long, conflicts_with = "quiet")]
     pub verbose: bool,
-    /// Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go
-    /// to a file
+    /// Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the
+    /// records go to a file
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub progress: ProgressWhen,
     /// Also write a field of the records as an NPY array, samples stacked
@@ -202,7 +202,9 @@ fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
         ListWhat::Illuminants => What::Illuminants,
         ListWhat::Reflectances => What::Reflectances,
     };
-    let line = |(name, about): (String, String)| format!("{:<20} {}", printable(&name), printable(&about));
+    let line = |(name, description): (String, String)| {
+        format!("{:<20} {}", printable(&name), printable(&description))
+    };
     list(what)?.into_iter().try_for_each(|entry| out.text(&line(entry)))
 }
 
@@ -349,7 +351,7 @@ impl OpticsArgs {
         let illuminants = match self.illuminant.as_slice() {
             [unknown] if unknown == UNKNOWN_LIGHT => Vec::new(),
             [] => vec![common.illuminant(ASSUMED_LIGHT)?],
-            given => given.iter().map(light).collect::<Result<_>>()?,
+            named => named.iter().map(light).collect::<Result<_>>()?,
         };
         Ok((illuminants, self.sky()?.as_ref().map(light).transpose()?))
     }

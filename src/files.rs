@@ -65,7 +65,7 @@ impl Saved {
             }
             Err(_) => path.to_owned(),
         };
-        let target = beside(&path).map_err(failed)?;
+        let target = target_beneath(&path).map_err(failed)?;
         Ok(Self { target, _claim: Some(Claim::new(&path)?), path })
     }
 
@@ -105,7 +105,7 @@ impl Saved {
         }
         let named = match self.target {
             #[cfg(target_os = "linux")]
-            Target::Unnamed(file) => unnamed::name_beside(&file, &self.path),
+            Target::Unnamed(file) => unnamed::temporary_name(&file, &self.path),
             Target::Named(file) => Ok(file.into_temp_path()),
             Target::Special(_) => return Ok(()),
         };
@@ -172,7 +172,7 @@ fn claimed() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 }
 
 /// A file in the folder of `path`: without a name where there can be one, else under a temporary name.
-fn beside(path: &Path) -> io::Result<Target> {
+fn target_beneath(path: &Path) -> io::Result<Target> {
     #[cfg(target_os = "linux")]
     if let Some(file) = unnamed::open(folder(path)) {
         return Ok(Target::Unnamed(file));
@@ -212,7 +212,7 @@ mod unnamed {
     }
 
     /// Gives it a temporary name: a rename can take the place of another file, a link cannot.
-    pub(super) fn name_beside(file: &File, path: &Path) -> io::Result<TempPath> {
+    pub(super) fn temporary_name(file: &File, path: &Path) -> io::Result<TempPath> {
         let link = |name: &Path| Ok(linkat(CWD, descriptor(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?);
         temporary().make_in(folder(path), link).map(tempfile::NamedTempFile::into_temp_path)
     }
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_given_once_at_a_time() {
+    fn names_go_to_one_writer_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
         let (file, link) = (folder.path().join("file"), folder.path().join("link"));
         fs::write(&file, "old").unwrap();

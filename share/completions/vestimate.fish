@@ -1,20 +1,20 @@
-complete -c vestimate -l prior -d 'What is known of reflectances beforehand: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper\'s estimator) or none [default: sheets]' -r
-complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
-complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: what the samples say, else what no reflectance explains' -r
+complete -c vestimate -l prior -d 'Prior on the reflectance: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper\'s estimator) or none [default: sheets]' -r
+complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
+complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: from the samples, else from what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
-complete -c vestimate -l exposure -d 'Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]' -r
-complete -c vestimate -l fit -d 'What is fitted along with the spectrum, with commas between; the scene\'s values are what is expected [default: auto for photographs that an ideal fold does not explain, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
+complete -c vestimate -l exposure -d 'Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as in the paper [default: the sample\'s, else free]' -r
+complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated; the scene\'s values are the prior means [default: auto for photographs that an ideal fold does not explain, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'
 tilt\t'Angle of the sun off the bisecting plane'
 sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'
 daylight\t'Colour of the sun, where the illuminant is daylight'
-auto\t'All that sets a real sheet apart from an ideal one, bounded by priors'
-none\t'Nothing: the scene is believed as it is told'"
-complete -c vestimate -l join -d 'Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id up to its last - or _' -r
-complete -c vestimate -l illuminants -d 'What an unknown light may be: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
-complete -c vestimate -l known-fold -d 'A fold of a sheet whose reflectance is known, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It tells the light and, of computed facets, the exposure' -r
-complete -c vestimate -l start -d 'Reflectance to set out from [default: the prior\'s mean; 0.5 for --prior smooth and none]' -r
-complete -c vestimate -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single sheet what the estimate leaves of its facets; of more than seven samples, up to sixty, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
+auto\t'All effects of real sheets, lights and lenses, each with a prior'
+none\t'Nothing: the scene is taken as stated'"
+complete -c vestimate -l join -d 'Estimate photographs of one sheet together: group by FIELD, or join the listed IDs. Without a value, group by the id up to its last - or _' -r
+complete -c vestimate -l illuminants -d 'Candidates for an unknown light: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
+complete -c vestimate -l known-fold -d 'A fold of a sheet of known reflectance, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It fixes the light and, for computed facets, the exposure' -r
+complete -c vestimate -l start -d 'Initial reflectance [default: the prior mean; 0.5 for --prior smooth and none]' -r
+complete -c vestimate -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' look under D65, flat and folded, and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
 complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
@@ -27,9 +27,9 @@ complete -c vestimate -l kernel -d 'Instead of a scene: form factors, facets x f
 complete -c vestimate -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
 complete -c vestimate -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
 complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vestimate -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
+complete -c vestimate -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
 complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vestimate -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vestimate -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vestimate -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
@@ -194,13 +194,13 @@ complete -c vestimate -l reflectance -d 'Reflectances that will be photographed 
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: what the scene says]' -r -F -a "cc24\t''
+complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectance [default: the scene\'s]' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vestimate -l plan -d 'Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]; of ideal folds, of photographs of real sheets with --fit auto, and with --join of the first scene\'s and each of the others\' together'
-complete -c vestimate -s q -l quiet -d 'Say nothing but errors'
-complete -c vestimate -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vestimate -l plan -d 'Take scenes without samples and report the expected errors: one record per scene, for --noise-sd [default: 1e-3]; for ideal folds, for photographs of real sheets with --fit auto, and with --join for the first scene together with each of the others'
+complete -c vestimate -s q -l quiet -d 'Print nothing but errors'
+complete -c vestimate -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vestimate -l no-history -d 'Do not record this tool\'s arguments in the stream'
 complete -c vestimate -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c vestimate -s V -l version -d 'Print version'

@@ -1,31 +1,31 @@
 complete -c vextract -l files-from -d 'More photographs: a file with one name per line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
 complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
-complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null [default: found, if no panel has any]' -r
+complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null [default: detected, if no panel has corners]' -r
 complete -c vextract -l panel1 -d 'Corners of panel 1' -r
 complete -c vextract -l panel -d 'Corners of panel N, counted from 0 as the scene has them; once for each' -r
-complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, to calibrate with [default: found, if no corners are given]' -r
+complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, for calibration [default: detected, if no corners are given]' -r
 complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
 complete -c vextract -l regions -d 'JSON file of corners, see below, - for standard input; the flags above win over it' -r -F
-complete -c vextract -l margin -d 'Stay this far from the panels\' edges' -r
-complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels, not 6, and say along which sides there are none' -r
+complete -c vextract -l margin -d 'Keep this distance from the panels\' edges' -r
+complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels instead of 6, and report sides that have no edge' -r
 complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r
-complete -c vextract -l overlay -d 'Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
-complete -c vextract -l preview -d 'Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above' -r -F
-complete -c vextract -l transfer -d 'Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest' -r
-complete -c vextract -l black-level -d 'Stored number that means no light; auto: the darkest ones, where they are alike in all channels and not 0' -r
-complete -c vextract -l white-level -d 'Stored number that means 1, from which on pixels are clipped' -r
-complete -c vextract -l white -d 'Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1' -r -F
+complete -c vextract -l overlay -d 'Draw panels, facets and excluded pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
+complete -c vextract -l preview -d 'Write a small picture for finding corners with share/picker.html, and exit; {} as above' -r -F
+complete -c vextract -l transfer -d 'Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear for the rest' -r
+complete -c vextract -l black-level -d 'Stored number that means no light; auto: the darkest, where these are alike in all channels and not 0' -r
+complete -c vextract -l white-level -d 'Stored number that means 1; pixels from it on are clipped' -r
+complete -c vextract -l white -d 'Photograph of a white sheet, framed alike, to divide by: it corrects uneven light; its mean counts as 1' -r -F
 complete -c vextract -l undo -d 'Undo the white balance and the matrix with which the camera made an sRGB picture' -r
 complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, if known' -r
 complete -c vextract -l chart-grid -d 'Patches of the chart' -r
 complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and the chart\'s normal; 1: the chart faces the sun, unlike the panels' -r
-complete -c vextract -l save-camera -d 'Write the camera\'s curves with their standard deviations, by the chart in the one IMAGE and the known --illuminant, and nothing else; a --camera from then on' -r -F
+complete -c vextract -l save-camera -d 'Estimate the camera\'s sensitivities from the chart in IMAGE under --illuminant, write them and exit; use the file with --camera' -r -F
 complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and the white card\'s normal' -r
 complete -c vextract -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vextract -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
+complete -c vextract -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
 complete -c vextract -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vextract -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vextract -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vextract -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
@@ -194,11 +194,11 @@ complete -c vextract -l white-reflectance -d 'Reflectance of the white card' -r 
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vextract -l find -d 'Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene'
-complete -c vextract -l pick -d 'Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is seen on this machine alone'
+complete -c vextract -l find -d 'Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it, and exit; needs no scene'
+complete -c vextract -l pick -d 'Show the photograph and the detected fold in a browser on this machine, to be corrected there, then print the corners as --find does'
 complete -c vextract -l exact-corners -d 'Leave the corners where they are'
-complete -c vextract -s q -l quiet -d 'Say nothing but errors'
-complete -c vextract -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vextract -s q -l quiet -d 'Print nothing but errors'
+complete -c vextract -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'
 complete -c vextract -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c vextract -s V -l version -d 'Print version'

@@ -23,7 +23,7 @@ _vforward() {
 
     case "${cmd}" in
         vforward)
-            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --fluorescence --donaldson --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --gloss --gloss-roughness --body-roughness-deg --fuzz --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --panel-reflectance --facet-reflectance --fluorescence --donaldson --wavelengths-nm --bounces --exposure --noise-sd --photon-noise --seed --specular-weight --specular-roughness --body-roughness-deg --sheen --render --render-size --eye --look-at --up --field-of-view-deg --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -69,11 +69,11 @@ _vforward() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --gloss)
+                --specular-weight)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --gloss-roughness)
+                --specular-roughness)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -81,7 +81,7 @@ _vforward() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --fuzz)
+                --sheen)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

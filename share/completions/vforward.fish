@@ -1,31 +1,31 @@
-complete -c vforward -l panel-reflectance -d 'Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet' -r
+complete -c vforward -l panel-reflectance -d 'Reflectance of panel P (0 or 1), the other panel being the sheet; if both are given, panel 0 is the sheet' -r
 complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per facet, no truth in the samples' -r -F
-complete -c vforward -l fluorescence -d 'The sheet fluoresces: it sends out this part of white\'s light, as --reflectance names spectra, wherever the light of --illuminant falls directly' -r
-complete -c vforward -l donaldson -d 'Donaldson matrices in the place of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file has wavelengths of emission in the first column, those of excitation in the header (CSV), or is the export of a Labsphere BFC-450' -r
+complete -c vforward -l fluorescence -d 'The sheet fluoresces: it emits this fraction of white\'s light, named as for --reflectance, wherever the light of --illuminant falls directly' -r
+complete -c vforward -l donaldson -d 'Donaldson matrices instead of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file has emission wavelengths in the first column and excitation wavelengths in the header (CSV), or is the export of a Labsphere BFC-450' -r
 complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
-complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene\'s tolerance asks for' -r
+complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light only), or as many as the scene\'s tolerance requires' -r
 complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel' -r
 complete -c vforward -l noise-sd -d 'Standard deviation of noise on every facet (with --render: on every pixel of the picture only)' -r
 complete -c vforward -l photon-noise -d 'Standard deviation of photon noise at value 1; it grows with the root of the signal' -r
 complete -c vforward -l seed -d 'Seed of the noise' -r
-complete -c vforward -l gloss -d 'Strength of the surface\'s reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye' -r
-complete -c vforward -l gloss-roughness -d 'Roughness of the surface: alpha of its microfacets (GGX), 0.25 to 1' -r
-complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar\'s sigma)' -r
-complete -c vforward -l fuzz -d 'By how much the body is brighter where light grazes it, or the eye, as that of felt' -r
+complete -c vforward -l specular-weight -d 'Specular weight: strength of the surface\'s reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye' -r
+complete -c vforward -l specular-roughness -d 'Roughness of the surface: GGX\'s alpha, 0.25 to 1' -r
+complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the sheet: Oren and Nayar\'s sigma' -r
+complete -c vforward -l sheen -d 'Sheen: brightening of the body at grazing incidence or viewing, as of felt' -r
 complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
 complete -c vforward -l render-size -d 'Size of the photograph' -r
-complete -c vforward -l eye -d 'Where the camera stands, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: off by a few degrees from where the sun is]' -r
-complete -c vforward -l look-at -d 'What it looks at [default: the middle]' -r
-complete -c vforward -l up -d 'What points upwards in the photograph [default: the crease]' -r
-complete -c vforward -l field-of-view-deg -d 'Angle over the photograph\'s width [default: it is cut to what it shows]' -r
+complete -c vforward -l eye -d 'Position of the camera, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: a few degrees off the sun\'s direction]' -r
+complete -c vforward -l look-at -d 'Point that the camera looks at [default: the middle]' -r
+complete -c vforward -l up -d 'Direction that points upwards in the photograph [default: the crease]' -r
+complete -c vforward -l field-of-view-deg -d 'Horizontal field of view [default: fits the sheet]' -r
 complete -c vforward -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
 complete -c vforward -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
 complete -c vforward -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
 complete -c vforward -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
 complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vforward -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
+complete -c vforward -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
 complete -c vforward -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vforward -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vforward -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vforward -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
@@ -194,8 +194,8 @@ complete -c vforward -l reference-panel -d 'Panel 1 is a card of this reflectanc
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vforward -s q -l quiet -d 'Say nothing but errors'
-complete -c vforward -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vforward -s q -l quiet -d 'Print nothing but errors'
+complete -c vforward -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vforward -l no-history -d 'Do not record this tool\'s arguments in the stream'
 complete -c vforward -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c vforward -s V -l version -d 'Print version'

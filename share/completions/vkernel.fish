@@ -1,24 +1,24 @@
 complete -c vkernel -l angle-deg -d 'Angle between the two panels, degrees [default: that of --regions, or 45]' -r
-complete -c vkernel -l panel -d 'Panel along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]' -r
-complete -c vkernel -l regions -d 'Take angle and panels from what vextract --find printed of a photograph, - for standard input; of other files with the corners of both panels and the picture\'s size the corners tell them' -r -F
-complete -c vkernel -l panel1-depth -d 'Depth of panel 1, in the unit of --panel, if it is not that of panel 0' -r
+complete -c vkernel -l panel -d 'Panel size, along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]' -r
+complete -c vkernel -l regions -d 'Take angle and panels from the output of vextract --find, - for standard input; other files need the corners of both panels and the picture\'s size' -r -F
+complete -c vkernel -l panel1-depth -d 'Depth of panel 1, in the unit of --panel, if it differs from panel 0\'s' -r
 complete -c vkernel -l facets -d 'Facets of a panel, rows away from the crease x columns along it: where colour is measured' -r
 complete -c vkernel -l spacing -d 'Rows of equal depth, or graded: narrow at the crease, where colour varies' -r -f -a "uniform\t'Rows of equal depth'
 graded\t'Row n ends at (n/rows)² of the depth'"
-complete -c vkernel -l method -d 'How form factors are found: right to rounding, estimated from samples as in the paper, or eq. (2) at the facets\' centres, which is far off at the crease; the last two are for comparison' -r -f -a "exact\t'Right to rounding'
+complete -c vkernel -l method -d 'Method for the form factors: exact to rounding, Monte Carlo as in the paper, or eq. (2) at facet centres, which is far off at the crease; the last two are for comparison' -r -f -a "exact\t'Right to rounding'
 monte-carlo\t'Estimated from samples'
 midpoint\t'Eq. (2) at the facets\' centres'"
-complete -c vkernel -l sampling -d 'Monte Carlo from pairs of points even over two facets (the paper\'s way; its variance is infinite where facets meet at the crease), or from rays with the cosine law [default: area]' -r -f -a "area\t'Pairs of points'
+complete -c vkernel -l sampling -d 'Monte Carlo from pairs of points spread evenly over two facets (the paper\'s method; its variance is infinite where facets meet at the crease), or from rays with the cosine law [default: area]' -r -f -a "area\t'Pairs of points'
 cosine\t'Rays with the cosine law'"
-complete -c vkernel -l samples -d 'Pairs of points a distinct entry, or rays a row of facets [default: 10000]' -r
+complete -c vkernel -l samples -d 'Samples per form factor (point pairs), or per facet row (rays) [default: 10000]' -r
 complete -c vkernel -l seed -d 'Seed of the samples [default: 0]' -r
-complete -c vkernel -l mesh -d 'Where the bounces are solved: as fine as needed, one flat patch per facet (the paper\'s model), given patches, or on a shape so many cells along each side of a facet [default: auto; facets unless --method is exact]' -r
-complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the mean]' -r
+complete -c vkernel -l mesh -d 'Mesh on which interreflections are solved: as fine as needed, one flat patch per facet (the paper\'s model), given patches, or, on a shape, cells along each side of a facet [default: auto; facets unless --method is exact]' -r
+complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for reflectances up to 1 [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least possible, for reflectances up to 0.9, relative to a tenth of the mean for dark facets]' -r
 complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle of the sun along the crease, degrees' -r
-complete -c vkernel -l sky -d 'Sky, uniform or as --sky-type says: its irradiance on an open plane facing the sun, of one with a horizon on an open horizontal plane, relative to the sun\'s; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is no sun, and the sky gives an open plane 1' -r
+complete -c vkernel -l sky -d 'Diffuse-to-direct ratio: irradiance by the sky, uniform or of --sky-type, relative to the sun\'s; on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane. sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and the sky gives an open plane 1' -r
 complete -c vkernel -l id -d 'Name of the scene' -r
-complete -c vkernel -l plot -d 'Draw how much of its light every facet hands to others, and the direct light on it' -r -F
+complete -c vkernel -l plot -d 'Draw the share of its light that every facet hands to others, and the direct light on it' -r -F
 complete -c vkernel -l shape -d 'Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file\'s order; corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for pairs that are near or partly hidden' -r -F
 complete -c vkernel -l folds -d 'Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases' -r
 complete -c vkernel -l ridge-deg -d 'Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]' -r
@@ -27,9 +27,9 @@ complete -c vkernel -l light -d 'A light, repeated for several: direction X,Y,Z 
 complete -c vkernel -l sky-type -d 'Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day (Moon and Spencer), clear, or the number of a CIE standard sky, 1 to 15, of which 12 is clear; bright about the first sun of --light, or 0,0,1' -r
 complete -c vkernel -l zenith -d 'Direction X,Y,Z to the zenith of a sky that is not uniform [default: 0,0,1]' -r
 complete -c vkernel -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vkernel -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
+complete -c vkernel -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
 complete -c vkernel -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vkernel -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vkernel -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vkernel -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
@@ -44,10 +44,10 @@ illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
 complete -c vkernel -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
 false\t''"
-complete -c vkernel -l check -d 'Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit status 1 if one is broken'
-complete -c vkernel -l two-sided -d 'The surface of --shape reflects on both sides: the backs are as many facets again'
-complete -c vkernel -s q -l quiet -d 'Say nothing but errors'
-complete -c vkernel -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vkernel -l check -d 'Instead of a scene, report how well the form factors of the facets (or of the patches of --mesh) satisfy reciprocity and energy conservation; exit status 1 if one is violated'
+complete -c vkernel -l two-sided -d 'The surface of --shape reflects on both sides: its backs are as many facets again'
+complete -c vkernel -s q -l quiet -d 'Print nothing but errors'
+complete -c vkernel -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vkernel -l no-history -d 'Do not record this tool\'s arguments in the stream'
 complete -c vkernel -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c vkernel -s V -l version -d 'Print version'

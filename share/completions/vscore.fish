@@ -1,21 +1,21 @@
-complete -c vscore -l condition -d 'Measurement condition of ISO 13655 under which spectra are compared: M2, without ultraviolet, what the sheet reflects; M1, under D50, also what it sends out by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All that it sends out'
+complete -c vscore -l condition -d 'Measurement condition of ISO 13655: M2, without ultraviolet, compares what the sheet reflects; M1, under D50, also what it emits by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All that it sends out'
 M2\t'What it reflects'"
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
-complete -c vscore -l metrics -d 'What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
+complete -c vscore -l metrics -d 'Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
 ciede2000\t'Colour difference under each illuminant'
 pd\t'What the paper calls Pearson distance'
 gfc\t'Goodness of fit coefficient'
 angle\t'Spectral angle'
 metamerism\t'From the first illuminant to each other one'"
-complete -c vscore -l by -d 'Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`' -r
-complete -c vscore -l plot -d 'Draw estimates, their error bands and true spectra, what the sheets look like, flat and folded, and of a single sheet what the estimate leaves of its facets; of more than seven samples how scores are spread and which ten are worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
-complete -c vscore -l report -d 'Write a page with all of it and what the tools decided, one file for browsers and printers; of many samples the worst 24 are shown. For it and for --plot samples need no truth' -r -F
-complete -c vscore -l overlay -d 'Picture of what was measured for --report, as vextract --overlay drew it; {} in the name stands for the sample\'s; repeated: pictures that have their samples\' names' -r -F
+complete -c vscore -l by -d 'Also summarise by the value of a field of the samples or their scenes, such as `geometry.angle_deg`' -r
+complete -c vscore -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' look, flat and folded, and the residuals of a single sheet; for more than seven samples, the distribution of scores and the ten worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
+complete -c vscore -l report -d 'Write a page with all of it and the tools\' decisions, one file for browsers and printers; of many samples it shows the worst 24. Samples need no truth for this and for --plot' -r -F
+complete -c vscore -l overlay -d 'Picture of what was measured, for --report, as drawn by vextract --overlay; {} in the name stands for the sample\'s; repeated: pictures named after their samples' -r -F
 complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vscore -l resume -d 'Write here as --output does, line by line, and go on where an interrupted run of the same command stopped' -r -F
+complete -c vscore -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
 complete -c vscore -s j -l threads -d 'Threads to use [default: all cores]' -r
-complete -c vscore -l progress -d 'Show on standard error how many samples are done, how fast, and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
+complete -c vscore -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vscore -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
@@ -76,14 +76,14 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set with a member of each sample\'s name [default: what the samples say]' -r -F -a "cc24\t''
+complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set with a member of each sample\'s name [default: the samples\' own]' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
 complete -c vscore -l colour -d 'Add the estimate\'s XYZ, CIELAB and sRGB under the first illuminant to the records, with standard deviations'
 complete -c vscore -l table -d 'Print a table instead of records'
-complete -c vscore -s q -l quiet -d 'Say nothing but errors'
-complete -c vscore -s v -l verbose -d 'Say what was decided, measured and skipped'
+complete -c vscore -s q -l quiet -d 'Print nothing but errors'
+complete -c vscore -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vscore -l no-history -d 'Do not record this tool\'s arguments in the stream'
 complete -c vscore -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c vscore -s V -l version -d 'Print version'

@@ -1,4 +1,4 @@
-//! A camera's curves from one photograph of a colour chart.
+//! A camera's sensitivities from one photograph of a colour chart.
 //!
 //! J. Jiang, D. Liu, J. Gu, S. Süsstrunk, "What is the space of spectral sensitivity functions for digital color cameras?", *IEEE Workshop on
 //! Applications of Computer Vision* (2013): a few principal components hold the curves of all cameras. Here all components of the measured ones
@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::measured::{KnownCurves, known_curves};
+use super::measured::{KnownSensitivities, known_sensitivities};
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
@@ -37,9 +37,9 @@ pub struct ChartPatch {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartCamera {
     /// Sensitivity of R, G and B per waveband, 0 or more, green's peak being 1.
-    pub curves: [Vec<f64>; 3],
+    pub sensitivities: [Vec<f64>; 3],
     /// Standard deviations of these.
-    pub curves_sd: [Vec<f64>; 3],
+    pub sensitivities_sd: [Vec<f64>; 3],
     /// Relative error of the patches that the photograph speaks for.
     pub patch_sd: f64,
     /// Root mean square of how far the patches are off, as shares of their values, in the channel where it is largest.
@@ -47,18 +47,18 @@ pub struct ChartCamera {
 }
 
 impl ChartCamera {
-    /// The most probable curves of the camera that saw `patches` in `light`, power per waveband of `grid`.
+    /// The most probable sensitivities of the camera that saw `patches` in `light`, power per waveband of `grid`.
     ///
     /// # Errors
     /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter from what any camera makes of them.
     ///
     /// # Example
     /// ```
-    /// use vfold::camera::{CameraResponse, ChartCamera, ChartPatch, curve_error, known_curves};
+    /// use vfold::camera::{CameraResponse, ChartCamera, ChartPatch, sensitivity_error, known_sensitivities};
     /// use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, illuminant, reflectances};
     /// let grid = WavelengthGrid::default();
     /// let light = illuminant("D55")?.on(&grid, Outside::Refuse)?;
-    /// let truth = known_curves(&grid)?.swap_remove(30).curves;
+    /// let truth = known_sensitivities(&grid)?.swap_remove(30).sensitivities;
     /// let response = CameraResponse::new(&grid, &truth, &light)?;
     /// let patch = |patch: &Spectrum| {
     ///     let reflectance = patch.on(&grid, Outside::Refuse)?;
@@ -67,11 +67,11 @@ impl ChartCamera {
     /// };
     /// let patches = reflectances("cc24")?.iter().map(patch).collect::<vfold::Result<Vec<_>>>()?;
     /// let camera = ChartCamera::new(&grid, &light, &patches)?;
-    /// assert!(curve_error(&camera.curves, &truth) < 0.02);
+    /// assert!(sensitivity_error(&camera.sensitivities, &truth) < 0.02);
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn new(grid: &WavelengthGrid, light: &[f64], patches: &[ChartPatch]) -> Result<Self> {
-        Self::by_prior_of(&known_curves(grid)?, grid, light, patches)
+        Self::by_prior_of(&known_sensitivities(grid)?, grid, light, patches)
     }
 
     /// The same, known cameras being these alone.
@@ -79,7 +79,7 @@ impl ChartCamera {
     /// # Errors
     /// As [`ChartCamera::new`].
     pub fn by_prior_of(
-        known: &[KnownCurves],
+        known: &[KnownSensitivities],
         grid: &WavelengthGrid,
         light: &[f64],
         patches: &[ChartPatch],
@@ -93,7 +93,7 @@ impl ChartCamera {
         let design = DMatrix::identity(3, 3).kronecker(&views);
         let spread = &prior.covariance * design.transpose();
         let of_prior = &design * &spread;
-        let misfit = &measured - &design * &prior.mean;
+        let residuals = &measured - &design * &prior.mean;
         let noise = |patch_sd: f64| {
             let errors =
                 DVector::from_iterator(3 * patches.len(), channels(patches, |patch| patch.standard_error));
@@ -108,29 +108,34 @@ impl ChartCamera {
         };
         let fit = |patch_sd: f64| {
             let solved = (&of_prior + noise(patch_sd)).cholesky()?;
-            let doubt =
-                misfit.dot(&solved.solve(&misfit)) + 2.0 * solved.l_dirty().diagonal().map(f64::ln).sum();
+            let doubt = residuals.dot(&solved.solve(&residuals))
+                + 2.0 * solved.l_dirty().diagonal().map(f64::ln).sum();
             Some((doubt, patch_sd, solved))
         };
         let fits = PATCH_SDS.into_iter().filter_map(fit).filter(|(doubt, ..)| doubt.is_finite());
         let (_, patch_sd, solved) = fits
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .ok_or_else(|| Error::Numeric("the patches determine no camera".to_owned()))?;
-        let curves = (&prior.mean + &spread * solved.solve(&misfit)).map(|value| value.max(0.0));
+        let sensitivities = (&prior.mean + &spread * solved.solve(&residuals)).map(|value| value.max(0.0));
         let covariance = &prior.covariance - &spread * solved.solve(&spread.transpose());
-        let residual = residual(&(&design * &curves), &measured, patches.len());
+        let residual = residual(&(&design * &sensitivities), &measured, patches.len());
         if residual > LARGEST_RESIDUAL {
             let percent = 100.0 * residual;
             return Err(Error::Numeric(format!(
                 "the patches are off by {percent:.0} % in the mean from what any camera makes of them"
             )));
         }
-        let peak = curves.rows(bands, bands).max();
+        let peak = sensitivities.rows(bands, bands).max();
         let of_channels = |values: DVector<f64>| {
             [0, 1, 2].map(|k| values.rows(k * bands, bands).iter().map(|x| x / peak).collect())
         };
-        let curves_sd = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
-        Ok(Self { curves: of_channels(curves), curves_sd: of_channels(curves_sd), patch_sd, residual })
+        let sensitivities_sd = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+        Ok(Self {
+            sensitivities: of_channels(sensitivities),
+            sensitivities_sd: of_channels(sensitivities_sd),
+            patch_sd,
+            residual,
+        })
     }
 }
 
@@ -181,13 +186,13 @@ struct Prior {
 
 impl Prior {
     /// Of these cameras, each channel's mean over the grid being 1.
-    fn new(known: &[KnownCurves], grid: &WavelengthGrid) -> Result<Self> {
+    fn new(known: &[KnownSensitivities], grid: &WavelengthGrid) -> Result<Self> {
         let bands = grid.len();
         if known.len() < 2 {
             return Err(Error::Numeric("a prior needs two cameras".to_owned()));
         }
-        let column = |known: &KnownCurves| {
-            let scaled = known.curves.iter().flat_map(|curve| {
+        let column = |known: &KnownSensitivities| {
+            let scaled = known.sensitivities.iter().flat_map(|curve| {
                 let mean = curve.iter().sum::<f64>() / bands as f64;
                 curve.iter().map(move |value| value / mean)
             });

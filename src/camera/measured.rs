@@ -1,50 +1,53 @@
 //! The cameras that were measured, on one grid and one scale.
 
 use crate::error::Result;
-use crate::spectrum::{MeasuredCamera, Outside, WavelengthGrid, measured_cameras, measured_curves};
+use crate::spectrum::{MeasuredCamera, Outside, WavelengthGrid, measured_cameras, measured_sensitivities};
 
 /// A camera and its curves R, G and B on a grid, green's peak being 1.
 #[derive(Clone, Debug)]
-pub struct KnownCurves {
+pub struct KnownSensitivities {
     /// Which camera.
     pub camera: MeasuredCamera,
     /// One number per waveband each.
-    pub curves: [Vec<f64>; 3],
+    pub sensitivities: [Vec<f64>; 3],
 }
 
 /// All 52 on `grid`; beyond 380..780 nm they see nothing.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.
-pub fn known_curves(grid: &WavelengthGrid) -> Result<Vec<KnownCurves>> {
+pub fn known_sensitivities(grid: &WavelengthGrid) -> Result<Vec<KnownSensitivities>> {
     let known = |(camera, channels): (MeasuredCamera, [crate::spectrum::Spectrum; 3])| {
         let [r, g, b] = &channels;
         let on_grid = |channel: &crate::spectrum::Spectrum| channel.on(grid, Outside::Zero);
-        Ok(KnownCurves { camera, curves: on_one_scale([on_grid(r)?, on_grid(g)?, on_grid(b)?]) })
+        Ok(KnownSensitivities {
+            camera,
+            sensitivities: on_one_scale([on_grid(r)?, on_grid(g)?, on_grid(b)?]),
+        })
     };
-    measured_cameras().zip(measured_curves()?).map(known).collect()
+    measured_cameras().zip(measured_sensitivities()?).map(known).collect()
 }
 
 /// The curves with green's peak at 1.
 #[must_use]
-pub fn on_one_scale(curves: [Vec<f64>; 3]) -> [Vec<f64>; 3] {
-    let peak = curves[1].iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    curves.map(|curve| curve.into_iter().map(|value| value / peak).collect())
+pub fn on_one_scale(sensitivities: [Vec<f64>; 3]) -> [Vec<f64>; 3] {
+    let peak = sensitivities[1].iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    sensitivities.map(|curve| curve.into_iter().map(|value| value / peak).collect())
 }
 
 /// Root mean square of the differences between the curves of two cameras, green's peak being 1 in both.
 ///
 /// # Example
 /// ```
-/// use vfold::camera::{curve_error, known_curves};
-/// let known = known_curves(&vfold::spectrum::WavelengthGrid::default())?;
+/// use vfold::camera::{sensitivity_error, known_sensitivities};
+/// let known = known_sensitivities(&vfold::spectrum::WavelengthGrid::default())?;
 /// let at = |name: &str| known.iter().position(|known| known.camera.name() == name).unwrap();
-/// let (a, b) = (&known[at("sony-ilce-7m3")].curves, &known[at("sony-ilce-7rm3")].curves);
-/// assert!(curve_error(a, b) < 0.02); // sensors of one maker
+/// let (a, b) = (&known[at("sony-ilce-7m3")].sensitivities, &known[at("sony-ilce-7rm3")].sensitivities);
+/// assert!(sensitivity_error(a, b) < 0.02); // sensors of one maker
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]
-pub fn curve_error(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3]) -> f64 {
+pub fn sensitivity_error(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3]) -> f64 {
     let squares: Vec<f64> =
         a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).powi(2)).collect();
     (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::measured::{KnownCurves, known_curves, on_one_scale};
+use super::measured::{KnownSensitivities, known_sensitivities, on_one_scale};
 use crate::colorimetry::{Colorimeter, Observer};
 use crate::error::{Error, Result};
 use crate::solve::Eigen;
@@ -27,7 +27,7 @@ const FARTHEST: f64 = 4.0;
 /// Errors of a channel's curve that are kept, of those that explain most of them: these hold nineteen parts in twenty.
 const ERRORS: usize = 5;
 
-/// How far off predicted curves are in the mean, root mean square where green's peak is 1: measured by leaving each camera out in turn.
+/// How far off predicted sensitivities are in the mean, root mean square where green's peak is 1: measured by leaving each camera out in turn.
 pub const PREDICTED_ERROR: f64 = 0.030;
 
 /// Rows of a matrix from XYZ to a camera's R, G and B, as the tag `ColorMatrix` of DNG has it for D65.
@@ -41,7 +41,7 @@ struct Example {
     camera: MeasuredCamera,
     features: Features,
     /// Curves R, G and B, one after the other, green's peak being 1.
-    curves: DVector<f64>,
+    sensitivities: DVector<f64>,
 }
 
 /// What predicts curves.
@@ -67,7 +67,7 @@ struct Ridge<'a> {
     examples: Vec<&'a Example>,
     mean: Features,
     sd: Features,
-    mean_curves: DVector<f64>,
+    mean_sensitivities: DVector<f64>,
     /// Camera by number of the curves.
     coefficients: DMatrix<f64>,
 }
@@ -95,11 +95,16 @@ impl Predictor {
     pub fn by_matrices(grid: &WavelengthGrid, matrices: &[(String, ColourMatrix)]) -> Result<Self> {
         let eye = Colorimeter::new(grid, &illuminant("D65")?, Observer::Cie1931_2deg)?;
         let white_xyz = eye.xyz(&vec![1.0; grid.len()]);
-        let known = known_curves(grid)?;
+        let known = known_sensitivities(grid)?;
         let example = |(name, matrix): &(String, ColourMatrix)| {
-            let KnownCurves { camera, curves } = known.iter().find(|known| known.camera.name() == *name)?;
+            let KnownSensitivities { camera, sensitivities } =
+                known.iter().find(|known| known.camera.name() == *name)?;
             let features = features(matrix, white_xyz)?;
-            Some(Example { camera: *camera, features, curves: DVector::from_vec(curves.concat()) })
+            Some(Example {
+                camera: *camera,
+                features,
+                sensitivities: DVector::from_vec(sensitivities.concat()),
+            })
         };
         let examples: Option<Vec<_>> = matrices.iter().map(example).collect();
         Ok(Self { examples: examples.ok_or_else(damaged)?, white_xyz, bands: grid.len() })
@@ -125,7 +130,7 @@ impl Predictor {
         let features = features(matrix, self.white_xyz)?;
         let ridge = Ridge::of(self.examples.iter().collect())?;
         let is_camera = ridge.scaled(&features).norm() <= FARTHEST * (features.len() as f64).sqrt();
-        is_camera.then(|| self.curves(&ridge, &features, |camera| camera.is_made_by(make)))
+        is_camera.then(|| self.sensitivities(&ridge, &features, |camera| camera.is_made_by(make)))
     }
 
     /// Each camera as the others predict it.
@@ -136,8 +141,8 @@ impl Predictor {
             let is_same_maker = |camera: &MeasuredCamera| camera.is_made_by(one.camera.maker);
             Some(PredictedLeftOut {
                 camera: one.camera,
-                predicted: self.curves(&Ridge::of(others)?, &one.features, is_same_maker),
-                measured: self.channels(&one.curves),
+                predicted: self.sensitivities(&Ridge::of(others)?, &one.features, is_same_maker),
+                measured: self.channels(&one.sensitivities),
             })
         };
         self.examples.iter().filter_map(left_out).collect()
@@ -152,7 +157,7 @@ impl Predictor {
         others.min_by(|a, b| off(a).total_cmp(&off(b))).map(|other| other.camera)
     }
 
-    /// How predicted curves are off, green's peak being 1: errors of a channel by waveband, each of standard deviation 1 as it is, those of cameras left
+    /// How predicted sensitivities are off, green's peak being 1: errors of a channel by waveband, each of standard deviation 1 as it is, those of cameras left
     /// out in turn. None in builds that do not read RAW files.
     #[must_use]
     pub fn errors(&self) -> Vec<(usize, DVector<f64>)> {
@@ -176,18 +181,19 @@ impl Predictor {
         (0..3).flat_map(of_channel).collect()
     }
 
-    fn curves(
+    fn sensitivities(
         &self,
         ridge: &Ridge,
         features: &Features,
         is_same_maker: impl Fn(&MeasuredCamera) -> bool,
     ) -> [Vec<f64>; 3] {
-        let curves = ridge.at(features, is_same_maker).map(|value| value.max(0.0));
-        on_one_scale(self.channels(&curves))
+        let sensitivities = ridge.at(features, is_same_maker).map(|value| value.max(0.0));
+        on_one_scale(self.channels(&sensitivities))
     }
 
-    fn channels(&self, curves: &DVector<f64>) -> [Vec<f64>; 3] {
-        [0, 1, 2].map(|channel| curves.rows(channel * self.bands, self.bands).iter().copied().collect())
+    fn channels(&self, sensitivities: &DVector<f64>) -> [Vec<f64>; 3] {
+        [0, 1, 2]
+            .map(|channel| sensitivities.rows(channel * self.bands, self.bands).iter().copied().collect())
     }
 }
 
@@ -200,16 +206,16 @@ impl<'a> Ridge<'a> {
         }
         let all = DMatrix::from_columns(&rows);
         let (mean, sd) = (all.column_mean(), all.column_variance().map(f64::sqrt));
-        let curves =
-            DMatrix::from_columns(&examples.iter().map(|one| one.curves.clone()).collect::<Vec<_>>());
-        let mean_curves = curves.column_mean();
-        let mut ridge = Self { examples, mean, sd, mean_curves, coefficients: DMatrix::zeros(0, 0) };
+        let sensitivities =
+            DMatrix::from_columns(&examples.iter().map(|one| one.sensitivities.clone()).collect::<Vec<_>>());
+        let mean_sensitivities = sensitivities.column_mean();
+        let mut ridge = Self { examples, mean, sd, mean_sensitivities, coefficients: DMatrix::zeros(0, 0) };
         let alike =
             |one: &&Example| ridge.likeness(&one.features, |camera| camera.is_made_by(one.camera.maker));
         let alike = DMatrix::from_columns(&ridge.examples.iter().map(alike).collect::<Vec<_>>());
         let count = alike.nrows();
-        let mut apart = curves.transpose();
-        apart.row_iter_mut().for_each(|mut row| row -= ridge.mean_curves.transpose());
+        let mut apart = sensitivities.transpose();
+        apart.row_iter_mut().for_each(|mut row| row -= ridge.mean_sensitivities.transpose());
         ridge.coefficients = (alike + RIDGE * DMatrix::identity(count, count)).cholesky()?.solve(&apart);
         Some(ridge)
     }
@@ -218,7 +224,7 @@ impl<'a> Ridge<'a> {
         (features - &self.mean).component_div(&self.sd)
     }
 
-    /// How alike a camera's curves and those of each other are before they are looked at.
+    /// How alike a camera's sensitivities and those of each other are before they are looked at.
     fn likeness(&self, features: &Features, is_same_maker: impl Fn(&MeasuredCamera) -> bool) -> DVector<f64> {
         let own = self.scaled(features);
         let likeness = |other: &&Example| {
@@ -229,7 +235,7 @@ impl<'a> Ridge<'a> {
     }
 
     fn at(&self, features: &Features, is_same_maker: impl Fn(&MeasuredCamera) -> bool) -> DVector<f64> {
-        &self.mean_curves + self.coefficients.tr_mul(&self.likeness(features, is_same_maker))
+        &self.mean_sensitivities + self.coefficients.tr_mul(&self.likeness(features, is_same_maker))
     }
 }
 

@@ -1,10 +1,10 @@
 //! Which measured camera stands in for one that nobody measured.
 //!
 //! Of the same maker's cameras the one nearest to all others of that maker; without any of the maker, the one nearest to all. `benches/cameras.rs`
-//! leaves each camera out in turn and prints how far off they are. A camera whose colour matrix is known needs none: its curves are
+//! leaves each camera out in turn and prints how far off they are. A camera whose colour matrix is known needs none: its sensitivities are
 //! [predicted](super::Predictor).
 
-use super::measured::{KnownCurves, curve_error, known_curves};
+use super::measured::{KnownSensitivities, known_sensitivities, sensitivity_error};
 use crate::error::Result;
 use crate::spectrum::WavelengthGrid;
 
@@ -62,7 +62,7 @@ pub struct LeftOut {
 /// All that can stand in.
 #[derive(Clone, Debug)]
 pub struct StandIns {
-    known: Vec<KnownCurves>,
+    known: Vec<KnownSensitivities>,
     /// Distances between their curves.
     distances: Vec<Vec<f64>>,
 }
@@ -73,8 +73,10 @@ impl StandIns {
     /// # Errors
     /// Only if the embedded tables are damaged.
     pub fn new() -> Result<Self> {
-        let known = known_curves(&WavelengthGrid::default())?;
-        let row = |a: &KnownCurves| known.iter().map(|b| curve_error(&a.curves, &b.curves)).collect();
+        let known = known_sensitivities(&WavelengthGrid::default())?;
+        let row = |a: &KnownSensitivities| {
+            known.iter().map(|b| sensitivity_error(&a.sensitivities, &b.sensitivities)).collect()
+        };
         Ok(Self { distances: known.iter().map(row).collect(), known })
     }
 
@@ -104,7 +106,7 @@ impl StandIns {
                     let error = self.distances[at][stand_in.at];
                     (stand_in, error)
                 }),
-                mean_error: curve_error(&self.known[at].curves, &self.mean(&others)),
+                mean_error: sensitivity_error(&self.known[at].sensitivities, &self.mean(&others)),
             }
         };
         (0..self.known.len()).map(left_out).collect()
@@ -123,9 +125,10 @@ impl StandIns {
     }
 
     fn mean(&self, among: &[usize]) -> [Vec<f64>; 3] {
-        let bands = self.known[0].curves[0].len();
+        let bands = self.known[0].sensitivities[0].len();
         let mean = |channel: usize, band: usize| {
-            among.iter().map(|at| self.known[*at].curves[channel][band]).sum::<f64>() / among.len() as f64
+            among.iter().map(|at| self.known[*at].sensitivities[channel][band]).sum::<f64>()
+                / among.len() as f64
         };
         [0, 1, 2].map(|channel| (0..bands).map(|band| mean(channel, band)).collect())
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::Result;
-use crate::scene::GivenKernel;
+use crate::scene::ExternalKernel;
 
 /// A kernel as NPY files, in place of a scene.
 #[derive(Args, Clone, Debug)]
@@ -26,9 +26,9 @@ impl KernelArgs {
     /// The kernel, if one is given.
     ///
     /// # Errors
-    /// As [`GivenKernel::read`].
-    pub fn given(&self) -> Result<Option<GivenKernel>> {
-        let read = |kernel| GivenKernel::read(kernel, self.irradiance.as_deref(), self.areas.as_deref());
+    /// As [`ExternalKernel::read`].
+    pub fn external(&self) -> Result<Option<ExternalKernel>> {
+        let read = |kernel| ExternalKernel::read(kernel, self.irradiance.as_deref(), self.areas.as_deref());
         self.kernel.as_deref().map(read).transpose()
     }
 }

@@ -20,10 +20,10 @@ pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
 /// What clap says of arguments, on one line: its usage is that of `--help`.
 pub(super) fn misuse(rendered: &str) -> String {
     let paragraphs = rendered.trim_start_matches("error: ").split("\n\n");
-    let said = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
-    let said =
-        said.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ");
-    NUMBERS.iter().fold(said, |said, (theirs, ours)| said.replace(theirs, ours))
+    let text = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
+    let text =
+        text.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>().join("; ");
+    NUMBERS.iter().fold(text, |text, (theirs, ours)| text.replace(theirs, ours))
 }
 
 /// What Rust says of text that is no number, and what people say.

@@ -14,17 +14,17 @@ pub(super) fn stream_page() -> String {
 
 fn records() -> String {
     let mut page = Roff::new();
-    for RecordOutline { kind, about, writers, fields } in outline() {
-        page.control("SS", [kind.as_str()]).text([roman(about + &written(writers.as_deref()))]);
+    for RecordOutline { kind, description, writers, fields } in outline() {
+        page.control("SS", [kind.as_str()]).text([roman(description + &written(writers.as_deref()))]);
         fields.iter().for_each(|field| add(field, &mut page));
     }
     page.to_roff()
 }
 
-fn add(FieldOutline { path, holds, about, writers }: &FieldOutline, page: &mut Roff) {
+fn add(FieldOutline { path, holds, description, writers }: &FieldOutline, page: &mut Roff) {
     page.control("TP", [])
         .text([bold(path), roman("  "), italic(holds)])
-        .text([roman(about.clone() + &written(writers.as_deref()))]);
+        .text([roman(description.clone() + &written(writers.as_deref()))]);
 }
 
 /// The sentence on who writes something, if that is said.

@@ -19,7 +19,7 @@ pub fn refuse(
     problem: &str,
     remedy: &str,
 ) -> Result<()> {
-    match flags.into_iter().find(|(_, is_given)| *is_given) {
+    match flags.into_iter().find(|(_, is_present)| *is_present) {
         Some((flag, _)) => Err(Error::usage(flag, problem, remedy)),
         None => Ok(()),
     }

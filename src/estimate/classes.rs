@@ -10,7 +10,7 @@ use crate::solve::Eigen;
 const HALVINGS: u32 = 3;
 /// A class is halved if the whole set has that many spectra for each of the halves.
 const SPECTRA_A_CLASS: usize = 80;
-/// Principal coordinates of the set in which classes are told apart.
+/// Principal coordinates of the set in which classes are distinguished.
 const COORDINATES: usize = 15;
 /// Passes of expectation maximisation.
 const PASSES: usize = 40;

@@ -1,12 +1,12 @@
 //! What speaks against an estimate.
 
-/// Residuals, in units of their expected size, up to which facets are explained.
+/// Reduced chi up to which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
 
-/// How far an estimate can be believed.
+/// How far an estimate can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Nothing speaks against it: its error bars hold, if what was told of light and camera is true.
+    /// Nothing speaks against it: its error bars hold, if light and camera are as stated.
     Good,
     /// Something speaks against it: it may be further off than its error bars.
     Doubtful,

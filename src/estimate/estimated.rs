@@ -15,8 +15,8 @@ use crate::solve::posterior::Iteration;
 pub struct Estimate {
     /// Reflectance in every waveband, in (0, 1].
     pub reflectance: Vec<f64>,
-    /// Albedo in every waveband, of a sheet that is not taken to be Lambertian: reflectance for light from everywhere to everywhere.
-    pub total: Option<Vec<f64>>,
+    /// Bihemispherical albedo in every waveband, of a sheet that is not taken to be Lambertian.
+    pub albedo: Option<Vec<f64>>,
     /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance of the reflectance.
     /// None from a method that has no model of its error.
     pub spread: Option<DMatrix<f64>>,
@@ -26,23 +26,23 @@ pub struct Estimate {
     pub fitted: Vec<Fitted>,
     /// What of a photograph is not ideal, what the facets are surest of first.
     pub findings: Vec<photograph::Finding>,
-    /// What was not looked at, or not told by the facets of a photograph.
+    /// What was not looked at, or not determined by the facets of a photograph.
     pub skipped: Vec<Skipped>,
-    /// Root mean square of the residuals, in units of their expected size: near 1 for a good model.
+    /// Reduced chi: root mean square of the residuals, in units of their expected size; near 1 for a good model.
     pub residual_rms: f64,
     /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
     pub unexplained: f64,
     /// The kind of day on which the photograph was taken, where that is looked for.
-    pub day: Option<photograph::day::Found>,
+    pub day: Option<photograph::day::DayEstimate>,
     /// What the sheet sends out itself, if it probably does.
     pub fluorescence: Option<Fluorescence>,
     /// The light, where nobody stated it.
-    pub light: Option<light::FoundLight>,
+    pub light: Option<light::InferredLight>,
     /// Probability that no light bounces between the panels, as far as that is weighed.
     pub without_bounces: f64,
     /// Iterations.
     pub iterations: u32,
-    /// What happened in them, by runs: under all spectra, under the likeliest class to where classes are told apart, then under each class that
+    /// What happened in them, by runs: under all spectra, under the most probable class to where classes are distinguished, then under each class that
     /// was tried. Empty from a method that keeps no trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.

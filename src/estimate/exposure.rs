@@ -1,7 +1,7 @@
 //! How the exposure of a picture enters.
 
 use super::normal::Normal;
-use super::photograph::beliefs::Beliefs;
+use super::photograph::priors::Priors;
 
 /// How the exposure of the picture enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +35,11 @@ impl Exposure {
         }
     }
 
-    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](Beliefs::exposure).
+    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](Priors::exposure).
     #[must_use]
     pub fn of_photograph(self) -> Self {
         match self {
-            Self::Free => Self::Expected(Beliefs::USUAL.exposure()),
+            Self::Free => Self::Expected(Priors::USUAL.exposure()),
             stated => stated,
         }
     }

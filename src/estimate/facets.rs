@@ -50,7 +50,7 @@ pub struct Second {
 }
 
 impl Facets<'_> {
-    /// Where to set out from a reflectance, the scene being as likely as can be.
+    /// Where to set out from a reflectance, the scene being as probable as can be.
     pub fn set_out_from(&self, reflectance: &[f64]) -> DVector<f64> {
         self.gaussian.nearest(reflectance).resize_vertically(self.unknowns(), 0.0)
     }
@@ -90,7 +90,7 @@ impl Facets<'_> {
         Some((scene + fall.place, fall))
     }
 
-    fn about(&self, w: &DVector<f64>) -> ByLogit {
+    fn linearised(&self, w: &DVector<f64>) -> ByLogit {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
         let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
@@ -117,7 +117,7 @@ impl SpectrumModel for Facets<'_> {
 
     fn by_logit(&self, w: &DVector<f64>, _: &Linearised<Second>) -> DMatrix<f64> {
         let bands = self.gaussian.mean().len();
-        self.about(w).jacobian.columns(0, bands).into_owned()
+        self.linearised(w).jacobian.columns(0, bands).into_owned()
     }
 
     /// Reflectances, unknowns of the scene in their own units, exposure; where it is asked what the sheet sends out, that as a fraction of white.
@@ -233,7 +233,7 @@ impl Model for Facets<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let ByLogit { residuals, jacobian, second } = self.about(w);
+        let ByLogit { residuals, jacobian, second } = self.linearised(w);
         Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
     }
 

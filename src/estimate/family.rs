@@ -48,7 +48,7 @@ pub trait Family {
     /// A maximum counts as found within this many standard deviations of it.
     fn tolerance(&self) -> f64;
 
-    /// Whether there are dozens of hypotheses, many of which may be as likely as the first.
+    /// Whether there are dozens of hypotheses, many of which may be as probable as the first.
     fn has_many_hypotheses(&self) -> bool {
         false
     }

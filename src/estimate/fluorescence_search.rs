@@ -61,7 +61,7 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
         // where nothing explains the facets leads no further
         let start = (!is_unexplained).then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
         if let Some(sorted) = search.sort(((), 0.0), start, best + LN_EVIDENCE_HOPELESS)
-            && emitting.rms(&sorted.solution.at.residuals) < EXPLAINED * search.inflation()
+            && emitting.rms(&sorted.solution.at.residuals) < EXPLAINED * search.tempering()
         {
             best = best.max(sorted.ln_evidence);
             all.push((emitting, sorted));

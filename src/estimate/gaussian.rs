@@ -42,7 +42,7 @@ impl Gaussian {
 
     /// About the logits of a reflectance that is off by these `errors` of it, independent of each other: one a row, waveband by waveband.
     #[must_use]
-    pub fn about(reflectance: &[f64], errors: &DMatrix<f64>) -> Self {
+    pub fn centred_on(reflectance: &[f64], errors: &DMatrix<f64>) -> Self {
         let mean = DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r)));
         let mut basis = errors.transpose();
         for (mut row, z) in basis.row_iter_mut().zip(&mean) {

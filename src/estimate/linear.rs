@@ -18,7 +18,7 @@ use crate::solve::posterior::{Linearised, Model};
 const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
 const LN_EVIDENCE_NEAR: f64 = -6.0;
 /// Directions of logits that data must tell more of than is known of all spectra to tell classes apart.
-const TOLD: usize = 3;
+const TELLING_LEAST: usize = 3;
 /// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
@@ -47,8 +47,8 @@ pub struct Linear<H> {
     hypothesis: H,
     /// Logarithm of how often it is true.
     ln_share: f64,
-    /// Factor by which the noise was inflated; all that follows is in units of that noise.
-    inflation: f64,
+    /// Factor by which the noise was tempered; all that follows is in units of that noise.
+    tempering: f64,
     logit: DVector<f64>,
     others: DVector<f64>,
     by_logit: DMatrix<f64>,
@@ -57,7 +57,7 @@ pub struct Linear<H> {
     residuals: DVector<f64>,
     of_others: Cholesky<f64, Dyn>,
     /// What the data tell of logits: value by waveband, each of standard deviation 1, and how far the values are off there.
-    told: DMatrix<f64>,
+    informed: DMatrix<f64>,
     off: DVector<f64>,
     /// What no spectrum changes of the logarithm of the determinant, and of the sum of squares.
     ln_determinant: f64,
@@ -84,8 +84,8 @@ pub struct Start<H> {
     pub hypothesis: H,
     /// The place of the class of spectra in the prior.
     pub class: usize,
-    /// Factor by which the noise was inflated where it was found.
-    pub inflation: f64,
+    /// Factor by which the noise was tempered where it was found.
+    pub tempering: f64,
     /// Logarithm of the evidence and of the share, where it was found.
     pub ln_evidence: f64,
     /// Logarithm of its share of all that may be, as if all spectra of the class were as wide as `gaussian`.
@@ -96,50 +96,50 @@ pub struct Start<H> {
 }
 
 /// The maximum of the linear model under a class.
-pub struct LinearMaximum {
+pub struct LinearMode {
     pub w: DVector<f64>,
-    /// Logarithm of the evidence but for the misfit there, which the model itself tells.
+    /// Logarithm of the evidence but for the residual there, which the model itself tells.
     pub ln_evidence_of_fit: f64,
 }
 
 impl<H: Copy> Linear<H> {
-    /// About `w`, the noise `inflation` times its size, under a hypothesis that is so often true; none if the model is not finite.
+    /// About `w`, the noise `tempering` times its size, under a hypothesis that is so often true; none if the model is not finite.
     ///
     /// # Source
     /// The others marginalised: Schur complement of their information (docs/model.md).
-    pub fn about<M: SpectrumModel>(
+    pub fn laplace<M: SpectrumModel>(
         model: &M,
         (w, at): (&DVector<f64>, &Linearised<M::Second>),
-        inflation: f64,
+        tempering: f64,
         (hypothesis, ln_share): (H, f64),
     ) -> Option<Self> {
         let scene = model.gaussian().basis().ncols();
         let count = w.len() - scene;
         let others = w.rows(scene, count).into_owned();
-        let by_logit = model.by_logit(w, at) / inflation;
-        let by_others = at.jacobian.columns(scene, count) / inflation;
-        let residuals = &at.residuals / inflation + &by_others * &others;
+        let by_logit = model.by_logit(w, at) / tempering;
+        let by_others = at.jacobian.columns(scene, count) / tempering;
+        let residuals = &at.residuals / tempering + &by_others * &others;
         let mut information = by_others.tr_mul(&by_others);
         (0..count).for_each(|n| information[(n, n)] += 1.0);
         let of_others = Cholesky::new(information)?;
         let ln_determinant = of_others.ln_determinant() - 2.0 * model.ln_whitening();
-        let Told { values: told, off, left } = if count < by_logit.ncols() {
-            Told::of_few_others(&by_logit, &by_others, &residuals)
+        let Informed { values: informed, off, left } = if count < by_logit.ncols() {
+            Informed::of_few_others(&by_logit, &by_others, &residuals)
         } else {
-            Told::of_many_others(&by_logit, &by_others, &residuals, &of_others)
+            Informed::of_many_others(&by_logit, &by_others, &residuals, &of_others)
         };
         let logit = model.gaussian().logit_at(&w.rows(0, scene).into_owned());
         Some(Self {
             hypothesis,
             ln_share,
-            inflation,
+            tempering,
             logit,
             others,
             by_logit,
             by_others,
             residuals,
             of_others,
-            told,
+            informed,
             off,
             ln_determinant,
             left,
@@ -153,29 +153,29 @@ impl<H: Copy> Linear<H> {
     /// # Source
     /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an orthogonal transformation.
     pub fn condense(&mut self) {
-        let qr = self.told.clone().col_piv_qr();
-        let mut told = qr.r();
-        let count = (0..told.nrows()).take_while(|n| told[(*n, *n)].powi(2) > NEGLIGIBLE).count();
-        qr.p().inv_permute_columns(&mut told);
+        let qr = self.informed.clone().col_piv_qr();
+        let mut informed = qr.r();
+        let count = (0..informed.nrows()).take_while(|n| informed[(*n, *n)].powi(2) > NEGLIGIBLE).count();
+        qr.p().inv_permute_columns(&mut informed);
         let mut off = self.off.clone();
         qr.q_tr_mul(&mut off);
         self.left += off.rows(count, off.len() - count).norm_squared();
-        (self.told, self.off) = (told.rows(0, count).into_owned(), off.rows(0, count).into_owned());
+        (self.informed, self.off) = (informed.rows(0, count).into_owned(), off.rows(0, count).into_owned());
     }
 
     /// Whether the data tell so much of a spectrum that classes of less evidence may be left out.
     pub fn is_telling(&self, gaussian: &Gaussian) -> bool {
-        let spread = &self.told * gaussian.basis();
-        if spread.nrows() < TOLD || spread.iter().any(|value| !value.is_finite()) {
+        let spread = &self.informed * gaussian.basis();
+        if spread.nrows() < TELLING_LEAST || spread.iter().any(|value| !value.is_finite()) {
             return false;
         }
         let information = Eigen::of_symmetric(&spread * spread.transpose()).values;
-        information.iter().filter(|value| **value > 1.0).count() >= TOLD
+        information.iter().filter(|value| **value > 1.0).count() >= TELLING_LEAST
     }
 }
 
 /// What data tell of logits whatever the others are.
-struct Told {
+struct Informed {
     /// Value by waveband, each of standard deviation 1.
     values: DMatrix<f64>,
     /// How far the values are off.
@@ -184,7 +184,7 @@ struct Told {
     left: f64,
 }
 
-impl Told {
+impl Informed {
     /// By orthogonal transformations: information would lose half of the digits of precise data.
     ///
     /// # Source
@@ -220,13 +220,13 @@ impl Told {
         let off = by_logit.tr_mul(residuals) - left.tr_mul(&by_others_off);
         let Eigen { values, vectors } = Eigen::of_symmetric(information);
         let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
-        let told = DMatrix::from_fn(kept.len(), by_logit.ncols(), |row, band| {
+        let informed = DMatrix::from_fn(kept.len(), by_logit.ncols(), |row, band| {
             values[kept[row]].sqrt() * vectors[(band, kept[row])]
         });
         let off = kept.iter().map(|n| vectors.column(*n).dot(&off) / values[*n].sqrt());
         let off = DVector::from_iterator(kept.len(), off);
         let explained = by_others_off.dot(&of_others.solve(&by_others_off)) + off.norm_squared();
-        Self { values: told, off, left: residuals.norm_squared() - explained }
+        Self { values: informed, off, left: residuals.norm_squared() - explained }
     }
 }
 
@@ -250,8 +250,8 @@ struct AtWidths {
 
 impl LinearClass {
     fn new<H>(linear: &Linear<H>, class: &Class) -> Self {
-        let off = &linear.off + &linear.told * (&linear.logit - class.mean());
-        let own = &linear.told * class.own();
+        let off = &linear.off + &linear.informed * (&linear.logit - class.mean());
+        let own = &linear.informed * class.own();
         Self { off, by_class: &own * own.transpose() }
     }
 
@@ -303,18 +303,18 @@ pub fn candidates<F: Family>(
 ) -> Vec<Candidate<F::Hypothesis>> {
     let mut first = Vec::new();
     for linear in linears.into_iter().map(Rc::new) {
-        let by_beyond = Rc::new(&linear.told * prior.beyond() * linear.told.transpose());
+        let by_beyond = Rc::new(&linear.informed * prior.beyond() * linear.informed.transpose());
         let known = -0.5 * (linear.ln_determinant + linear.left);
         let ln_shares = family.ln_class_shares(linear.hypothesis, prior);
         for (class, (of_prior, ln_share)) in prior.classes().iter().zip(ln_shares).enumerate() {
             let ln_share = linear.ln_share + ln_share;
-            let told = LinearClass::new(&linear, of_prior);
-            if let Some(at) = told.at_widths(&by_beyond, FIRST_WIDTHS.into_iter()) {
+            let informed = LinearClass::new(&linear, of_prior);
+            if let Some(at) = informed.at_widths(&by_beyond, FIRST_WIDTHS.into_iter()) {
                 first.push((
                     known + ln_share + at.ln_evidence,
                     (known, ln_share),
                     class,
-                    told,
+                    informed,
                     Rc::clone(&linear),
                     Rc::clone(&by_beyond),
                 ));
@@ -323,9 +323,9 @@ pub fn candidates<F: Family>(
     }
     let most = first.iter().map(|(ln_evidence, ..)| *ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let near = first.into_iter().filter(|(ln_evidence, ..)| *ln_evidence >= most + LN_EVIDENCE_NEAR);
-    let weighed = near.filter_map(|(_, (known, ln_share), class, told, linear, by_beyond)| {
-        let AtWidths { ln_evidence, scale, roughness } = told.at_widths(&by_beyond, Width::all())?;
-        let of_width = told.ln_evidence(&by_beyond, scale, roughness)?;
+    let weighed = near.filter_map(|(_, (known, ln_share), class, informed, linear, by_beyond)| {
+        let AtWidths { ln_evidence, scale, roughness } = informed.at_widths(&by_beyond, Width::all())?;
+        let of_width = informed.ln_evidence(&by_beyond, scale, roughness)?;
         Some(Candidate {
             linear,
             class,
@@ -358,15 +358,15 @@ impl<H: Copy> Candidate<H> {
 
     /// Where to look for the maximum: where the linear model has it or, if that is further off, where that model was made.
     pub fn start<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Option<Start<H>> {
-        let Linear { hypothesis, inflation, .. } = *self.linear;
+        let Linear { hypothesis, tempering, .. } = *self.linear;
         let gaussian = self.gaussian(prior);
         let model = family.model(hypothesis, &gaussian)?;
-        let cost = |w: &DVector<f64>| (model.residuals(w) / inflation).norm_squared() + w.norm_squared();
+        let cost = |w: &DVector<f64>| (model.residuals(w) / tempering).norm_squared() + w.norm_squared();
         let (maximum, here) = (self.maximum(&gaussian)?.w, self.in_coordinates_of(&gaussian)?);
         let w = if cost(&here) < cost(&maximum) { here } else { maximum };
         let Self { class, ln_evidence, ln_share, .. } = *self;
         drop(model);
-        Some(Start { hypothesis, class, inflation, ln_evidence, ln_share, gaussian, w })
+        Some(Start { hypothesis, class, tempering, ln_evidence, ln_share, gaussian, w })
     }
 
     /// Where the linear model was made in the coordinates of a Gaussian, as nearly as that has it.
@@ -379,21 +379,18 @@ impl<H: Copy> Candidate<H> {
     }
 
     /// The maximum of the linear model under a Gaussian of spectra.
-    pub fn maximum(&self, own: &Gaussian) -> Option<LinearMaximum> {
+    pub fn maximum(&self, own: &Gaussian) -> Option<LinearMode> {
         let linear = &self.linear;
         let away = &linear.logit - own.mean();
-        let spread = &linear.told * own.basis();
+        let spread = &linear.informed * own.basis();
         let mut covariance = &spread * spread.transpose();
         (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
         let factor = Cholesky::new(covariance)?;
-        let spectrum = spread.tr_mul(&factor.solve(&(&linear.off + &linear.told * &away)));
+        let spectrum = spread.tr_mul(&factor.solve(&(&linear.off + &linear.informed * &away)));
         let left = &linear.residuals + &linear.by_logit * (away - own.basis() * &spectrum);
         let w = joined(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));
         let ln_determinant = factor.ln_determinant() + linear.ln_determinant;
-        Some(LinearMaximum {
-            ln_evidence_of_fit: self.ln_share - 0.5 * (w.norm_squared() + ln_determinant),
-            w,
-        })
+        Some(LinearMode { ln_evidence_of_fit: self.ln_share - 0.5 * (w.norm_squared() + ln_determinant), w })
     }
 }
 

@@ -11,7 +11,7 @@ use super::alternatives::Alternatives;
 use super::data::FacetData;
 use super::facets::{Facets, Second};
 use super::fluorescence_search::{self, Fluorescing};
-use super::light::{Likelier, Others, likelier};
+use super::light::{Others, RivalLight, rival};
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::search::{Search, Sorted};
@@ -26,7 +26,7 @@ use crate::solve::posterior::Iteration;
 const SUPPORTED: f64 = 0.8;
 const EXPOSURE_SUPPORTED: f64 = 0.5;
 
-/// Noise so many times less than that at which classes of spectra are told apart.
+/// Noise so many times less than that at which classes of spectra are distinguished.
 const PRECISE: f64 = 10.0;
 
 /// What happened, by runs.
@@ -44,7 +44,7 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Resul
     Ok(estimate_in_stated_light(data, prior, start, None)?.0)
 }
 
-/// The same, and the light that is likelier than the stated one, if there is any among `others`.
+/// The same, and the light that is more probable than the stated one, if there is any among `others`.
 ///
 /// # Errors
 /// As [`estimate`].
@@ -53,20 +53,19 @@ pub fn estimate_in_stated_light(
     prior: &Prior,
     start: Option<&[f64]>,
     others: Option<&Others>,
-) -> Result<(Estimate, Option<Likelier>)> {
+) -> Result<(Estimate, Option<RivalLight>)> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
     let sorted = Sortings::of(data, prior, start).ok_or_else(not_finite)?;
-    let likelier =
-        others.and_then(|others| likelier(data, (&sorted.plain, &sorted.fluorescing), others, prior));
+    let rival = others.and_then(|others| rival(data, (&sorted.plain, &sorted.fluorescing), others, prior));
     let (found, trace) = sorted.most_probable(data, prior).ok_or_else(not_finite)?;
     let Some((unknown, bound)) = impossible(data, &found.mixture) else {
-        return Ok((found.estimate(data, &found.mixture, trace), likelier));
+        return Ok((found.estimate(data, &found.mixture, trace), rival));
     };
-    // The maximum lies on the bound; how far off it may be is told from what lies on both of its sides.
+    // The maximum lies on the bound; how far off it may be is measured from both of its sides.
     let known = data.with_known(unknown, bound);
     let on_bound = Sortings::of(&known, prior, start).and_then(|sorted| sorted.most_probable(&known, prior));
     let (on_bound, more) = on_bound.ok_or_else(not_finite)?;
-    Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), likelier))
+    Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), rival))
 }
 
 /// Facets under all spectra as one: as those of a sheet that sends out nothing, then with whatever it may send out.
@@ -77,7 +76,7 @@ struct Sortings<'a> {
 }
 
 /// The mean of all maxima, and what it is a mean over.
-struct Found<'a> {
+struct Searched<'a> {
     mixture: Mixture<usize, Second>,
     alternatives: Alternatives<'a>,
 }
@@ -89,28 +88,28 @@ impl<'a> Sortings<'a> {
         let start = start.map(|start| all.set_out_from(start));
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
         // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that does
-        let is_asked = search.inflation() <= PRECISE;
+        let is_asked = search.tempering() <= PRECISE;
         let fluorescing =
             if is_asked { fluorescence_search::may_be(data, &plain, prior) } else { Vec::new() };
         Some(Self { plain, fluorescing, trace: search.trace })
     }
 
-    /// The mean of all maxima, whether or not all unknowns of the scene can be so, and what happened.
-    fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Found<'a>, Trace)> {
+    /// The mean of all modes, unconstrained by the ranges of the unknowns, and what happened.
+    fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Searched<'a>, Trace)> {
         let Self { plain, fluorescing, trace } = self;
         let asked = !fluorescing.is_empty();
-        let (found, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
+        let (found, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
         let trace = [trace, more].concat();
-        let (rms, inflation) = (found.mixture.best.rms, Search::new(data, prior).inflation());
+        let (rms, tempering) = (found.mixture.best.rms, Search::new(data, prior).tempering());
         // precise facets that are as far off as a noise at which more is asked may be those of a sheet that fluoresces
-        let is_open = inflation > PRECISE && rms > inflation;
+        let is_open = tempering > PRECISE && rms > tempering;
         if rms < EXPLAINED || !(asked || is_open) {
             return Some((found, trace));
         }
         // evidence of sheets that do not explain the facets says nothing
         let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
         let fluorescing = if asked { Vec::new() } else { fluorescence_search::may_be(data, &plain, prior) };
-        let (other, more) = Found::among(with_plain(data, plain, fluorescing)?, prior)?;
+        let (other, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
         let explains = asked || other.mixture.best.rms < EXPLAINED;
         Some((if explains { other } else { found }, [trace, more].concat()))
     }
@@ -127,7 +126,7 @@ fn with_plain<'a>(
     Some(iter::once((of_plain, plain)).chain(fluorescing).collect())
 }
 
-impl<'a> Found<'a> {
+impl<'a> Searched<'a> {
     fn among(all: Vec<Fluorescing<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
@@ -191,7 +190,7 @@ pub(super) fn into_estimate<H>(
         supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
     });
     Estimate {
-        total: None,
+        albedo: None,
         // shares of a mean may add up to a rounding more than 1
         reflectance: found.values[..bands].iter().map(|r| r.min(1.0)).collect(),
         fitted: of_exposure.into_iter().chain(of_unknowns).collect(),

@@ -1,5 +1,5 @@
 //! The estimate of a sheet under a prior, as `vestimate` makes it: which method its facets ask for, and how far what comes of it can be
-//! believed.
+//! assumed.
 //!
 //! Computed facets are those of an ideal fold. A photograph is taken for one of a real sheet, unless somebody said what is to be fitted, or the
 //! scene is one in which real sheets are not modelled.
@@ -8,10 +8,10 @@ use std::slice;
 
 use super::data::FacetData;
 use super::fluorescence::Fluorescence;
-use super::light::{self, Candidate, Likelier, Others, Shown};
+use super::light::{self, Candidate, Others, RivalLight, Shown};
 use super::measured::Measured;
 use super::photograph::day::Day;
-use super::photograph::{self, Parts, SheetEstimate, Told, Unmodelled};
+use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled};
 use super::prior::Prior;
 use super::shading::Shading;
 use super::shadow::Shadow;
@@ -28,7 +28,7 @@ use crate::image::Making;
 /// Least change of facets that counts, in standard deviations.
 pub const CUTOFF: f64 = 1e-2;
 
-/// How much likelier facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused: ten thousand times. Who
+/// How much more probable facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused: ten thousand times. Who
 /// joins photographs seldom errs, and lights that are off from what was stated make one sheet look like two.
 const LN_SEVERAL: f64 = 9.2;
 
@@ -88,7 +88,7 @@ pub struct Measurement {
     pub wavelengths_nm: Vec<f64>,
     /// The spectrum, with what was found along with it.
     pub estimate: Estimate,
-    /// How far it can be believed.
+    /// How far it can be trusted.
     pub verdict: Verdict,
     /// Why a photograph that an ideal fold does not explain was taken for one all the same: its error bars lack what that changes.
     pub unmodelled: Option<Unmodelled>,
@@ -115,7 +115,7 @@ impl<'a> Inference<'a> {
         Ok(if is_photograph { data.without_fluorescence() } else { data })
     }
 
-    /// The spectrum of a sheet, by the method that its facets ask for, and how far it can be believed.
+    /// The spectrum of a sheet, by the method that its facets ask for, and how far it can be trusted.
     ///
     /// # Arguments
     /// - `data`: the same facets, as [`Inference::data`] has them.
@@ -137,7 +137,7 @@ impl<'a> Inference<'a> {
                 let estimate = light::estimate_photograph(
                     parts,
                     self.lights,
-                    self.shown.and_then(|shown| shown.ways.as_ref()),
+                    self.shown.and_then(|shown| shown.scenarios.as_ref()),
                     self.prior,
                 )?;
                 return Ok(self.judged(facets, estimate, doubts));
@@ -151,38 +151,39 @@ impl<'a> Inference<'a> {
             Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
         let shown = self.shown.and_then(|shown| shown.daylight);
-        let lit =
-            shown.map(|shown| Parts { told: Told { shown: Some(shown), ..parts.told }, ..parts.clone() });
+        let lit = shown.map(|shown| Parts {
+            stated: StatedScene { shown: Some(shown), ..parts.stated },
+            ..parts.clone()
+        });
         let mut real = photograph::estimate(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
         let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         let day = real.day.map(|found| found.day);
-        let likelier = self
-            .other_lights
-            .and_then(|others| light::likelier_in_photograph(parts, day, others, self.prior));
-        doubts.splice(0..0, self.doubt_of_light(likelier));
+        let rival =
+            self.other_lights.and_then(|others| light::rival_in_photograph(parts, day, others, self.prior));
+        doubts.splice(0..0, self.doubt_of_light(rival));
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
         }
         if self.is_auto {
             return Ok(self.judged(facets, real, doubts));
         }
-        doubts.extend(other_angle(&real, parts.told.angle_deg));
+        doubts.extend(other_angle(&real, parts.stated.angle_deg));
         let estimate = Estimate { without_bounces: real.without_bounces, ..ideal()? };
         Ok(self.judged(facets, estimate, doubts))
     }
 
     /// The spectrum of a sheet from facets that were computed.
     fn of_computed(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
-        let (estimate, likelier) = match self.lights {
+        let (estimate, rival) = match self.lights {
             [] => map::estimate_in_stated_light(data, self.prior, self.start, self.other_lights)?,
             lights => (light::estimate(data, lights, self.prior, self.start)?, None),
         };
-        let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(likelier)).into_iter();
+        let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(rival)).into_iter();
         let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
         Ok(self.judged(facets, estimate, doubts))
     }
 
-    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how far it can be believed.
+    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how far it can be trusted.
     #[must_use]
     pub fn share(&self, facets: &Facets, estimate: Estimate) -> Measurement {
         let doubts = facets.photograph.map(|photograph| self.doubts_of_taking(photograph));
@@ -201,9 +202,9 @@ impl<'a> Inference<'a> {
         self.shown?.doubt(self.stated.lights.first().map(String::as_str))
     }
 
-    /// What another light that is likelier says against the one that was stated.
-    fn doubt_of_light(&self, likelier: Option<Likelier>) -> Option<Doubt> {
-        Some(likelier?.doubt(self.stated.lights.first()?))
+    /// What another light that is more probable says against the one that was stated.
+    fn doubt_of_light(&self, rival: Option<RivalLight>) -> Option<Doubt> {
+        Some(rival?.doubt(self.stated.lights.first()?))
     }
 
     /// An estimate with the verdict on it, `doubts` being known already.
@@ -235,7 +236,7 @@ impl<'a> Inference<'a> {
                 let one = estimate.fitted.iter().find(|one| one.unknown == unknown);
                 one.map(|one| one.value)
             };
-            let model = self.model.with_found(found);
+            let model = self.model.with_fitted(found);
             let light = estimate.light.as_ref().and_then(|light| light.most_probable(self.lights));
             let ideal = match light {
                 Some(light) => model.in_light(&light.camera).facet_rgb(&estimate.reflectance),
@@ -269,7 +270,7 @@ pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> R
     let more = apart - together.ln_evidence;
     if more > LN_SEVERAL {
         let problem = format!(
-            "{} are not photographs of one sheet: facets are e^{more:.0} times likelier as those of several; join those of one",
+            "{} are not photographs of one sheet: the evidence favours separate sheets (log Bayes factor {more:.0}); join only photographs of one sheet",
             names.join(", ")
         );
         return Err(Error::field("id", problem));

@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::family::{Family, SpectrumModel};
-use super::linear::{Candidate, LinearMaximum, Start};
+use super::linear::{Candidate, LinearMode, Start};
 use super::prior::Prior;
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Linearised, Model, Solution};
 
 /// The maximum under a hypothesis and a class of spectra.
-pub struct Maximum<H, S> {
+pub struct LocalMode<H, S> {
     /// Where the search ended.
     pub start: Start<H>,
     pub at: Linearised<S>,
@@ -25,7 +25,7 @@ pub struct Maximum<H, S> {
 }
 
 /// A class that was not searched, where the linear model has its maximum.
-pub struct Beside<H> {
+pub struct Unsearched<H> {
     hypothesis: H,
     pub ln_evidence: f64,
     values: Vec<f64>,
@@ -37,29 +37,29 @@ pub struct Mixture<H, S> {
     pub values: Vec<f64>,
     pub spread: Option<DMatrix<f64>>,
     /// The maximum of most evidence.
-    pub best: Maximum<H, S>,
+    pub best: LocalMode<H, S>,
     /// Hypotheses by how probable they are, which adds up to 1; one stands there as often as classes of spectra count under it.
     pub shares: Vec<(H, f64)>,
     /// Logarithm of the evidence for all.
     pub ln_evidence: f64,
 }
 
-impl<H: Copy, S> Maximum<H, S> {
+impl<H: Copy, S> LocalMode<H, S> {
     /// Where a search from `start` ended.
-    pub fn of<M: SpectrumModel<Second = S>>(model: &M, found: Solution<S>, start: Start<H>) -> Self {
-        let ln_evidence = found
+    pub fn of<M: SpectrumModel<Second = S>>(model: &M, solution: Solution<S>, start: Start<H>) -> Self {
+        let ln_evidence = solution
             .ln_evidence(1.0)
             .map_or(f64::NEG_INFINITY, |ln_evidence| ln_evidence + model.ln_whitening() + start.ln_share);
         Self {
             ln_evidence,
-            values: model.values(&found.w),
-            spread: model.spread(&found.w, &found.at),
-            rms: model.rms(&found.at.residuals),
-            surprise: found.surprise(1.0),
-            start: Start { w: found.w, inflation: 1.0, ..start },
-            at: found.at,
-            trace: found.trace,
-            termination: found.termination,
+            values: model.values(&solution.w),
+            spread: model.spread(&solution.w, &solution.at),
+            rms: model.rms(&solution.at.residuals),
+            surprise: solution.surprise(1.0),
+            start: Start { w: solution.w, tempering: 1.0, ..start },
+            at: solution.at,
+            trace: solution.trace,
+            termination: solution.termination,
         }
     }
 
@@ -70,7 +70,7 @@ impl<H: Copy, S> Maximum<H, S> {
     }
 }
 
-impl<H: Copy> Beside<H> {
+impl<H: Copy> Unsearched<H> {
     /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is not finite.
     pub fn of<F: Family<Hypothesis = H>>(
         family: &F,
@@ -79,7 +79,7 @@ impl<H: Copy> Beside<H> {
     ) -> Option<Self> {
         let hypothesis = candidate.hypothesis();
         let gaussian = candidate.gaussian(prior);
-        let LinearMaximum { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
+        let LinearMode { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
         let model = family.model(hypothesis, &gaussian)?;
         let ln_evidence = ln_evidence_of_fit - 0.5 * model.residuals(&w).norm_squared();
         ln_evidence.is_finite().then(|| Self { hypothesis, ln_evidence, values: model.values(&w) })
@@ -87,23 +87,23 @@ impl<H: Copy> Beside<H> {
 }
 
 impl<H: Copy, S> Mixture<H, S> {
-    /// The mean of the maxima and of what is `beside` them by evidence, its errors widened by how far they are from it. What was not searched
+    /// The mean of the maxima and of what is `unsearched` them by evidence, its errors widened by how far they are from it. What was not searched
     /// counts for no more than the best that was, and is taken to be known as the maxima are in the mean. None if there is no maximum.
-    pub fn of(mut maxima: Vec<Maximum<H, S>>, beside: &[Beside<H>]) -> Option<Self> {
-        maxima.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
-        let most = maxima.first()?;
-        let all = maxima.iter().map(|one| (one.ln_evidence, &one.values));
-        let all: Vec<_> = all.chain(beside.iter().map(|one| (one.ln_evidence, &one.values))).collect();
+    pub fn of(mut modes: Vec<LocalMode<H, S>>, unsearched: &[Unsearched<H>]) -> Option<Self> {
+        modes.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
+        let most = modes.first()?;
+        let all = modes.iter().map(|one| (one.ln_evidence, &one.values));
+        let all: Vec<_> = all.chain(unsearched.iter().map(|one| (one.ln_evidence, &one.values))).collect();
         let odds: Vec<f64> = all.iter().map(|(ln, _)| (ln - most.ln_evidence).min(0.0).exp()).collect();
-        let (sum, of_maxima) = (odds.iter().sum::<f64>(), odds[..maxima.len()].iter().sum::<f64>());
+        let (sum, of_modes) = (odds.iter().sum::<f64>(), odds[..modes.len()].iter().sum::<f64>());
         let mut values = DVector::zeros(most.values.len());
         for ((_, own), odds) in all.iter().zip(&odds) {
             values.axpy(odds / sum, &DVector::from_column_slice(own), 1.0);
         }
-        let within = maxima
+        let within = modes
             .iter()
             .zip(&odds)
-            .map(|(one, odds)| one.spread.as_ref().map(|spread| (odds / of_maxima).sqrt() * spread));
+            .map(|(one, odds)| one.spread.as_ref().map(|spread| (odds / of_modes).sqrt() * spread));
         let within: Option<Vec<_>> = within.collect();
         let spread = within.map(|within| {
             let apart = all.iter().zip(&odds).map(|((_, own), odds)| {
@@ -113,9 +113,9 @@ impl<H: Copy, S> Mixture<H, S> {
             DMatrix::from_rows(&rows.chain(apart).collect::<Vec<_>>())
         });
         let ln_evidence = most.ln_evidence + sum.ln();
-        let hypotheses = maxima.iter().map(|one| one.start.hypothesis);
-        let hypotheses = hypotheses.chain(beside.iter().map(|one| one.hypothesis));
+        let hypotheses = modes.iter().map(|one| one.start.hypothesis);
+        let hypotheses = hypotheses.chain(unsearched.iter().map(|one| one.hypothesis));
         let shares = hypotheses.zip(odds.iter().map(|odds| odds / sum)).collect();
-        Some(Self { values: values.data.into(), spread, shares, best: maxima.swap_remove(0), ln_evidence })
+        Some(Self { values: values.data.into(), spread, shares, best: modes.swap_remove(0), ln_evidence })
     }
 }

@@ -39,4 +39,4 @@ pub mod verdict;
 pub use estimated::Estimate;
 pub use exposure::Exposure;
 pub use unknowns::Fitted;
-pub use verdict::MISFIT;
+pub use verdict::WRONG_CHI;

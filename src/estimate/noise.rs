@@ -25,7 +25,7 @@ pub struct Noise {
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoiseSource {
     /// All have this standard deviation, white being 1.
-    Given(f64),
+    Stated(f64),
     /// Each has its own.
     OfFacets(FacetValues),
     /// The facets, by what no reflectance explains of them.
@@ -46,7 +46,7 @@ impl Noise {
     pub fn deviations(&self, model: &FacetModel, rgb: &FacetValues) -> Result<FacetValues> {
         let of_channels = |noise: &[f64], channel: usize| noise.get(channel).copied().unwrap_or(0.0);
         match &self.source {
-            NoiseSource::Given(sd) => Ok(deviations(rgb, |_| *sd, self.model_error)),
+            NoiseSource::Stated(sd) => Ok(deviations(rgb, |_| *sd, self.model_error)),
             NoiseSource::OfFacets(sd) => {
                 if sd.len() != rgb.len() {
                     let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
@@ -83,7 +83,7 @@ pub fn deviations(rgb: &FacetValues, noise_sd: impl Fn([usize; 2]) -> f64, model
     rgb.map(|place, value| noise_sd(place).hypot(model_error * value).hypot(floor))
 }
 
-/// Noise of each channel, told from the facets alone: the root mean square of what no reflectance explains.
+/// Noise of each channel, from the facets alone: the root mean square of what no reflectance explains.
 ///
 /// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
 /// directions are noise. Zero where the terms can be any facets.

@@ -10,7 +10,7 @@ use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result};
 
 /// Correlation length and standard deviation, in logit, of what spectra do that the set behind a prior does not, all spectra being one
-/// Gaussian; classes are told apart with it, too.
+/// Gaussian; classes are distinguished with it, too.
 const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
 /// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little and materials differ most;

@@ -1,7 +1,7 @@
 //! The most probable spectrum under all hypotheses and all classes of spectra: one search for whatever has a prior.
 //!
 //! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there says which classes of spectra are likely under it
-//! ([`linear`](super::linear)). Those of most evidence are searched to their own maxima, and the estimate is the mean of these by their evidence
+//! ([`linear`](super::linear)). Those of most evidence are searched to their own modes, and the estimate is the mean of these by their evidence
 //! ([`mixture`](super::mixture)).
 
 use nalgebra::DVector;
@@ -9,31 +9,31 @@ use nalgebra::DVector;
 use super::family::{Family, SpectrumModel};
 use super::gaussian::Gaussian;
 use super::linear::{Candidate, Linear, Start, candidates};
-use super::mixture::{Beside, Maximum, Mixture};
+use super::mixture::{LocalMode, Mixture, Unsearched};
 use super::most_evidence::{APART, of_most_evidence};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
 use crate::solve::Termination;
 use crate::solve::forecast::{ScoreTest, foreseen_cost};
-use crate::solve::posterior::{Iteration, Limits, Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, first_tempering};
 
-/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are told apart within so
+/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are distinguished within so
 /// many times the [tolerance](Family::tolerance).
 const SORTING_TOLERANCE: f64 = 0.3;
 const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
-/// Classes are told apart at these noises, relative to the brightest datum, or at the true one if that is larger: at the coarse one all spectra
-/// lead to where the model is nearly linear, at the fine one the likeliest class of these does.
+/// Classes are distinguished at these noises, relative to the brightest datum, or at the true one if that is larger: at the coarse one all spectra
+/// lead to where the model is nearly linear, at the fine one the most probable class of these does.
 const SORTING_NOISE: f64 = 1e-3;
 const FINE_NOISE: f64 = 1e-5;
 /// The search that leads there ends so near to its maximum, in standard deviations, or after so many iterations.
 const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
 /// The least evidence, as the logarithm of its share of the first's, for one that counts without a search, how many do, and how many of many hypotheses.
-const BESIDE_LN_EVIDENCE_LEAST: f64 = -4.0;
-const BESIDE: usize = 15;
-const BESIDE_OF_MANY: usize = 100;
-/// Hypotheses whose likeliest class comes so near to that of the best, likewise, are followed to the fine noise, and so many of them at most.
+const UNSEARCHED_LN_EVIDENCE_LEAST: f64 = -4.0;
+const UNSEARCHED: usize = 15;
+const UNSEARCHED_OF_MANY: usize = 100;
+/// Hypotheses whose most probable class comes so near to that of the best, likewise, are followed to the fine noise, and so many of them at most.
 const FOLLOWED_LN_EVIDENCE_LEAST: f64 = -8.0;
 const FOLLOWED: usize = 8;
 /// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which may be of another scene than was
@@ -50,14 +50,14 @@ const ANOTHER_LIMIT: usize = 20;
 const CARRIED_ON: usize = 40;
 /// A maximum explains the data if it leaves them within so many times their noise; further off the scene is not the one that was
 /// photographed, and evidence says nothing.
-const MISFIT_MOST: f64 = 1.1;
+const REDUCED_CHI_MOST: f64 = 1.1;
 
 /// A hypothesis under all spectra as one Gaussian.
 pub struct Sorted<H, S> {
     pub hypothesis: H,
     /// Logarithm of how often it is true.
     pub ln_share: f64,
-    /// Logarithm of its evidence, the noise as it was inflated.
+    /// Logarithm of its evidence, the noise as it was tempered.
     pub ln_evidence: f64,
     pub solution: Solution<S>,
 }
@@ -79,7 +79,7 @@ impl<H, S> Sorted<H, S> {
 pub struct Search<'a, F: Family> {
     family: &'a F,
     prior: &'a Prior,
-    /// Factors by which the noise is inflated while hypotheses and classes are told apart.
+    /// Factors by which the noise is tempered while hypotheses and classes are distinguished.
     coarse: f64,
     fine: f64,
     /// What happened, by runs.
@@ -88,7 +88,7 @@ pub struct Search<'a, F: Family> {
     pub skipped: usize,
 }
 
-type Maxima<F> = Vec<Maximum<<F as Family>::Hypothesis, <F as Family>::Second>>;
+type LocalModes<F> = Vec<LocalMode<<F as Family>::Hypothesis, <F as Family>::Second>>;
 
 impl<'a, F: Family> Search<'a, F> {
     pub fn new(family: &'a F, prior: &'a Prior) -> Self {
@@ -106,10 +106,10 @@ impl<'a, F: Family> Search<'a, F> {
     ) -> Option<Sorted<F::Hypothesis, F::Second>> {
         let model = self.family.model(hypothesis, self.prior.broad())?;
         let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
-        let first = first_inflation(&model, &start, self.coarse);
+        let first = first_tempering(&model, &start, self.coarse);
         let cost = 2.0 * (model.ln_whitening() + ln_share - ln_least);
         let limits = Limits { iterations: SORTING_LIMIT, cost };
-        let solution = maximise(&model, start, (first, self.coarse), SORTING_TOLERANCE, limits);
+        let solution = find_mode(&model, start, (first, self.coarse), SORTING_TOLERANCE, limits);
         self.trace.push(solution.trace.clone());
         let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
@@ -121,7 +121,7 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// How many times its size the noise is while hypotheses are sorted.
-    pub fn inflation(&self) -> f64 {
+    pub fn tempering(&self) -> f64 {
         self.coarse
     }
 
@@ -132,7 +132,7 @@ impl<'a, F: Family> Search<'a, F> {
 
     /// How much more probable data become where the model may move in one more way about the maximum of a hypothesis.
     pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
-        ScoreTest::about(&one.solution, self.coarse)
+        ScoreTest::at(&one.solution, self.coarse)
     }
 
     /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about `start`, as they are under `one` of
@@ -154,21 +154,21 @@ impl<'a, F: Family> Search<'a, F> {
     ) -> Option<Mixture<F::Hypothesis, F::Second>> {
         let Self { family, prior, coarse, fine, .. } = *self;
         let are_precise = coarse.min(fine) > 1.0;
-        let (mut likely, mut is_telling) = (Vec::new(), false);
+        let (mut ranked, mut is_telling) = (Vec::new(), false);
         if family.tells_classes() {
-            let mut linears: Vec<_> = sorted.iter().filter_map(|one| self.about(one)).collect();
+            let mut linears: Vec<_> = sorted.iter().filter_map(|one| self.laplace(one)).collect();
             if family.has_many_hypotheses() {
                 linears.iter_mut().for_each(Linear::condense);
             }
             is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
-            likely = candidates(family, linears, prior);
+            ranked = candidates(family, linears, prior);
         }
         if fine < coarse {
-            likely = self.nearer(&likely).unwrap_or(likely);
+            ranked = self.nearer(&ranked).unwrap_or(ranked);
         }
-        let tried = of_most_evidence(&likely, |one| one.ln_evidence, is_telling).len();
-        self.skipped = likely.len() - tried;
-        let starts: Vec<_> = likely[..tried].iter().filter_map(|one| one.start(family, prior)).collect();
+        let tried = of_most_evidence(&ranked, |one| one.ln_evidence, is_telling).len();
+        self.skipped = ranked.len() - tried;
+        let starts: Vec<_> = ranked[..tried].iter().filter_map(|one| one.start(family, prior)).collect();
         let limit = if are_precise { LIMIT } else { NOISY_LIMIT } / starts.len().max(1);
         let mut starts = starts.into_iter();
         let mut found = Vec::new();
@@ -192,7 +192,7 @@ impl<'a, F: Family> Search<'a, F> {
             if family.tells_classes() { ANOTHER_LIMIT } else { NOISY_LIMIT / more.len().max(1) };
         let more: Vec<_> = more.into_iter().filter_map(|start| self.maximum(start, another_limit)).collect();
         add(&mut found, more, prior.broad().mean().len());
-        let is_explained = |found: &Maxima<F>| !are_precise || found.iter().any(explains);
+        let is_explained = |found: &LocalModes<F>| !are_precise || found.iter().any(explains);
         if !is_explained(&found) {
             found.extend(starts.filter_map(|start| self.maximum(start, limit)));
         }
@@ -205,7 +205,7 @@ impl<'a, F: Family> Search<'a, F> {
             let all = Start {
                 hypothesis: *hypothesis,
                 class: usize::MAX,
-                inflation: coarse,
+                tempering: coarse,
                 ln_evidence: *ln_evidence,
                 ln_share: *ln_share,
                 gaussian,
@@ -217,26 +217,26 @@ impl<'a, F: Family> Search<'a, F> {
         // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which does not explain them
         let count = match family.has_many_hypotheses() {
             _ if are_precise => 0,
-            true => BESIDE_OF_MANY,
-            false => BESIDE,
+            true => UNSEARCHED_OF_MANY,
+            false => UNSEARCHED,
         };
-        let least = likely.first().map_or(0.0, |first| first.ln_evidence + BESIDE_LN_EVIDENCE_LEAST);
-        let beside = likely[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
-        let beside: Vec<_> = beside.filter_map(|one| Beside::of(family, one, prior)).collect();
-        Mixture::of(found, &beside)
+        let least = ranked.first().map_or(0.0, |first| first.ln_evidence + UNSEARCHED_LN_EVIDENCE_LEAST);
+        let unsearched = ranked[tried..].iter().take_while(|one| one.ln_evidence >= least).take(count);
+        let unsearched: Vec<_> = unsearched.filter_map(|one| Unsearched::of(family, one, prior)).collect();
+        Mixture::of(found, &unsearched)
     }
 
     /// The model linear about the maximum of a hypothesis.
-    fn about(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<Linear<F::Hypothesis>> {
+    fn laplace(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<Linear<F::Hypothesis>> {
         let model = self.family.model(one.hypothesis, self.prior.broad())?;
         let of = (one.hypothesis, one.ln_share);
         let tolerance = TELLING_TOLERANCE * self.family.tolerance();
         if tolerance >= SORTING_TOLERANCE {
-            return Linear::about(&model, (&one.solution.w, &one.solution.at), self.coarse, of);
+            return Linear::laplace(&model, (&one.solution.w, &one.solution.at), self.coarse, of);
         }
         let Solution { w, at, .. } =
-            maximise(&model, one.solution.w.clone(), (self.coarse, self.coarse), tolerance, SORTING_LIMIT);
-        Linear::about(&model, (&w, &at), self.coarse, of)
+            find_mode(&model, one.solution.w.clone(), (self.coarse, self.coarse), tolerance, SORTING_LIMIT);
+        Linear::laplace(&model, (&w, &at), self.coarse, of)
     }
 
     /// Logarithm of the evidence of a hypothesis under all classes of spectra; under all spectra as one where data do not tell these apart.
@@ -244,7 +244,7 @@ impl<'a, F: Family> Search<'a, F> {
         if !self.family.tells_classes() {
             return Some(one.ln_evidence);
         }
-        let all = candidates(self.family, vec![self.about(one)?], self.prior);
+        let all = candidates(self.family, vec![self.laplace(one)?], self.prior);
         let most = all.first()?.ln_evidence;
         Some(most + all.iter().map(|class| (class.ln_evidence - most).exp()).sum::<f64>().ln())
     }
@@ -253,46 +253,47 @@ impl<'a, F: Family> Search<'a, F> {
         &self,
         start: Start<F::Hypothesis>,
         limit: usize,
-    ) -> Option<Maximum<F::Hypothesis, F::Second>> {
+    ) -> Option<LocalMode<F::Hypothesis, F::Second>> {
         let gaussian = start.gaussian.clone();
         let model = self.family.model(start.hypothesis, &gaussian)?;
-        let found = maximise(&model, start.w.clone(), (start.inflation, 1.0), self.family.tolerance(), limit);
-        Some(Maximum::of(&model, found, start))
+        let found =
+            find_mode(&model, start.w.clone(), (start.tempering, 1.0), self.family.tolerance(), limit);
+        Some(LocalMode::of(&model, found, start))
     }
 
-    /// Candidates about the maxima that the likeliest class leads to at the fine noise, under each hypothesis that comes near to the best; none
+    /// Candidates about the maxima that the most probable class leads to at the fine noise, under each hypothesis that comes near to the best; none
     /// if no search comes to its end.
-    fn nearer(&mut self, likely: &[Candidate<F::Hypothesis>]) -> Option<Vec<Candidate<F::Hypothesis>>> {
-        let least = likely.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
+    fn nearer(&mut self, ranked: &[Candidate<F::Hypothesis>]) -> Option<Vec<Candidate<F::Hypothesis>>> {
+        let least = ranked.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
         let mut firsts: Vec<&Candidate<F::Hypothesis>> = Vec::new();
-        for one in likely.iter().take_while(|one| one.ln_evidence >= least) {
+        for one in ranked.iter().take_while(|one| one.ln_evidence >= least) {
             if firsts.len() < FOLLOWED && firsts.iter().all(|first| first.hypothesis() != one.hypothesis()) {
                 firsts.push(one);
             }
         }
-        let linears = firsts.into_iter().filter_map(|first| self.about_fine(first)).collect();
+        let linears = firsts.into_iter().filter_map(|first| self.laplace_fine(first)).collect();
         Some(candidates(self.family, linears, self.prior)).filter(|found| !found.is_empty())
     }
 
     /// The model linear about the maximum under a candidate at the fine noise; none if the search does not come to its end.
-    fn about_fine(&mut self, candidate: &Candidate<F::Hypothesis>) -> Option<Linear<F::Hypothesis>> {
+    fn laplace_fine(&mut self, candidate: &Candidate<F::Hypothesis>) -> Option<Linear<F::Hypothesis>> {
         let start = candidate.start(self.family, self.prior)?;
         let model = self.family.model(start.hypothesis, &start.gaussian)?;
-        let found = maximise(&model, start.w, (start.inflation, self.fine), FINE_TOLERANCE, FINE_LIMIT);
+        let found = find_mode(&model, start.w, (start.tempering, self.fine), FINE_TOLERANCE, FINE_LIMIT);
         self.trace.push(found.trace);
         match found.termination {
             Termination::Converged { .. } => {
                 let of = (start.hypothesis, candidate.ln_share_of_hypothesis());
-                Linear::about(&model, (&found.w, &found.at), self.fine, of)
+                Linear::laplace(&model, (&found.w, &found.at), self.fine, of)
             }
             Termination::NoProgress { .. } | Termination::IterationLimit => None,
         }
     }
 
     /// Carries on the search of most evidence.
-    fn carry_on(&self, found: &mut Maxima<F>) {
+    fn carry_on(&self, found: &mut LocalModes<F>) {
         let most = (0..found.len()).max_by(|a, b| found[*a].ln_evidence.total_cmp(&found[*b].ln_evidence));
-        if let Some(Maximum { start, trace, .. }) = most.map(|most| found.swap_remove(most))
+        if let Some(LocalMode { start, trace, .. }) = most.map(|most| found.swap_remove(most))
             && let Some(mut further) = self.maximum(start, CARRIED_ON)
         {
             further.trace = [trace, further.trace].concat();
@@ -302,12 +303,12 @@ impl<'a, F: Family> Search<'a, F> {
 }
 
 /// Whether the data are as near to it as their noise lets them be.
-fn explains<H, S>(one: &Maximum<H, S>) -> bool {
-    one.rms < MISFIT_MOST
+fn explains<H, S>(one: &LocalMode<H, S>) -> bool {
+    one.rms < REDUCED_CHI_MOST
 }
 
 /// Adds maxima that the data allow, each once; all of them if there are no others.
-fn add<H: Copy, S>(found: &mut Vec<Maximum<H, S>>, more: Vec<Maximum<H, S>>, bands: usize) {
+fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>, bands: usize) {
     let all_count = found.is_empty();
     for one in more {
         if (all_count || explains(&one)) && !found.iter().any(|other| one.is_again(other, bands, APART)) {
@@ -318,7 +319,7 @@ fn add<H: Copy, S>(found: &mut Vec<Maximum<H, S>>, more: Vec<Maximum<H, S>>, ban
 
 /// Whether another maximum may have more evidence than those that were found: data that are precise show it already where the search was
 /// long.
-fn is_doubtful<H, S>(found: &[Maximum<H, S>]) -> bool {
+fn is_doubtful<H, S>(found: &[LocalMode<H, S>]) -> bool {
     let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
     most.is_none_or(|most| most.surprise > SURPRISE || most.trace.len() > LONG)
 }

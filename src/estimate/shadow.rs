@@ -61,7 +61,7 @@ impl Shadow {
     /// };
     /// assert!(shadows(1.0).is_empty());
     /// assert_eq!(shadows(0.5)[0].panel, 1);
-    /// assert_eq!(shadows(0.5)[0].facets.len(), 5 * 5); // with the facets beside it
+    /// assert_eq!(shadows(0.5)[0].facets.len(), 5 * 5); // with the facets neighbours it
     /// ```
     #[must_use]
     pub fn all(grid: FacetGrid, measured: &Measured) -> Vec<Self> {
@@ -71,7 +71,7 @@ impl Shadow {
         let dark = dark(grid, measured);
         let on_panel = |panel: usize| {
             let own = &dark[panel * grid.len()..][..grid.len()];
-            let facets = beside(grid, own).map(|facet| panel * grid.len() + facet).collect();
+            let facets = neighbours(grid, own).map(|facet| panel * grid.len() + facet).collect();
             (squares(grid, own) >= SQUARES).then_some(Self { panel, facets })
         };
         [0, 1].into_iter().filter_map(on_panel).collect()
@@ -174,7 +174,7 @@ fn squares(grid: FacetGrid, dark: &[bool]) -> usize {
 }
 
 /// Facets of a panel that are dark or beside one that is: edges of shadows are soft.
-fn beside(grid: FacetGrid, dark: &[bool]) -> impl Iterator<Item = usize> {
+fn neighbours(grid: FacetGrid, dark: &[bool]) -> impl Iterator<Item = usize> {
     (0..grid.len()).filter(move |facet| {
         let [row, column] = grid.place(*facet);
         let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);

@@ -7,7 +7,7 @@ use crate::image::{Making, Processing};
 use crate::spectrum::is_other_camera;
 use crate::spectrum::library::{What, is_built_in};
 
-/// Light and camera as they were stated, and as they are believed.
+/// Light and camera as stated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stated {
     /// Names of the lights; none if nobody stated any.
@@ -18,7 +18,7 @@ pub struct Stated {
     pub camera: String,
     /// The camera that took the picture, if nobody measured its curves and another's stand in for them.
     pub stands_in_for: Option<String>,
-    /// Whether its curves are predicted from its colour matrix rather than another's.
+    /// Whether its sensitivities are predicted from its colour matrix rather than another's.
     pub is_predicted: bool,
     /// Whether all channels have the same peak, as curves have that are scaled one by one.
     pub has_one_peak: bool,
@@ -34,7 +34,7 @@ impl Stated {
 
 impl fmt::Display for Stated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let whose = if self.is_daylight_assumed { ", which nobody told," } else { "" };
+        let whose = if self.is_daylight_assumed { ", which was assumed," } else { "" };
         let scaled =
             if self.has_one_peak { ", whose channels are each scaled to the same peak," } else { "" };
         if !self.lights.is_empty() {

@@ -1,18 +1,18 @@
-//! Whether an estimate can be believed: good, doubtful or wrong, because of what, and what to do.
+//! Whether an estimate can be trusted: good, doubtful or wrong, why, and what to do.
 //!
-//! It rests on evidence: how far the facets are from the model, whether another scene than the one that was told explains them better, and
-//! how much of the spectrum they leave open. What is believed as it was told, the colour of the light and the camera's curves, is named.
+//! It rests on evidence: how far the facets are from the model, whether another scene than the one that was stated explains them better, and
+//! how much of the spectrum they leave open. What no facet can check, the colour of the light and the camera's sensitivities, is named.
 
 use std::{fmt, iter};
 
 pub use super::doubt::{Doubt, EXPLAINED, Level};
-use super::photograph::beliefs::Beliefs;
+use super::photograph::priors::Priors;
 use super::unknowns::{ANGLE, EXPOSURE, Normal};
 use super::{Estimate, Exposure, Fitted};
 use crate::error::{Error, Result};
 
-/// Residuals, in units of their expected size, beyond which the scene cannot be right.
-pub const MISFIT: f64 = 5.0;
+/// Reduced chi beyond which the scene cannot be right.
+pub const WRONG_CHI: f64 = 5.0;
 /// Mean standard deviation of the reflectance from which on the facets leave too much open.
 const OPEN: f64 = 0.06;
 /// Probability of no bounces from which on an estimate is doubtful, and wrong.
@@ -46,7 +46,7 @@ impl fmt::Display for Verdict {
 /// What is thought of an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
-    /// How far it can be believed.
+    /// How far it can be trusted.
     pub level: Level,
     /// Why.
     pub because: String,
@@ -60,29 +60,29 @@ impl Verdict {
     /// # Arguments
     /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the gravest is the verdict's reason, and
     ///   what stands first of all is said too, as it may be the cause.
-    /// - `untold`: what is believed as it was told, in words: light and camera.
+    /// - `assumed`: what no facet can check, in words: light and camera.
     #[must_use]
-    pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, untold: &str) -> Self {
-        let own = [without_bounces(estimate), misfit(estimate), open(estimate)];
+    pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, assumed: &str) -> Self {
+        let own = [without_bounces(estimate), far_off(estimate), open(estimate)];
         let all: Vec<Doubt> = doubts.into_iter().chain(own.into_iter().flatten()).collect();
         let gravest = all.iter().map(|doubt| doubt.level).max().unwrap_or(Level::Good);
         let first = all.first().filter(|doubt| doubt.level < gravest);
         match all.iter().find(|doubt| doubt.level == gravest) {
             Some(reason) => {
-                let said = |of: fn(&Doubt) -> &str, between: &str| {
+                let joined = |of: fn(&Doubt) -> &str, between: &str| {
                     let all: Vec<_> = iter::once(reason).chain(first).map(of).collect();
                     all.join(between)
                 };
                 Self {
                     level: gravest,
-                    because: said(|doubt| &doubt.because, "; also, "),
-                    remedy: Some(said(|doubt| &doubt.remedy, "; ")),
+                    because: joined(|doubt| &doubt.because, "; also, "),
+                    remedy: Some(joined(|doubt| &doubt.remedy, "; ")),
                 }
             }
             None => Self {
                 level: Level::Good,
                 because: format!(
-                    "facets within {:.1} times their expected error; it rests on {untold}, taken to be right",
+                    "facets within {:.1} times their expected error; it rests on {assumed}, taken to be right",
                     estimate.residual_rms
                 ),
                 remedy: None,
@@ -99,7 +99,7 @@ impl Verdict {
 /// # Errors
 /// [`Error::Field`] if the estimate leaves that much of the light over; as `noise`, which is asked then alone.
 pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f64>) -> Result<()> {
-    if estimate.unexplained <= UNEXPLAINED || estimate.residual_rms <= MISFIT * noise()? {
+    if estimate.unexplained <= UNEXPLAINED || estimate.residual_rms <= WRONG_CHI * noise()? {
         return Ok(());
     }
     let problem = format!(
@@ -118,7 +118,7 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     let exposure = stated.unwrap_or(estimate.exposure);
     let brightest = estimate.reflectance.iter().copied().fold(DARKEST_SHEET, f64::max);
     let longer = 0.5 * (DARK_SHEET / brightest).ln().max(0.0);
-    let Normal { mean, sd } = Beliefs::USUAL.exposure();
+    let Normal { mean, sd } = Priors::USUAL.exposure();
     let off = (exposure.ln() - mean - longer) / sd;
     let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
     let remedy = if stated.is_some() {
@@ -151,13 +151,13 @@ pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// An angle that was told where the facets say another, which the estimate does not take.
+/// An angle that was stated where the facets say another, which the estimate does not take.
 #[must_use]
-pub fn other_angle(found: &Estimate, told_deg: f64) -> Option<Doubt> {
+pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
     let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &ANGLE)?;
-    ((value - told_deg).abs() > SURE * sd).then(|| {
+    ((value - stated_deg).abs() > SURE * sd).then(|| {
         let because = format!(
-            "a fold open by {value:.1} ± {sd:.1}°, not {told_deg}° as told, explains the facets better"
+            "a fold open by {value:.1} ± {sd:.1}°, not {stated_deg}° as stated, explains the facets better"
         );
         Doubt::new(because, "measure the angle again, or leave --fit out")
     })
@@ -185,12 +185,12 @@ fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
 }
 
 /// Facets that are not those of the scene.
-fn misfit(estimate: &Estimate) -> Option<Doubt> {
+fn far_off(estimate: &Estimate) -> Option<Doubt> {
     let rms = estimate.residual_rms;
-    let level = if rms > MISFIT { Level::Wrong } else { Level::Doubtful };
+    let level = if rms > WRONG_CHI { Level::Wrong } else { Level::Doubtful };
     (rms >= EXPLAINED).then(|| Doubt {
         level,
-        because: format!("facets are {rms:.1} times further from the model than their noise"),
+        because: format!("the model misfits the facets by {rms:.1} times the noise"),
         remedy: CHECK.to_owned(),
     })
 }
@@ -207,7 +207,7 @@ fn open(estimate: &Estimate) -> Option<Doubt> {
     too_open(estimate).map(|mean| {
         Doubt::new(
             format!("the facets leave the reflectance open by ± {:.2} in the mean", 2.0 * mean),
-            "a chart or card in the picture, more light, less noise or an angle nearer to 45° tell more",
+            "a chart or card in the picture, more light, less noise or an angle nearer to 45° determine more",
         )
     })
 }
@@ -216,12 +216,8 @@ fn open(estimate: &Estimate) -> Option<Doubt> {
 #[must_use]
 pub fn beyond_chance(estimate: &Estimate, values: usize) -> Option<Doubt> {
     let off = (estimate.residual_rms.powi(2) - 1.0) * (values as f64 / 2.0).sqrt();
-    (off > CHANCE).then(|| {
-        Doubt::new(
-            format!("facets are further from the model than chance has it, by {off:.0} standard deviations"),
-            CHECK,
-        )
-    })
+    (off > CHANCE)
+        .then(|| Doubt::new(format!("the residual is larger than noise explains ({off:.0} sigma)"), CHECK))
 }
 
 #[cfg(test)]
@@ -234,7 +230,7 @@ mod tests {
     fn estimate(residual_rms: f64, sd: f64) -> Estimate {
         Estimate {
             reflectance: vec![0.5; 4],
-            total: None,
+            albedo: None,
             spread: Some(DMatrix::from_diagonal_element(4, 4, sd)),
             exposure: 1.0,
             fitted: Vec::new(),

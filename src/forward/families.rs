@@ -7,10 +7,10 @@ pub const EVEN: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [1.0, 0.0]
 pub const ODD: Family = Family { offset: 0.0, a: [1.0, 0.0, 0.0], b: [-1.0, 0.0], bounces: SHEET };
 
 /// 1, for the light that parts of known reflectance send without the sheet: none of it is counted in bounces.
-pub const BESIDE_KNOWN: Family = Family { offset: 1.0, a: [0.0, 0.0, 0.0], b: [0.0, 0.0], bounces: SHEET };
+pub const WITH_KNOWN: Family = Family { offset: 1.0, a: [0.0, 0.0, 0.0], b: [0.0, 0.0], bounces: SHEET };
 
 /// `r/d`, `rcg/d` and `c/d`, `d = 1 − rcg²`, beside a card of reflectance `c`.
-pub fn beside_card(c: f64) -> [Family; 3] {
+pub fn families_with_card(c: f64) -> [Family; 3] {
     let family = |offset, a, first| Family { offset, a, b: [0.0, c], bounces: Series { first, step: 2 } };
     // The last is c/d = c + c²g²·r/d.
     [family(0.0, [1.0, 0.0, 0.0], 0), family(0.0, [0.0, c, 0.0], 1), family(c, [0.0, 0.0, c * c], 2)]

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::families::{BESIDE_KNOWN, EVEN, Family, ODD, beside_card};
+use super::families::{EVEN, Family, ODD, WITH_KNOWN, families_with_card};
 
 /// A card of known reflectance in the place of one panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub enum Terms {
     /// A fold of a sheet and a card c: `r/d`, `rcg/d`, `c/d`, `d = 1 − rcg²`.
     Card { poles: Vec<f64>, card: Card },
     /// A surface with parts of known reflectance has other poles in every waveband: 1, then `r/(1 − rg)`, in that waveband alone.
-    BesideKnown(Vec<Vec<f64>>),
+    WithKnown(Vec<Vec<f64>>),
 }
 
 /// Terms that are one function of reflectance, each at a pole of its own, from row `first` on.
@@ -37,7 +37,7 @@ impl Terms {
         match self {
             Self::One { poles, odd } => poles.len() * (1 + usize::from(*odd)),
             Self::Card { poles, .. } => 3 * poles.len(),
-            Self::BesideKnown(bands) => bands.iter().map(|poles| 1 + poles.len()).sum(),
+            Self::WithKnown(bands) => bands.iter().map(|poles| 1 + poles.len()).sum(),
         }
     }
 
@@ -56,7 +56,7 @@ impl Terms {
     /// The first term of a waveband.
     pub fn first(&self, band: usize) -> usize {
         match self {
-            Self::BesideKnown(bands) => bands[..band].iter().map(|poles| 1 + poles.len()).sum(),
+            Self::WithKnown(bands) => bands[..band].iter().map(|poles| 1 + poles.len()).sum(),
             _ => 0,
         }
     }
@@ -68,12 +68,12 @@ impl Terms {
                 [Some(Block::nth(0, EVEN, poles)), odd.then(|| Block::nth(1, ODD, poles)), None]
             }
             Self::Card { poles, card } => {
-                let families = beside_card(card.reflectance[band]);
+                let families = families_with_card(card.reflectance[band]);
                 std::array::from_fn(|n| Some(Block::nth(n, families[n], poles)))
             }
-            Self::BesideKnown(bands) => {
+            Self::WithKnown(bands) => {
                 let first = self.first(band);
-                let known = Block { first, family: BESIDE_KNOWN, poles: &[0.0] };
+                let known = Block { first, family: WITH_KNOWN, poles: &[0.0] };
                 [Some(known), Some(Block { first: first + 1, family: EVEN, poles: &bands[band] }), None]
             }
         };

@@ -67,7 +67,7 @@ pub enum LightSource {
         irradiance: f64,
     },
     /// A light of which nothing is known but what it gives to every facet.
-    Given,
+    PerFacet,
 }
 
 impl LightSource {
@@ -187,7 +187,7 @@ impl LightSource {
     pub fn is_sky(&self) -> bool {
         match self {
             Self::UniformSky { .. } | Self::OvercastSky { .. } | Self::StandardSky { .. } => true,
-            Self::Directional { .. } | Self::Point { .. } | Self::Area { .. } | Self::Given => false,
+            Self::Directional { .. } | Self::Point { .. } | Self::Area { .. } | Self::PerFacet => false,
         }
     }
 
@@ -201,7 +201,7 @@ impl LightSource {
             | Self::StandardSky { irradiance, .. }
             | Self::UniformSky { irradiance }
             | Self::OvercastSky { irradiance, .. } => *irradiance,
-            Self::Given => 1.0,
+            Self::PerFacet => 1.0,
         }
     }
 }

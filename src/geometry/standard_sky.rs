@@ -72,12 +72,12 @@ impl StandardSky {
     /// Irradiance of an open horizontal plane by its relative radiance, the sine of the sun's elevation being `sun_height`.
     #[must_use]
     pub fn irradiance(self, sun_height: f64) -> f64 {
-        let sun_beside = (1.0 - sun_height * sun_height).max(0.0).sqrt();
+        let sun_horizontal = (1.0 - sun_height * sun_height).max(0.0).sqrt();
         let ring = |height: f64| {
-            let beside = (1.0 - height * height).sqrt();
+            let horizontal = (1.0 - height * height).sqrt();
             let at = |n: usize| {
                 let azimuth = TAU * (n as f64 + 0.5) / AZIMUTHS as f64;
-                self.radiance(height, sun_height * height + sun_beside * beside * azimuth.cos())
+                self.radiance(height, sun_height * height + sun_horizontal * horizontal * azimuth.cos())
             };
             (0..AZIMUTHS).map(at).sum::<f64>()
         };

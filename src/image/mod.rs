@@ -34,7 +34,7 @@ pub use drawing::{
 };
 pub use edges::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub use finding::{
-    FoundChart, FoundFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_around, weighed_chart,
+    DetectedChart, DetectedFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_around, weighed_chart,
     weighed_folds,
 };
 pub use measuring::{

@@ -71,17 +71,18 @@ impl Rule {
         let measure: Vec<(f64, f64)> = halves.map(|(x, w)| (x, w * (1.0 - x.abs()))).collect();
         // Orthonormal polynomials at the nodes; the weight is even, so that their recurrence has no diagonal.
         let (mut before, mut now) = (vec![0.0; measure.len()], vec![1.0; measure.len()]);
-        let mut beside = Vec::new();
+        let mut off_diagonal = Vec::new();
         for _ in 1..order {
-            let last = beside.last().copied().unwrap_or(0.0);
+            let last = off_diagonal.last().copied().unwrap_or(0.0);
             let next = measure.iter().zip(now.iter().zip(&before)).map(|((x, _), (p, q))| x * p - last * q);
             let next: Vec<f64> = next.collect();
             let norm = measure.iter().zip(&next).map(|((_, w), p)| w * p * p).sum::<f64>().sqrt();
             before = std::mem::replace(&mut now, next.iter().map(|p| p / norm).collect());
-            beside.push(norm);
+            off_diagonal.push(norm);
         }
         // The first components of the eigenvectors.
-        let Eigen { values, vectors } = Eigen::seen(DMatrix::identity(1, order), &vec![0.0; order], &beside);
+        let Eigen { values, vectors } =
+            Eigen::seen(DMatrix::identity(1, order), &vec![0.0; order], &off_diagonal);
         let mut rule: Vec<(f64, f64)> = (0..order).map(|k| (values[k], vectors[(0, k)].powi(2))).collect();
         rule.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (nodes, weights) = rule.into_iter().unzip();
@@ -238,8 +239,8 @@ mod tests {
     #[test]
     fn an_ellipse_says_how_fast_rules_converge() {
         let tame = (4.0 * 2.0_f64.atan(), [0.0, 0.5], (|x| 1.0 / (x * x + 0.25)) as fn(f64) -> f64);
-        let beside = (5.0_f64.ln(), [-1.5, 0.0], (|x| 1.0 / (x + 1.5)) as fn(f64) -> f64);
-        for (integral, pole, f) in [tame, beside] {
+        let off_diagonal = (5.0_f64.ln(), [-1.5, 0.0], (|x| 1.0 / (x + 1.5)) as fn(f64) -> f64);
+        for (integral, pole, f) in [tame, off_diagonal] {
             let error = |order| {
                 let sum: f64 = Rule::kept_legendre(order).on(-1.0, 1.0).map(|(x, w)| w * f(x)).sum();
                 (sum / integral - 1.0).abs()

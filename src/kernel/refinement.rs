@@ -12,9 +12,9 @@ const UNKNOWNS_MAX: usize = 10_000;
 const PRODUCTS_MAX: f64 = 4e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
 const AIM: f64 = 0.2;
-/// The error that is believed, relative to the one that the solution should have from its forerunner's.
+/// The estimated error, relative to the one that the solution should have from its forerunner's.
 const SAFETY: f64 = 3.0;
-/// The least error that is believed, relative to what the solution aims at: where a coarser one has as many strips, both lack the same.
+/// The least error estimate, relative to the target: where a coarser one has as many strips, both lack the same.
 const LEAST: f64 = 2.0;
 /// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 100.0;
@@ -25,7 +25,7 @@ const COARSEST: f64 = 0.005;
 /// Reflectances at which two solutions are compared; the last is the hardest.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
 
-/// A solution with the error it is believed to have.
+/// A solution with its estimated error.
 pub struct Refined {
     /// Poles and residues.
     pub response: Response,
@@ -65,12 +65,12 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
             "give a larger tolerance or --mesh facets",
         ));
     };
-    let mut error = believed(&coarse, &fine);
+    let mut error = estimated_error(&coarse, &fine);
     while error > tolerance
         && let Some(finer) = solve(fold, 0.9 * tolerance / error * fine.aim, fine.response.poles().len())?
     {
         // Against the coarse one again: two solutions that are nearly the same would tell nothing.
-        error = believed(&coarse, &finer);
+        error = estimated_error(&coarse, &finer);
         fine = finer;
     }
     // Lanczos' solution is short of light, so that no more than all of it can be missing.
@@ -93,7 +93,7 @@ fn first_two(fold: &Fold, aim: f64) -> Result<Option<(Solution, Solution)>> {
     Ok(solve(fold, LEAST_STEP * start, 1)?.map(|coarser| (coarser, first)))
 }
 
-fn believed(coarse: &Solution, fine: &Solution) -> f64 {
+fn estimated_error(coarse: &Solution, fine: &Solution) -> f64 {
     let of_difference = SAFETY * fine.aim / coarse.aim * difference(&coarse.response, &fine.response);
     of_difference.max(LEAST * fine.aim)
 }

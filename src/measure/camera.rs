@@ -9,21 +9,21 @@ use crate::stream::StandInRecord;
 /// A camera, and what it stands in for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Built-in name or file; of one whose curves are predicted, what they are called.
+    /// Built-in name or file; of one whose sensitivities are predicted, what they are called.
     pub spec: String,
     /// Its curves, if they are predicted.
     pub predicted: Option<Sensitivities>,
-    /// The camera that took the photograph, if nobody measured that one's curves.
+    /// The camera that took the photograph, if nobody measured that one's sensitivities.
     pub stands_in: Option<StandInRecord>,
     /// What is to be said of it.
-    pub said: Option<String>,
+    pub note: Option<String>,
 }
 
 impl Camera {
     /// One that somebody named.
     #[must_use]
     pub fn named(spec: &str) -> Self {
-        Self { spec: spec.to_owned(), predicted: None, stands_in: None, said: None }
+        Self { spec: spec.to_owned(), predicted: None, stands_in: None, note: None }
     }
 
     /// Its curves: those that are predicted, or what `read` makes of its name.
@@ -43,7 +43,7 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
     let (make, model) = &info.camera.called();
     if let Some(camera) = spectrum::camera_by_exif(make, model) {
         let same = spectrum::measured_cameras().any(|one| one.name() == camera && one.has_same_sensor(model));
-        let said = match &spectrum::other_measurements(&camera)[..] {
+        let note = match &spectrum::other_measurements(&camera)[..] {
             _ if same => Some(format!("{make} {model}: curves of {camera}, whose sensor is the same")),
             [] => None,
             others => {
@@ -53,7 +53,7 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
                 ))
             }
         };
-        return Ok(Camera { said, ..Camera::named(&camera) });
+        return Ok(Camera { note, ..Camera::named(&camera) });
     }
     if model.is_empty() {
         const REMEDY: &str =
@@ -66,36 +66,36 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
         return Ok(camera);
     }
     let stand_in = StandIns::new()?.for_camera(make);
-    let said = Some(warning(&of, &stand_in));
+    let note = Some(warning(&of, &stand_in));
     let StandIn { name, why, .. } = stand_in;
-    let (why, curve_error) = (why.words().to_owned(), why.expected_error());
-    let stands_in = Some(StandInRecord { camera: of, why, curve_error, is_predicted: false });
-    Ok(Camera { stands_in, said, ..Camera::named(&name) })
+    let (why, sensitivity_error) = (why.words().to_owned(), why.expected_error());
+    let stands_in = Some(StandInRecord { camera: of, why, sensitivity_error, is_predicted: false });
+    Ok(Camera { stands_in, note, ..Camera::named(&name) })
 }
 
 /// A camera by `make`, called `of`, whose curves its colour matrix predicts; none if that is no camera's.
 fn predicted(make: &str, of: &str, matrix: &ColourMatrix) -> Result<Option<Camera>> {
     let grid = WavelengthGrid::uniform(380.0, 780.0, 5.0)?;
-    let Some(curves) = Predictor::new(&grid)?.predict(make, matrix) else { return Ok(None) };
+    let Some(sensitivities) = Predictor::new(&grid)?.predict(make, matrix) else { return Ok(None) };
     let name = format!("{of} (predicted)");
     let channel = |(name, curve)| Spectrum::new(name, grid.wavelengths_nm().to_vec(), curve);
-    let channels = ["R", "G", "B"].into_iter().zip(curves).map(channel).collect::<Result<_>>()?;
+    let channels = ["R", "G", "B"].into_iter().zip(sensitivities).map(channel).collect::<Result<_>>()?;
     let percent = 100.0 * PREDICTED_ERROR;
-    let said = format!(
+    let note = format!(
         "warning: nobody measured the curves of {of}: they are predicted from its colour matrix, which is off by {percent:.1} % of green's peak in the \
          mean; photograph a colour chart (--save-camera), or name a camera or file (--camera)"
     );
     let stands_in = StandInRecord {
         camera: of.to_owned(),
         why: "predicted from its colour matrix".to_owned(),
-        curve_error: PREDICTED_ERROR,
+        sensitivity_error: PREDICTED_ERROR,
         is_predicted: true,
     };
     Ok(Some(Camera {
         predicted: Some(Sensitivities::new(&name, channels)?),
         spec: name,
         stands_in: Some(stands_in),
-        said: Some(said),
+        note: Some(note),
     }))
 }
 

@@ -19,9 +19,9 @@ pub enum LightTaken {
 pub fn light_of(taken: &Taken) -> LightTaken {
     let Taken { place_deg, time, other_light } = taken;
     if let Some(light) = other_light {
-        let said = format!("the photograph says {}", light.name());
+        let note = format!("the photograph says {}", light.name());
         let is_daylight = light.is_daylight();
-        return if is_daylight { LightTaken::Daylight(said) } else { LightTaken::OtherThanDaylight(said) };
+        return if is_daylight { LightTaken::Daylight(note) } else { LightTaken::OtherThanDaylight(note) };
     }
     let missing = match (place_deg, time) {
         (Some([latitude, longitude]), Some(time)) => {

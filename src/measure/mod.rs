@@ -26,7 +26,7 @@ use crate::image::{
 };
 use crate::kernel::mesh::{TOLERANCE, respond};
 use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, other_lights, stated, stated_fold};
-use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, likely_lights};
+use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, candidate_lights};
 use crate::stream::{self, Optics};
 
 /// A photographed fold, and what is known of it.
@@ -82,8 +82,8 @@ impl Setup<'_> {
         };
         let light = self.illuminant.map(str::to_owned).or_else(sun);
         let illuminant = stream::illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
-        let curves = camera.sensitivities(stream::camera)?;
-        let mut optics = Optics::new(self.wavelengths.clone(), &curves, &[illuminant], None)?;
+        let sensitivities = camera.sensitivities(stream::camera)?;
+        let mut optics = Optics::new(self.wavelengths.clone(), &sensitivities, &[illuminant], None)?;
         optics.camera.stands_in = camera.stands_in;
         Ok(FoldSetting {
             fold: self.fold,
@@ -103,7 +103,7 @@ impl Setup<'_> {
     fn lights(&self, photograph: &Photograph, optics: &Optics) -> Result<Vec<Candidate>> {
         match (self.illuminant, light_of(&photograph.info().camera.taken)) {
             (None, LightTaken::OtherThanDaylight(_)) => {
-                Candidate::all(&likely_lights()?, &self.wavelengths, &optics.camera.sensitivities)
+                Candidate::all(&candidate_lights()?, &self.wavelengths, &optics.camera.sensitivities)
             }
             _ => Ok(Vec::new()),
         }
@@ -118,7 +118,7 @@ impl Setup<'_> {
 ///
 /// # Returns
 /// Of every wavelength the 45:0 reflectance, from 0 to 1, with its standard deviation; the exposure; what was found that sets the photograph
-/// apart from that of an ideal fold; and how far all that can be believed. See [`Measurement`].
+/// apart from that of an ideal fold; and how far all that can be trusted. See [`Measurement`].
 ///
 /// # Errors
 /// [`Error::Usage`] if the photograph names no camera and none is given, or corners are not those of the fold's panels; [`Error::Corners`] if

@@ -125,7 +125,7 @@ pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
     let mut now = operator.uniform(0);
     let mut before = vec![0.0; now.len()];
     let mut across = operator.uniform(1);
-    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
+    let (mut diagonal, mut off_diagonal) = (Vec::new(), Vec::new());
     let (mut largest, mut length) = (0.0, 0.0);
     let norm = dot(&now, &now).sqrt();
     now.iter_mut().for_each(|x| *x /= norm);
@@ -139,14 +139,14 @@ pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
         }
         diagonal.push(along);
         length = dot(&next, &next).sqrt();
-        let eigen = Eigen::seen(DMatrix::zeros(0, diagonal.len()), &diagonal, &beside);
+        let eigen = Eigen::seen(DMatrix::zeros(0, diagonal.len()), &diagonal, &off_diagonal);
         let found = eigen.values.into_iter().fold(0.0, f64::max);
         let settled = found - largest <= 1e-15 * found || length <= 1e-15 * found;
         if settled || diagonal.len() == STEPS_MAX {
             return found.max(0.0).sqrt();
         }
         largest = found;
-        beside.push(length);
+        off_diagonal.push(length);
         next.iter_mut().for_each(|x| *x /= length);
         before = std::mem::replace(&mut now, next);
     }

@@ -141,7 +141,7 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
     let residuals = DVector::from_column_slice(&sheet.values) - exposure * &sheet.view * &reflectance;
     let scale = sheet.exposure.map_or(OPEN_PEAK / reflectance.max(), |_| 1.0);
     Ok(Estimate {
-        total: None,
+        albedo: None,
         reflectance: (scale * reflectance).as_slice().to_vec(),
         spread: None,
         exposure: exposure / scale,

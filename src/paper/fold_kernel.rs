@@ -46,8 +46,8 @@ impl FoldKernel {
         let mut entries = DMatrix::zeros(cols, pairs.len());
         let of_pairs = entries.as_mut_slice().par_chunks_exact_mut(cols);
         let all = pairs.into_par_iter().zip(of_pairs).with_min_len(pairs_a_thread);
-        let said = all.map(|((i, j), shifts)| exchange(i, j, shifts)).collect();
-        (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, said)
+        let returned = all.map(|((i, j), shifts)| exchange(i, j, shifts)).collect();
+        (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, returned)
     }
 
     /// Whether there is room for the kernel of `fold`.

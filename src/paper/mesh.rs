@@ -16,7 +16,7 @@ pub fn respond(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Resul
     match mesh {
         Mesh::Auto if method != Method::Exact => Err(Error::usage(
             "--mesh",
-            format!("auto divides the panels into no facets whose form factors could be {method}"),
+            format!("'auto' has no facet form factors for --method {method}"),
             "give --mesh facets, patches such as 40x40, or --method exact",
         )),
         Mesh::Auto if fold.is_flat() => respond_patches(method, fold, fold.facets(), tolerance),

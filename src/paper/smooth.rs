@@ -44,7 +44,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
     let at = data.residuals(&reflectance, &[]);
     Ok(Estimate {
-        total: None,
+        albedo: None,
         spread: None,
         fitted: Vec::new(),
         findings: Vec::new(),

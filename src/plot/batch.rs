@@ -15,7 +15,7 @@ const WIDTH: u32 = 760;
 const MARGIN: i32 = 20;
 const TITLE: i32 = 30;
 const HISTOGRAM: (u32, u32) = (240, 210);
-const BESIDE: usize = 3;
+const PER_ROW: usize = 3;
 const ROW: i32 = 22;
 /// Width of names, and the widest bar.
 const NAMES: u32 = 330;
@@ -44,13 +44,13 @@ impl Batch {
     }
 
     fn below_histograms(&self) -> i32 {
-        TITLE + (self.scores.len().div_ceil(BESIDE) * HISTOGRAM.1 as usize) as i32
+        TITLE + (self.scores.len().div_ceil(PER_ROW) * HISTOGRAM.1 as usize) as i32
     }
 
     fn histograms<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         for (n, (name, mean, values)) in self.scores.iter().enumerate() {
-            let left = MARGIN + (n % BESIDE) as i32 * HISTOGRAM.0 as i32;
-            let top = TITLE + (n / BESIDE) as i32 * HISTOGRAM.1 as i32;
+            let left = MARGIN + (n % PER_ROW) as i32 * HISTOGRAM.0 as i32;
+            let top = TITLE + (n / PER_ROW) as i32 * HISTOGRAM.1 as i32;
             let part = area.clone().shrink((left, top), HISTOGRAM);
             let title = format!("{name}, mean {} (dashed)", number(*mean));
             Histogram::of(values).draw(&part, &title, *mean)?;

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::image::png_bytes;
 
-/// Okabe and Ito's colours, told apart by colour-blind readers; black is kept for the truth.
+/// Okabe and Ito's colours, which colour-blind readers can distinguish; black is kept for the truth.
 pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

@@ -12,7 +12,7 @@ use crate::geometry::Panel;
 
 /// Space for maps, px, how many stand beside each other in it, and how high they are.
 const WIDTH: u32 = 700;
-const BESIDE: usize = 3;
+const PER_ROW: usize = 3;
 const HIGHEST: u32 = 260;
 const GAP: u32 = 20;
 const MARGIN: i32 = 30;
@@ -126,8 +126,8 @@ pub(super) struct Maps<'a> {
 impl Maps<'_> {
     /// Space for one map: few maps are larger.
     fn space(&self) -> u32 {
-        let beside = self.maps.len().clamp(1, BESIDE) as u32;
-        (WIDTH - (beside - 1) * GAP) / beside
+        let across = self.maps.len().clamp(1, PER_ROW) as u32;
+        (WIDTH - (across - 1) * GAP) / across
     }
 
     fn map_size(&self) -> (u32, u32) {
@@ -135,13 +135,13 @@ impl Maps<'_> {
     }
 
     fn corner(&self, map: usize) -> (i32, i32) {
-        let (row, column) = ((map / BESIDE) as i32, (map % BESIDE) as u32);
+        let (row, column) = ((map / PER_ROW) as i32, (map % PER_ROW) as u32);
         let down = self.map_size().1 as i32 + 2 * WORDS + 8;
         (MARGIN + (column * (self.space() + GAP)) as i32, TITLE + WORDS + row * down)
     }
 
     fn foot(&self) -> i32 {
-        let rows = self.maps.len().div_ceil(BESIDE).max(1) as i32;
+        let rows = self.maps.len().div_ceil(PER_ROW).max(1) as i32;
         TITLE + rows * (self.map_size().1 as i32 + 2 * WORDS + 8)
     }
 
@@ -182,12 +182,12 @@ impl Maps<'_> {
             ))?;
             say(area, &number(low + share * (high - low)), (x, top + BAR.1 as i32 + 14), &small)?;
         }
-        let beside = MARGIN + BAR.0 as i32 + 24;
-        say(area, self.unit, (beside, top + BAR.1 as i32 / 2), &style(SMALL, HPos::Left, BLACK))?;
+        let across = MARGIN + BAR.0 as i32 + 24;
+        say(area, self.unit, (across, top + BAR.1 as i32 / 2), &style(SMALL, HPos::Left, BLACK))?;
         if !self.is_known() {
-            let patch = [(beside, top + 22), (beside + 14, top + 36)];
+            let patch = [(across, top + 22), (across + 14, top + 36)];
             area.draw(&Rectangle::new(patch, UNKNOWN.filled()))?;
-            say(area, "not measured", (beside + 20, top + 29), &style(SMALL, HPos::Left, BLACK))?;
+            say(area, "not measured", (across + 20, top + 29), &style(SMALL, HPos::Left, BLACK))?;
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Colours of numbers, told apart by colour-blind readers.
+//! Colours of numbers that colour-blind readers can distinguish.
 
 use plotters::prelude::RGBColor;
 
@@ -34,7 +34,7 @@ pub(super) struct Scale {
 
 impl Scale {
     /// From below to above zero, alike on both sides and wide enough for all of `values`, `least` at least.
-    pub fn about_zero(values: impl Iterator<Item = f64>, least: f64) -> Self {
+    pub fn around_zero(values: impl Iterator<Item = f64>, least: f64) -> Self {
         let limit = values.fold(least, |limit, value| limit.max(value.abs()));
         Self { colours: &DIVERGING, low: -limit, high: limit }
     }
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn ends_and_middle_have_their_colours() {
-        let scale = Scale::about_zero([2.0, -5.0].into_iter(), 3.0);
+        let scale = Scale::around_zero([2.0, -5.0].into_iter(), 3.0);
         assert_eq!((scale.low, scale.high), (-5.0, 5.0));
         assert_eq!([-9.0, 0.0, 5.0].map(|value| scale.colour(value)), [0, 2, 4].map(|n| DIVERGING[n]));
         assert_eq!(Scale::over([7.0, 7.0 + 1e-9].into_iter()).colour(7.0), SEQUENTIAL[2]);

@@ -44,7 +44,7 @@ impl Sheet {
             title: format!("measured − estimated facets, rms {:.2} standard deviations", residuals.rms()),
             panels: &self.panels,
             maps: residuals.channels.iter().enumerate().map(map).collect(),
-            scale: Scale::about_zero(residuals.facets.iter().flatten().flatten().copied(), USUAL),
+            scale: Scale::around_zero(residuals.facets.iter().flatten().flatten().copied(), USUAL),
             unit: "standard deviations",
         })
     }

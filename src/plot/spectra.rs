@@ -8,7 +8,7 @@ use plotters::prelude::*;
 
 use super::figure::{COLOURS, Drawn, FONT, Figure};
 
-/// Most curves in one drawing: more could not be told apart.
+/// Most curves in one drawing: more could not be distinguished.
 pub const CURVES_MAX: usize = COLOURS.len();
 const SIZE: (u32, u32) = (760, 430);
 

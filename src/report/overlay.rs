@@ -11,7 +11,7 @@ use crate::files::{is_pattern, named};
 use crate::image::thumbnail;
 use crate::plot::data_uri;
 
-/// Longest side in a report, px: facets can be told apart.
+/// Longest side in a report, px: facets can be distinguished.
 const LONGEST_PX: u32 = 1100;
 
 /// Refuses a picture that is none of a sample's.

@@ -11,13 +11,13 @@ use crate::plot::sheet::Sheet;
 use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 
 /// Fields that have a table or a drawing of their own, or are what all records have.
-const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
-const TOLD_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
+const SHOWN_ELSEWHERE: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
+const SHOWN_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
 /// Fields of how sure things are that were found, and what these are.
-const FOUND: [(&str, &str); 2] = [
-    ("image.found_confidence", "corners of the panels"),
-    ("calibration.found_confidence", "corners of the colour chart"),
+const DETECTED: [(&str, &str); 2] = [
+    ("image.detection_confidence", "corners of the panels"),
+    ("calibration.detection_confidence", "corners of the colour chart"),
 ];
 
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
@@ -46,15 +46,15 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
 }
 
-/// What vextract found in the photograph and nobody told it, with how sure that is.
+/// What vextract detected in the photograph, and how certain that is.
 fn found(sample: &Sample) -> Result<Option<Html>> {
     let mut rows = Vec::new();
-    for (field, what) in FOUND {
+    for (field, what) in DETECTED {
         let confidence = sample.fields.text_at(field)?.and_then(|text| text.parse::<f64>().ok());
         rows.extend(confidence.map(|sure| vec![what.into(), format!("{:.1} %", 100.0 * sure).into()]));
     }
     let headings = ["what", "how sure"];
-    Ok((!rows.is_empty()).then(|| Html::table("Found in the picture, not told", &headings, rows)))
+    Ok((!rows.is_empty()).then(|| Html::table("Detected in the picture", &headings, rows)))
 }
 
 /// The verdict; of a record without one what speaks against it.
@@ -114,20 +114,20 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     let row = |one: (&Unknown, &FittedRecord)| {
         let (unknown, FittedRecord { value, sd, supported }) = one;
         let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
-        let by = if *supported { "the facets" } else { "what is usual: the facets do not tell it" };
-        vec![format!("{}{unit}", unknown.about).into(), with_sd(*value, *sd).into(), by.into()]
+        let by = if *supported { "the facets" } else { "the prior: the facets do not determine it" };
+        vec![format!("{}{unit}", unknown.description).into(), with_sd(*value, *sd).into(), by.into()]
     };
     let rows: Vec<_> = estimate.fits().map(row).collect();
-    let headings = ["what", "value ± standard deviation", "told by"];
+    let headings = ["what", "value ± standard deviation", "determined by"];
     (!rows.is_empty()).then(|| Html::table("Fitted along with the spectrum", &headings, rows))
 }
 
 /// Numbers that have neither a drawing nor a table of their own.
 fn rest(sample: &Sample) -> Vec<Html> {
     let leaves = |path| sample.fields.leaves(path);
-    let is_told = |name: &str, told: &[&str]| told.contains(&name.split('.').next().unwrap_or_default());
-    let estimate = leaves("estimate").into_iter().filter(|(name, _)| !is_told(name, &TOLD_OF_ESTIMATE));
-    let rest = leaves("").into_iter().filter(|(name, _)| !is_told(name, &TOLD));
+    let is_shown = |name: &str, shown: &[&str]| shown.contains(&name.split('.').next().unwrap_or_default());
+    let estimate = leaves("estimate").into_iter().filter(|(name, _)| !is_shown(name, &SHOWN_OF_ESTIMATE));
+    let rest = leaves("").into_iter().filter(|(name, _)| !is_shown(name, &SHOWN_ELSEWHERE));
     let tables = [table("Estimate", estimate.collect()), table("Measurement", rest.collect())];
     tables.into_iter().flatten().collect()
 }

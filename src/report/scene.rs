@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::stream::{HistoryRecord, Scene};
 
 /// Fields that have a table of their own, or are too large to be read.
-const TOLD: [&str; 4] = ["kind", "history", "response", "skipped"];
+const SHOWN_ELSEWHERE: [&str; 4] = ["kind", "history", "response", "skipped"];
 
 /// A section each scene.
 pub(super) fn sections(gallery: &Gallery) -> Result<Vec<Html>> {
@@ -28,7 +28,8 @@ fn section(scene: &Scene) -> Result<Html> {
     };
     let history = scene.fields.history()?.into_iter().map(row);
     let settings = scene.fields.leaves("").into_iter();
-    let settings = settings.filter(|(name, _)| !TOLD.contains(&name.split('.').next().unwrap_or_default()));
+    let settings =
+        settings.filter(|(name, _)| !SHOWN_ELSEWHERE.contains(&name.split('.').next().unwrap_or_default()));
     let skipped: Vec<_> = scene
         .skipped()?
         .into_iter()

@@ -46,7 +46,7 @@ pub struct Lanczos {
     basis: Vec<Vec<f64>>,
     /// The tridiagonal matrix.
     diagonal: Vec<f64>,
-    beside: Vec<f64>,
+    off_diagonal: Vec<f64>,
     orthogonality: Orthogonality,
 }
 
@@ -59,7 +59,7 @@ impl Lanczos {
             norm,
             basis: vec![start.iter().map(|x| x / norm).collect()],
             diagonal: Vec::new(),
-            beside: Vec::new(),
+            off_diagonal: Vec::new(),
             orthogonality: Orthogonality::new(),
         }
     }
@@ -78,24 +78,24 @@ impl Lanczos {
         let along = dot(last, &next);
         subtract(&mut next, last, along);
         self.diagonal.push(along);
-        if let (Some(length), [.., previous, _]) = (self.beside.last(), self.basis.as_slice()) {
+        if let (Some(length), [.., previous, _]) = (self.off_diagonal.last(), self.basis.as_slice()) {
             subtract(&mut next, previous, *length);
         }
-        if self.orthogonality.is_lost(&self.diagonal, &self.beside, dot(&next, &next).sqrt()) {
+        if self.orthogonality.is_lost(&self.diagonal, &self.off_diagonal, dot(&next, &next).sqrt()) {
             // What is left along the basis is so little that once leaves nothing behind.
             project_out(&mut next, &self.basis);
         }
         let length = dot(&next, &next).sqrt();
-        let Some(residual) = residual_at_one(&self.diagonal, &self.beside, length) else {
+        let Some(residual) = residual_at_one(&self.diagonal, &self.off_diagonal, length) else {
             return Err(Error::Numeric(
-                "the surface hands on all light that it receives: open it, or refine the mesh".to_owned(),
+                "no light escapes this surface: open it, or refine the mesh".to_owned(),
             ));
         };
         if residual <= self.tolerance || self.basis.len() == next.len() || self.basis.len() == STEPS_MAX {
             return Ok(Some(residual));
         }
         next.iter_mut().for_each(|x| *x /= length);
-        self.beside.push(length);
+        self.off_diagonal.push(length);
         self.basis.push(next);
         Ok(None)
     }
@@ -106,7 +106,7 @@ impl Lanczos {
         // The light starts along the first vector of the basis.
         let mut rows = DMatrix::from_columns(&means).insert_row(0, 0.0);
         rows[(0, 0)] = self.norm;
-        let Eigen { values: poles, vectors } = Eigen::seen(rows, &self.diagonal, &self.beside);
+        let Eigen { values: poles, vectors } = Eigen::seen(rows, &self.diagonal, &self.off_diagonal);
         let in_start = vectors.row(0);
         let mut residues = vectors.rows_range(1..).into_owned();
         residues
@@ -159,12 +159,12 @@ fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> M
 }
 
 /// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.
-fn residual_at_one(diagonal: &[f64], beside: &[f64], next: f64) -> Option<f64> {
+fn residual_at_one(diagonal: &[f64], off_diagonal: &[f64], next: f64) -> Option<f64> {
     // LDLᵀ of I − T, carrying the last component of the solution.
     let mut pivot = 1.0 - diagonal[0];
     let mut last = 1.0 / pivot;
     let mut positive = pivot > CLOSED;
-    for (a, b) in diagonal[1..].iter().zip(beside) {
+    for (a, b) in diagonal[1..].iter().zip(off_diagonal) {
         let coupling = b / pivot;
         pivot = 1.0 - a - b * coupling;
         last *= b / pivot;

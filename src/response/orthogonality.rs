@@ -24,13 +24,13 @@ impl Orthogonality {
     }
 
     /// Whether the next vector, which will be divided by `length`, is to be made orthogonal to the basis; it is then taken to be.
-    pub fn is_lost(&mut self, diagonal: &[f64], beside: &[f64], length: f64) -> bool {
+    pub fn is_lost(&mut self, diagonal: &[f64], off_diagonal: &[f64], length: f64) -> bool {
         let last = diagonal.len() - 1;
         let [before, now] = &self.products;
         let product = |n: usize| {
-            let below = if n > 0 { beside[n - 1] * now[n - 1] } else { 0.0 };
-            let sum = beside[n] * now[n + 1] + (diagonal[n] - diagonal[last]) * now[n] + below
-                - beside[last - 1] * before[n];
+            let below = if n > 0 { off_diagonal[n - 1] * now[n - 1] } else { 0.0 };
+            let sum = off_diagonal[n] * now[n + 1] + (diagonal[n] - diagonal[last]) * now[n] + below
+                - off_diagonal[last - 1] * before[n];
             // Rounding of a step adds to what the steps before have left.
             (sum + ROUNDING.copysign(sum)) / length
         };

@@ -69,7 +69,11 @@ impl FoldedSheet {
                 offset.max(0.0),
                 slope + offset
             );
-            Err(Error::usage("--reflectance", problem, "give another, or less gloss, roughness and fuzz"))
+            Err(Error::usage(
+                "--reflectance",
+                problem,
+                "give another, or a smaller specular weight, roughness or sheen",
+            ))
         };
         reflectance.iter().map(of).collect()
     }

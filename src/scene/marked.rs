@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
-use crate::estimate::photograph::beliefs::Beliefs;
+use crate::estimate::photograph::priors::Priors;
 use crate::geometry::{Fold, Panel, joints};
 use crate::image::{
     FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, StatedFold, camera_position,
@@ -16,7 +16,7 @@ use crate::surfaces::Sight;
 pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
     StatedFold {
         angle_deg: fold.angle_deg(),
-        angle_sd_deg: angle_sd_deg.unwrap_or(Beliefs::USUAL.angle_sd_deg),
+        angle_sd_deg: angle_sd_deg.unwrap_or(Priors::USUAL.angle_sd_deg),
         depths: fold.depths().map(|depth| depth / fold.width()),
     }
 }

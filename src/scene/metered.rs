@@ -1,6 +1,6 @@
 //! What the camera's settings say of the exposure of a photograph in the sun.
 
-use crate::estimate::photograph::beliefs::Beliefs;
+use crate::estimate::photograph::priors::Priors;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::Sun;
 
@@ -18,11 +18,11 @@ const ZENITH_DEG: f64 = 45.0;
 /// # Source
 /// Illuminating Engineering Society of North America, *Lighting Handbook*, 9th ed. (2000), chapter 8: direct illuminance under a clear sky.
 #[must_use]
-pub fn in_the_sun(white_per_klx: f64, illuminant: &str, beliefs: &Beliefs) -> Option<Normal> {
+pub fn in_the_sun(white_per_klx: f64, illuminant: &str, priors: &Priors) -> Option<Normal> {
     let stated = illuminant.strip_prefix("sun:").and_then(|words| Sun::parse(words).ok());
     let air_mass = stated.or_else(|| Sun::at_zenith_deg(ZENITH_DEG).ok())?.air_mass();
     let ln_klx = BEYOND_KLX.ln() - EXTINCTION * air_mass;
-    let sd = beliefs.exposure_metered_sd.hypot(EXTINCTION_SD * air_mass);
+    let sd = priors.exposure_metered_sd.hypot(EXTINCTION_SD * air_mass);
     Some(Normal { mean: white_per_klx.ln() + ln_klx, sd })
 }
 
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     fn klx(illuminant: &str) -> Normal {
-        let Normal { mean, sd } = in_the_sun(1.0, illuminant, &Beliefs::USUAL).unwrap();
+        let Normal { mean, sd } = in_the_sun(1.0, illuminant, &Priors::USUAL).unwrap();
         Normal { mean: mean.exp(), sd }
     }
 

@@ -6,10 +6,10 @@
 mod camera;
 mod drawn;
 mod expected;
+mod external_kernel;
 mod fit;
 mod fold;
 mod folded_sheet;
-mod given_kernel;
 mod marked;
 mod metered;
 mod photograph;
@@ -23,9 +23,9 @@ use std::collections::BTreeMap;
 
 pub use drawn::sheet;
 pub use expected::ExpectedError;
+pub use external_kernel::ExternalKernel;
 pub use fold::FoldSetting;
 pub use folded_sheet::FoldedSheet;
-pub use given_kernel::GivenKernel;
 pub use marked::{MarkedPanels, stated_fold};
 pub use photograph::{PhotographedFold, Picture};
 pub use residuals::residuals;

@@ -18,12 +18,12 @@ use self::ambient::CREASE_RADII;
 use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
-use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::conditions::{Daylight, SkyKind};
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit};
-use crate::estimate::photograph::{Told, Unmodelled};
+use crate::estimate::photograph::priors::Priors;
+use crate::estimate::photograph::{StatedScene, Unmodelled};
 use crate::forward::render::{FoldView, Frame, Viewpoint};
 use crate::image::Framing;
 use crate::kernel::bent::{BentExchange, BentFold};
@@ -71,7 +71,7 @@ impl<'a> Picture<'a> {
 pub struct PhotographedFold<'a> {
     setting: &'a FoldSetting,
     nodes: Vec<f64>,
-    beliefs: &'static Beliefs,
+    priors: &'static Priors,
     /// Name of a measured sheet that is taken to be unknown.
     left_out: Option<String>,
 }
@@ -80,7 +80,7 @@ impl<'a> PhotographedFold<'a> {
     /// That of a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting) -> Self {
-        Self { setting, nodes: nodes(NODES), beliefs: &Beliefs::USUAL, left_out: None }
+        Self { setting, nodes: nodes(NODES), priors: &Priors::USUAL, left_out: None }
     }
 
     /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes of a sheet that nobody measured.
@@ -89,10 +89,10 @@ impl<'a> PhotographedFold<'a> {
         Self { left_out: Some(sheet.to_owned()), ..self }
     }
 
-    /// The same believed otherwise, to see what that changes.
+    /// The same under other priors, to see what that changes.
     #[must_use]
-    pub fn believing(self, beliefs: &'static Beliefs) -> Self {
-        Self { beliefs, ..self }
+    pub fn believing(self, priors: &'static Priors) -> Self {
+        Self { priors, ..self }
     }
 
     /// The parts of a photograph of which facets were measured, or why there are none.
@@ -131,23 +131,23 @@ impl<'a> PhotographedFold<'a> {
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
         let (optics, facets) = (self.setting.optics()?, fold.facets());
-        let eye = eye::of(optics, self.beliefs)?;
+        let eye = eye::of(optics, self.priors)?;
         let shape = [2 * facets.len(), eye.sensitivities.ncols()];
         check_shape("facet_rgb", measured.rgb, shape)?;
         check_shape("facet_sd", measured.sd, shape)?;
         let bins = Bins::new(fold, measured, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
-        let told = Told {
-            beliefs: self.beliefs,
+        let stated = StatedScene {
+            priors: self.priors,
             exposure,
             metered: white_per_klx
                 .zip(optics.illuminants.first())
-                .and_then(|(white, light)| metered::in_the_sun(white, &light.name, self.beliefs)),
+                .and_then(|(white, light)| metered::in_the_sun(white, &light.name, self.priors)),
             by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),
-            angle_sd_deg: angle_sd_deg.unwrap_or(self.beliefs.angle_sd_deg),
+            angle_sd_deg: angle_sd_deg.unwrap_or(self.priors.angle_sd_deg),
             tilt_deg: light.tilt_deg(),
             daylight: Daylight::of(&eye.daylight, &eye.sun),
             is_daylight_assumed: *is_daylight_assumed,
@@ -168,7 +168,7 @@ impl<'a> PhotographedFold<'a> {
         let surroundings = ambient::of(fold, (&pose, sun, zenith), (&self.nodes, &even), &bins)?;
         let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
         Ok(Ok(Parts {
-            told,
+            stated,
             places: bins.places().to_vec(),
             sd: bins.sd().clone(),
             values: values.clone(),

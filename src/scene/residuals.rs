@@ -25,7 +25,7 @@ pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> R
     let sd = sample.noise_of(estimate)?.deviations(model.facets(), &measured)?;
     let found =
         |wanted: &Unknown| estimate.fitted().find(|(unknown, _)| *unknown == wanted).map(|(_, value)| value);
-    let fitted = facets(estimate, &model.with_found(found))?;
+    let fitted = facets(estimate, &model.with_fitted(found))?;
     check_shape("facet_rgb", &measured, [fitted.nrows(), fitted.ncols()])?;
     Ok(Some(measured.map(|[facet, channel], value| {
         let sd = sd.get(facet, channel).unwrap_or_default().max(f64::MIN_POSITIVE);

@@ -12,7 +12,7 @@ use crate::image::Making;
 use crate::spectrum::have_one_peak;
 use crate::stream::{Optics, Sample};
 
-/// Channels without which no light is told from another.
+/// With fewer channels no light can be distinguished from another.
 const COLOURS: usize = 3;
 
 /// Light and camera as they were stated; of daylight that nobody stated `is_daylight_assumed`.

@@ -1,4 +1,4 @@
-//! Sources around a fold as what a photograph of it is believed to be taken in: the sun, and a sky that somebody stated.
+//! Sources around a fold as the light in which a photograph of it is taken: the sun, and a sky that somebody stated.
 
 use nalgebra::Vector3;
 
@@ -76,7 +76,7 @@ impl StatedSky {
             | LightSource::Point { .. }
             | LightSource::Area { .. }
             | LightSource::UniformSky { .. }
-            | LightSource::Given => None,
+            | LightSource::PerFacet => None,
         }
     }
 }

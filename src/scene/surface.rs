@@ -120,7 +120,7 @@ impl<'a> SurfaceSetting<'a> {
         let exchange = self.lit()?.reduce(&part_of_facet, self.scene.tolerance()?)?;
         let known = materials.into_iter().map(|material| Some(material.reflectance));
         let parts: Vec<_> = std::iter::once(None).chain(known).collect();
-        FacetModel::beside_known(&exchange, &parts, cameras)
+        FacetModel::with_known(&exchange, &parts, cameras)
     }
 
     /// The surface in its light, divided as its response was solved.

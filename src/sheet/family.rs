@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use super::angles::Angles;
 use super::fresnel::FRESNEL_MEAN;
 
-/// How steeply fuzz rises towards grazing angles.
-const FUZZ_POWER: i32 = 3;
+/// How steeply sheen rises towards grazing angles.
+const SHEEN_POWER: i32 = 3;
 
 /// A body, colour of its own, under a colourless surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,11 +14,11 @@ pub struct Family {
     /// Standard deviation of the body's slopes, degrees (Oren and Nayar); 0: Lambertian.
     pub body_roughness_deg: f64,
     /// Share of the reflection that a closed surface of index 1.5 would have, [0, 1] and a little more.
-    pub gloss: f64,
+    pub specular_weight: f64,
     /// Roughness of that surface, (0, 1]: the parameter of the GGX distribution.
     pub roughness: f64,
-    /// How much brighter the body is where the light grazes it, or the eye: fibres that stand up, as those of felt.
-    pub fuzz: f64,
+    /// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of felt.
+    pub sheen: f64,
 }
 
 /// What evaluating a [`Family`] needs, worked out once.
@@ -46,22 +46,23 @@ impl Terms {
     /// M. Oren, S. Nayar, SIGGRAPH 1994, eq. (30); B. Walter et al., EGSR 2007, for GGX and its shadowing.
     pub(super) fn at(&self, angles: &Angles) -> [f64; 2] {
         let Angles { cos_in, cos_out, cos_between, fresnel: [of_in, of_out, of_facets], .. } = *angles;
-        let Family { gloss, fuzz, .. } = self.family;
+        let Family { specular_weight, sheen, .. } = self.family;
         let towards = angles.along_sheet().max(0.0) / cos_in.max(cos_out);
         let mut body = FRAC_1_PI * (self.even + self.towards_light * towards);
-        if fuzz != 0.0 {
-            body *= 1.0 + fuzz * ((1.0 - cos_in).powi(FUZZ_POWER) + (1.0 - cos_out).powi(FUZZ_POWER));
+        if sheen != 0.0 {
+            body *= 1.0 + sheen * ((1.0 - cos_in).powi(SHEEN_POWER) + (1.0 - cos_out).powi(SHEEN_POWER));
         }
-        if gloss == 0.0 {
+        if specular_weight == 0.0 {
             return [body, 0.0];
         }
-        body *= (1.0 - gloss * of_in) * (1.0 - gloss * of_out) / (1.0 - gloss * FRESNEL_MEAN);
+        body *= (1.0 - specular_weight * of_in) * (1.0 - specular_weight * of_out)
+            / (1.0 - specular_weight * FRESNEL_MEAN);
         let square = self.family.roughness * self.family.roughness;
         // of the half vector to the normal
         let cos_half = 0.5_f64.sqrt() * (cos_in + cos_out) / (1.0 + cos_between).max(1e-12).sqrt();
         let slopes = square / (PI * (cos_half * cos_half * (square - 1.0) + 1.0).powi(2));
         // 2 cos / (1 + Λ) of Smith's shadowing: the cosines cancel those of the reflection's 4 cos cos
         let shadow = |cos: f64| 1.0 / (cos + (square + (1.0 - square) * cos * cos).sqrt());
-        [body, gloss * slopes * of_facets * shadow(cos_in) * shadow(cos_out)]
+        [body, specular_weight * slopes * of_facets * shadow(cos_in) * shadow(cos_out)]
     }
 }

@@ -47,8 +47,8 @@ enum Parts {
 
 impl From<Family> for Shape {
     fn from(family: Family) -> Self {
-        let Family { body_roughness_deg, gloss, fuzz, .. } = family;
-        if [body_roughness_deg, gloss, fuzz].iter().all(|effect| effect.abs() <= 0.0) {
+        let Family { body_roughness_deg, specular_weight, sheen, .. } = family;
+        if [body_roughness_deg, specular_weight, sheen].iter().all(|effect| effect.abs() <= 0.0) {
             return Self::lambertian();
         }
         Self::of(Parts::Family(Terms::new(family)))
@@ -78,7 +78,7 @@ impl Shape {
     /// # Example
     /// ```
     /// use vfold::sheet::{Angles, Family, Shape};
-    /// let shape = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+    /// let shape = Shape::from(Family { specular_weight: 0.5, roughness: 0.4, ..Family::default() });
     /// let [body, surface] = shape.at(&Angles::instrument());
     /// assert!((std::f64::consts::PI * body - 1.0).abs() < 1e-12 && surface.abs() < 1e-12);
     /// ```
@@ -94,10 +94,10 @@ impl Shape {
     /// # Example
     /// ```
     /// use vfold::sheet::{Family, Shape};
-    /// assert!((Shape::from(Family::default()).reflectance_45_0(0.3) - 0.3).abs() < 1e-12);
+    /// assert!((Shape::from(Family::default()).reflectance_factor_45_0(0.3) - 0.3).abs() < 1e-12);
     /// ```
     #[must_use]
-    pub fn reflectance_45_0(&self, albedo: f64) -> f64 {
+    pub fn reflectance_factor_45_0(&self, albedo: f64) -> f64 {
         let [slope, offset] = self.slope_and_offset();
         slope * albedo + offset
     }
@@ -113,7 +113,7 @@ impl Shape {
     #[must_use]
     pub fn brdf(&self, albedo: f64, angles: &Angles) -> f64 {
         let [body, surface] = self.at(angles);
-        self.reflectance_45_0(albedo) * body + surface
+        self.reflectance_factor_45_0(albedo) * body + surface
     }
 }
 
@@ -167,10 +167,10 @@ mod tests {
     use super::*;
 
     fn families() -> Vec<Family> {
-        let mut families = vec![Family::default(), Family { fuzz: 0.5, ..Family::default() }];
+        let mut families = vec![Family::default(), Family { sheen: 0.5, ..Family::default() }];
         for body_roughness_deg in [0.0, 15.0, 30.0] {
-            for (gloss, roughness) in [(0.3, 0.3), (0.5, 0.4), (1.0, 0.6)] {
-                families.push(Family { body_roughness_deg, gloss, roughness, fuzz: 0.0 });
+            for (specular_weight, roughness) in [(0.3, 0.3), (0.5, 0.4), (1.0, 0.6)] {
+                families.push(Family { body_roughness_deg, specular_weight, roughness, sheen: 0.0 });
             }
         }
         families
@@ -211,7 +211,7 @@ mod tests {
                     }
                     sum += weight_in * lit;
                     assert!(
-                        lit > 0.0 && (lit < 1.0 || family.fuzz > 0.0),
+                        lit > 0.0 && (lit < 1.0 || family.sheen > 0.0),
                         "{family:?} {albedo} {square_in}: {lit}"
                     );
                 }

@@ -19,7 +19,7 @@ pub struct Eigen {
 }
 
 impl Eigen {
-    /// Of the tridiagonal matrix with this `diagonal` and the entries `beside` it, one fewer.
+    /// Of the tridiagonal matrix with this `diagonal` and the entries `off_diagonal` it, one fewer.
     ///
     /// # Source
     /// EISPACK, `tql2`; Golub and Van Loan, *Matrix Computations*, section 8.3.
@@ -32,8 +32,8 @@ impl Eigen {
     /// assert!((values[0] - 1.0).abs() < 1e-15 && (values[1] - 3.0).abs() < 1e-15);
     /// ```
     #[must_use]
-    pub fn of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> Self {
-        Self::seen(DMatrix::identity(diagonal.len(), diagonal.len()), diagonal, beside)
+    pub fn of_tridiagonal(diagonal: &[f64], off_diagonal: &[f64]) -> Self {
+        Self::seen(DMatrix::identity(diagonal.len(), diagonal.len()), diagonal, off_diagonal)
     }
 
     /// As [`Eigen::of_tridiagonal`], with the product of `rows` and the eigenvectors in place of these: fewer rows take less time.
@@ -46,14 +46,15 @@ impl Eigen {
     /// assert!((sums.amax() - 2_f64.sqrt()).abs() < 1e-15 && sums.amin().abs() < 1e-15);
     /// ```
     #[must_use]
-    pub fn seen(rows: DMatrix<f64>, diagonal: &[f64], beside: &[f64]) -> Self {
+    pub fn seen(rows: DMatrix<f64>, diagonal: &[f64], off_diagonal: &[f64]) -> Self {
         let count = diagonal.len();
         if rows.nrows() > count {
-            let Self { values, vectors } = Self::of_tridiagonal(diagonal, beside);
+            let Self { values, vectors } = Self::of_tridiagonal(diagonal, off_diagonal);
             return Self { values, vectors: rows * vectors };
         }
-        let mut ql = Ql { diagonal: diagonal.to_vec(), beside: [beside, &[0.0]].concat(), vectors: rows };
-        let sizes = ql.diagonal.iter().zip(&ql.beside).map(|(d, e)| d.abs() + e.abs());
+        let mut ql =
+            Ql { diagonal: diagonal.to_vec(), off_diagonal: [off_diagonal, &[0.0]].concat(), vectors: rows };
+        let sizes = ql.diagonal.iter().zip(&ql.off_diagonal).map(|(d, e)| d.abs() + e.abs());
         let negligible = f64::EPSILON * sizes.fold(0.0, f64::max);
         for first in 0..count {
             for _ in 0..ITERATION_LIMIT {
@@ -70,28 +71,28 @@ impl Eigen {
     /// If the matrix has no entry.
     #[must_use]
     pub fn of_symmetric(matrix: DMatrix<f64>) -> Self {
-        let (turned, diagonal, beside) = SymmetricTridiagonal::new(matrix).unpack();
-        Self::seen(turned, diagonal.as_slice(), beside.as_slice())
+        let (turned, diagonal, off_diagonal) = SymmetricTridiagonal::new(matrix).unpack();
+        Self::seen(turned, diagonal.as_slice(), off_diagonal.as_slice())
     }
 }
 
 struct Ql {
     diagonal: Vec<f64>,
     /// Ends with a zero.
-    beside: Vec<f64>,
+    off_diagonal: Vec<f64>,
     vectors: DMatrix<f64>,
 }
 
 impl Ql {
     /// The end of the block that starts at `first`; none if that is a block by itself.
     fn block(&self, first: usize, negligible: f64) -> Option<usize> {
-        let rest = self.beside[first..].iter().take_while(|e| e.abs() > negligible).count();
+        let rest = self.off_diagonal[first..].iter().take_while(|e| e.abs() > negligible).count();
         (rest > 0).then_some(first + rest)
     }
 
     /// One implicit QL step on a block, shifted by the eigenvalue of its first two rows that is nearer to the first entry.
     fn sweep(&mut self, first: usize, last: usize) {
-        let (d, e) = (&mut self.diagonal, &mut self.beside);
+        let (d, e) = (&mut self.diagonal, &mut self.off_diagonal);
         let slope = (d[first + 1] - d[first]) / (2.0 * e[first]);
         let mut g = d[last] - d[first] + e[first] / (slope + slope.hypot(1.0).copysign(slope));
         let (mut sin, mut cos, mut shift) = (1.0, 1.0, 0.0);
@@ -136,10 +137,10 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, Uniform};
 
-    fn tridiagonal(diagonal: &[f64], beside: &[f64]) -> DMatrix<f64> {
+    fn tridiagonal(diagonal: &[f64], off_diagonal: &[f64]) -> DMatrix<f64> {
         DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
             0 => diagonal[i],
-            1 => beside[i.min(j)],
+            1 => off_diagonal[i.min(j)],
             _ => 0.0,
         })
     }
@@ -154,9 +155,9 @@ mod tests {
         };
         let (mut ours, mut theirs) = (0.0_f64, 0.0_f64);
         for n in (2..14).cycle().take(1000) {
-            let (diagonal, beside) = (entries(n), entries(n - 1));
-            let matrix = tridiagonal(&diagonal, &beside);
-            let Eigen { values, vectors } = Eigen::of_tridiagonal(&diagonal, &beside);
+            let (diagonal, off_diagonal) = (entries(n), entries(n - 1));
+            let matrix = tridiagonal(&diagonal, &off_diagonal);
+            let Eigen { values, vectors } = Eigen::of_tridiagonal(&diagonal, &off_diagonal);
             let back = &vectors * DMatrix::from_diagonal(&values.into()) * vectors.transpose();
             ours = ours.max((back - &matrix).amax());
             theirs = theirs.max((nalgebra::SymmetricEigen::new(matrix.clone()).recompose() - matrix).amax());
@@ -175,14 +176,14 @@ mod tests {
     proptest! {
         #[test]
         fn values_and_vectors_give_the_matrix_back(
-            (diagonal, beside) in (1_usize..20).prop_flat_map(|n| (entries(n), entries(n - 1)))
+            (diagonal, off_diagonal) in (1_usize..20).prop_flat_map(|n| (entries(n), entries(n - 1)))
         ) {
             let count = diagonal.len();
-            let matrix = tridiagonal(&diagonal, &beside);
+            let matrix = tridiagonal(&diagonal, &off_diagonal);
             for diagonal in [diagonal, vec![0.0; count]] {
                 let mut matrix = matrix.clone();
                 matrix.set_diagonal(&nalgebra::DVector::from_column_slice(&diagonal));
-                let Eigen { values, vectors: q } = Eigen::of_tridiagonal(&diagonal, &beside);
+                let Eigen { values, vectors: q } = Eigen::of_tridiagonal(&diagonal, &off_diagonal);
                 let back = &q * DMatrix::from_diagonal(&values.into()) * q.transpose();
                 prop_assert!((back - matrix).amax() < 1e-14);
                 prop_assert!((q.tr_mul(&q) - DMatrix::identity(count, count)).amax() < 1e-14);

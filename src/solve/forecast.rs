@@ -16,10 +16,10 @@ pub struct ScoreTest<'a> {
 }
 
 impl<'a> ScoreTest<'a> {
-    /// About a solution, the noise `inflation` times its size; none if the model is not finite.
+    /// About a solution, the noise `tempering` times its size; none if the model is not finite.
     #[must_use]
-    pub fn about<S>(solution: &'a Solution<S>, inflation: f64) -> Option<Self> {
-        let (weight, at) = (inflation.powi(-2), &solution.at);
+    pub fn at<S>(solution: &'a Solution<S>, tempering: f64) -> Option<Self> {
+        let (weight, at) = (tempering.powi(-2), &solution.at);
         let information = Cholesky::new(gauss_newton(&at.jacobian, weight))?;
         Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
     }
@@ -55,8 +55,8 @@ fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
 }
 
 /// Twice what is minimised, at the minimum of the model linear about `w`; none if the model is not finite.
-pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, inflation: f64) -> Option<f64> {
-    let (at, weight) = (model.linearise(w), inflation.powi(-2));
+pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Option<f64> {
+    let (at, weight) = (model.linearise(w), tempering.powi(-2));
     let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
     let step = Cholesky::new(gauss_newton(&at.jacobian, weight))?.solve(&descent);
     Some(cost(weight, w, &at.residuals) - descent.dot(&step))
@@ -65,7 +65,7 @@ pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, inflation: f64) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::posterior::{Linearised, maximise};
+    use crate::solve::posterior::{Linearised, find_mode};
 
     /// A straight line through the origin.
     struct Line;
@@ -93,9 +93,9 @@ mod tests {
 
     #[test]
     fn what_one_more_unknown_would_bring_is_known_before_it_is_fitted() {
-        let found = maximise(&Line, DVector::zeros(1), (1.0, 1.0), 1e-9, 100);
+        let found = find_mode(&Line, DVector::zeros(1), (1.0, 1.0), 1e-9, 100);
         let change = DVector::from_vec(vec![1.0, 0.0]);
-        let test = ScoreTest::about(&found, 1.0).unwrap();
+        let test = ScoreTest::at(&found, 1.0).unwrap();
         let gain = test.ln_gain_along(&change);
         // with the first datum free only the second is left: ½(1 − w)² + ½w² is least at w = ½
         let before = 0.5 * found.cost(1.0);

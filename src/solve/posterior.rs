@@ -17,12 +17,12 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
 
-/// The noise is first taken for this share of the misfit at the start.
-const MISFIT: f64 = 0.3;
+/// The noise is first taken for this share of the residual at the start.
+const FIRST_SHARE: f64 = 0.3;
 /// Factor by which the noise falls from stage to stage, the root of ten: a tenth releases so many coordinates at once that the next stage
 /// may set out far off the valley that precise data cut.
 const STAGE: f64 = 3.162_277_660_168_379_5;
-/// Most steps at each inflation of the noise, and the gradient in the metric of the Hessian that ends a stage earlier.
+/// Most steps at each tempering of the noise, and the gradient in the metric of the Hessian that ends a stage earlier.
 const STEPS_A_STAGE: u32 = 60;
 const END_OF_STAGE: f64 = 1.0;
 /// Longest step, in standard deviations of the prior: further out the model is not the one that was linearised.
@@ -90,41 +90,41 @@ pub struct Solution<S> {
 /// Where an iteration began.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// `|ρ(w)|² + |w|²`, the noise inflated.
+    /// `|ρ(w)|² + |w|²`, the noise tempered.
     pub cost: f64,
     /// Norm of the gradient in the metric of the Hessian.
     pub gradient_norm: f64,
     /// Damping of the first trial.
     pub damping: f64,
-    /// Factor by which the noise is inflated.
-    pub inflation: f64,
+    /// Factor by which the noise is tempered.
+    pub tempering: f64,
 }
 
 impl<S> Solution<S> {
-    /// Logarithm of the probability of the data under prior and model, the noise `inflation` times its size, but for a term that
+    /// Logarithm of the probability of the data under prior and model, the noise `tempering` times its size, but for a term that
     /// depends on the data alone.
     ///
     /// # Source
     /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
     #[must_use]
-    pub fn ln_evidence(&self, inflation: f64) -> Option<f64> {
-        let weight = inflation.powi(-2);
+    pub fn ln_evidence(&self, tempering: f64) -> Option<f64> {
+        let weight = tempering.powi(-2);
         let information = Cholesky::new(gauss_newton(&self.at.jacobian, weight))?;
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
-    /// Twice what was minimised, the noise `inflation` times its size.
+    /// Twice what was minimised, the noise `tempering` times its size.
     #[must_use]
-    pub fn cost(&self, inflation: f64) -> f64 {
-        cost(inflation.powi(-2), &self.w, &self.at.residuals)
+    pub fn cost(&self, tempering: f64) -> f64 {
+        cost(tempering.powi(-2), &self.w, &self.at.residuals)
     }
 
-    /// How far the data, the noise being `inflation` times its size, are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
+    /// How far the data, the noise being `tempering` times its size, are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
     /// chi-squared, with as many degrees of freedom as there are data. At a false maximum it is far out.
     #[must_use]
-    pub fn surprise(&self, inflation: f64) -> f64 {
+    pub fn surprise(&self, tempering: f64) -> f64 {
         let data = self.at.residuals.len() as f64;
-        (self.cost(inflation) - data) / (2.0 * data).sqrt()
+        (self.cost(tempering) - data) / (2.0 * data).sqrt()
     }
 }
 
@@ -150,25 +150,25 @@ pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Cholesky::new(gauss_newton(jacobian, 1.0))
 }
 
-/// The noise at the start: a third of the misfit there, but no less than `least`, all in units of the true noise.
-pub fn first_inflation(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 {
-    let misfit = model.residuals(w);
-    (MISFIT * misfit.norm() / (misfit.len().max(1) as f64).sqrt()).max(least)
+/// The noise at the start: a third of the residual there, but no less than `least`, all in units of the true noise.
+pub fn first_tempering(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 {
+    let residuals = model.residuals(w);
+    (FIRST_SHARE * residuals.norm() / (residuals.len().max(1) as f64).sqrt()).max(least)
 }
 
-/// Minimises from `start`, the noise first inflated to `inflation.0` times its true size and then, by roots of ten, down to
-/// `inflation.1`, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
+/// Minimises from `start`, the noise first tempered to `tempering.0` times its true size and then, by roots of ten, down to
+/// `tempering.1`, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
 /// within `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
-pub fn maximise<M: Model>(
+pub fn find_mode<M: Model>(
     model: &M,
     start: DVector<f64>,
-    inflation: (f64, f64),
+    tempering: (f64, f64),
     tolerance: f64,
     limits: impl Into<Limits>,
 ) -> Solution<M::Second> {
-    let (mut now, last) = inflation;
+    let (mut now, last) = tempering;
     let limits = limits.into();
     let mut search = Search {
         model,
@@ -201,7 +201,7 @@ pub fn maximise<M: Model>(
             break Termination::IterationLimit;
         }
         // the linear model says how low the cost may fall, but at the start
-        let is_near = now < inflation.0 || gradient_norm < END_OF_STAGE;
+        let is_near = now < tempering.0 || gradient_norm < END_OF_STAGE;
         let cost = search.cost(&newton);
         let last_gain = search.trace.last().filter(|_| steps > 0).map(|before| before.cost - cost);
         let is_stuck = last_gain.is_some_and(|gain| gain < TOO_LITTLE * (cost - limits.cost));
@@ -281,9 +281,9 @@ impl<M: Model> Search<'_, M> {
         cost(newton.weight, &self.w, &self.at.residuals)
     }
 
-    /// Cost at the minimum of the linear model, the noise being `inflation` times its size; not finite if the model is not.
-    fn foreseen_cost(&self, inflation: f64) -> f64 {
-        let newton = self.gauss_newton(inflation.powi(-2));
+    /// Cost at the minimum of the linear model, the noise being `tempering` times its size; not finite if the model is not.
+    fn foreseen_cost(&self, tempering: f64) -> f64 {
+        let newton = self.gauss_newton(tempering.powi(-2));
         newton.map_or(f64::INFINITY, |newton| self.cost(&newton) - newton.decrement.powi(2))
     }
 
@@ -292,7 +292,7 @@ impl<M: Model> Search<'_, M> {
             cost: self.cost(newton),
             gradient_norm: newton.decrement,
             damping: self.damping,
-            inflation: newton.weight.sqrt().recip(),
+            tempering: newton.weight.sqrt().recip(),
         });
     }
 
@@ -442,7 +442,7 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_in_long_steps() {
         let start = DVector::from_vec(vec![2.0, BEND * 4.0]);
-        let found = maximise(&Valley, start, (1.0, 1.0), 1e-6, 1000);
+        let found = find_mode(&Valley, start, (1.0, 1.0), 1e-6, 1000);
         assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
         assert!(found.w.norm() < 1e-5, "{}", found.w);
         let steps = found.trace.len();
@@ -477,7 +477,7 @@ mod tests {
 
     #[test]
     fn a_search_ends_at_a_kink() {
-        let found = maximise(&Kink, DVector::from_vec(vec![1.3, 0.0]), (1.0, 1.0), 0.03, 1000);
+        let found = find_mode(&Kink, DVector::from_vec(vec![1.3, 0.0]), (1.0, 1.0), 0.03, 1000);
         assert!(matches!(found.termination, Termination::NoProgress { .. }), "{:?}", found.termination);
         assert!((found.w[0] - 1.0).abs() < 1e-5, "{}", found.w);
         let steps = found.trace.len();
@@ -490,8 +490,8 @@ mod tests {
         for (data, scale) in [(3.0, 1.0), (0.1, 1.0), (-2.0, 0.5), (5e6, 1e6)] {
             let model = Exponential { data, scale };
             let start = DVector::zeros(1);
-            let first = first_inflation(&model, &start, 1.0);
-            let found = maximise(&model, start, (first, 1.0), 1e-6, 100);
+            let first = first_tempering(&model, &start, 1.0);
+            let found = find_mode(&model, start, (first, 1.0), 1e-6, 100);
             let w = found.w[0];
             let slope = w - (data - scale * w.exp()) * scale * w.exp();
             let expected = 1.0 + (scale * w.exp()).powi(2);

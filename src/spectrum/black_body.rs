@@ -2,7 +2,7 @@
 
 use super::Spectrum;
 use super::grid::WavelengthGrid;
-use super::kinds::bad;
+use super::quantities::bad;
 use crate::error::Result;
 
 /// Second radiation constant, nm K, as colorimetry has it (CIE 15:2018, section 4.1.1; hc/k is 0.002 % less).

@@ -9,11 +9,11 @@ use super::{Spectrum, WavelengthGrid};
 use crate::error::{Error, Result};
 
 const NAMES: &str = include_str!("../../share/cameras.txt");
-const CURVES: &[u8] = include_bytes!("../../share/cameras.npy");
+const SENSITIVITIES: &[u8] = include_bytes!("../../share/cameras.npy");
 /// The array holds sensitivity in this fraction of 1.
 const UNIT: f64 = 1.0 / 50_000.0;
 
-/// A camera whose curves were measured.
+/// A camera whose sensitivities were measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MeasuredCamera {
     /// The maker, in one or two words.
@@ -51,10 +51,10 @@ pub fn measured_cameras() -> impl Iterator<Item = MeasuredCamera> {
 ///
 /// # Errors
 /// Only if the embedded array is damaged.
-pub fn measured_curves() -> Result<Vec<[Spectrum; 3]>> {
+pub fn measured_sensitivities() -> Result<Vec<[Spectrum; 3]>> {
     let wavelengths_nm: Arc<[f64]> = WavelengthGrid::uniform(380.0, 780.0, 5.0)?.wavelengths_nm().into();
     let bands = wavelengths_nm.len();
-    let units: Vec<u16> = npyz::NpyFile::new(CURVES)
+    let units: Vec<u16> = npyz::NpyFile::new(SENSITIVITIES)
         .and_then(npyz::NpyFile::into_vec)
         .map_err(|e| Error::file("share/cameras.npy", e))?;
     let channel = |name: &str, units: &[u16]| {
@@ -76,7 +76,7 @@ impl MeasuredCamera {
     }
 
     /// One line about it.
-    pub(super) fn about(&self) -> String {
+    pub(super) fn description(&self) -> String {
         let list = |names: &str| names.replace(';', ", ");
         let aliases =
             if self.aliases.is_empty() { String::new() } else { format!(" ({})", list(self.aliases)) };
@@ -91,9 +91,9 @@ impl MeasuredCamera {
     /// Its channels.
     ///
     /// # Errors
-    /// As [`measured_curves`].
+    /// As [`measured_sensitivities`].
     pub(super) fn channels(&self) -> Result<Vec<Spectrum>> {
-        let mut all = measured_curves()?;
+        let mut all = measured_sensitivities()?;
         if self.at >= all.len() {
             return Err(Error::Fault("share/cameras.npy has not all of share/cameras.txt".to_owned()));
         }
@@ -152,13 +152,13 @@ mod tests {
 
     #[test]
     fn every_camera_has_its_curves_and_its_own_name() {
-        let curves = measured_curves().unwrap();
+        let sensitivities = measured_sensitivities().unwrap();
         let names: HashSet<String> = measured_cameras().map(|camera| camera.name()).collect();
-        assert_eq!((curves.len(), names.len(), measured_cameras().count()), (52, 52, 52));
-        for (camera, curves) in measured_cameras().zip(curves) {
+        assert_eq!((sensitivities.len(), names.len(), measured_cameras().count()), (52, 52, 52));
+        for (camera, sensitivities) in measured_cameras().zip(sensitivities) {
             assert_eq!(by_name(&camera.name()), Some(camera));
-            assert_eq!(camera.channels().unwrap(), curves);
-            let peak = curves.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
+            assert_eq!(camera.channels().unwrap(), sensitivities);
+            let peak = sensitivities.iter().flat_map(Spectrum::values).copied().fold(0.0, f64::max);
             assert!((peak - 1.0).abs() < 1e-12, "{}: {peak}", camera.name());
         }
     }

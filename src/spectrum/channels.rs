@@ -1,8 +1,8 @@
 //! Which column of a file is which channel of a camera: by name, in any order.
 
 use super::Spectrum;
-use super::kinds::bad;
 use super::names::words;
+use super::quantities::bad;
 use crate::error::Result;
 
 /// The colours of channels, as words in columns' names, in the order in which a camera has them.
@@ -151,8 +151,10 @@ mod tests {
     /// None of those that are on one scale: three were published with channels scaled one by one.
     #[test]
     fn built_in_cameras_have_peaks_of_their_own() {
-        let curves = crate::spectrum::measured_curves().unwrap();
-        let one_peak = curves.iter().filter(|curves| have_one_peak(curves.iter().map(Spectrum::values)));
+        let sensitivities = crate::spectrum::measured_sensitivities().unwrap();
+        let one_peak = sensitivities
+            .iter()
+            .filter(|sensitivities| have_one_peak(sensitivities.iter().map(Spectrum::values)));
         assert_eq!(one_peak.count(), 2, "ARRI D21, Nikon D5100");
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::kinds::bad;
+use super::quantities::bad;
 use super::{Outside, Spectrum, WavelengthGrid, formats, interpolation::Interpolation};
 use crate::error::{Error, Result};
 

@@ -17,7 +17,7 @@ macro_rules! shared {
 
 struct Camera {
     name: &'static str,
-    about: &'static str,
+    description: &'static str,
     exif_make: &'static str,
     exif_model: &'static str,
     channels: fn() -> Result<Vec<Spectrum>>,
@@ -26,21 +26,21 @@ struct Camera {
 const CAMERAS: [Camera; 3] = [
     Camera {
         name: "canon-5d-mark-ii",
-        about: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces: scitech 2017), which its pictures mean",
+        description: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces: scitech 2017), which its pictures mean",
         exif_make: "Canon",
         exif_model: "Canon EOS 5D Mark II",
         channels: || shared!("canon-5d-mark-ii.csv"),
     },
     Camera {
         name: "nikon-d5100",
-        about: "Nikon D5100, 380..780 nm by 5 (National Physical Laboratory)",
+        description: "Nikon D5100, 380..780 nm by 5 (National Physical Laboratory)",
         exif_make: "NIKON CORPORATION",
         exif_model: "NIKON D5100",
         channels: || shared!("nikon-d5100.csv"),
     },
     Camera {
         name: "sigma-sd-merrill",
-        about: "Sigma SD1 Merrill, layered Foveon X3 sensor, 400..680 nm by 10 (National Physical Laboratory)",
+        description: "Sigma SD1 Merrill, layered Foveon X3 sensor, 400..680 nm by 10 (National Physical Laboratory)",
         exif_make: "SIGMA",
         exif_model: "SIGMA SD1 Merrill",
         channels: || shared!("sigma-sd-merrill.csv"),
@@ -49,29 +49,29 @@ const CAMERAS: [Camera; 3] = [
 
 struct ReflectanceSet {
     name: &'static str,
-    about: &'static str,
+    description: &'static str,
     members: fn() -> Result<Vec<Spectrum>>,
 }
 
 const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
     ReflectanceSet {
         name: "cc24",
-        about: "24 ColorChecker patches, Ohta 1997 (cc24:dark-skin, cc24:red, cc24:neutral-6-5, ...)",
+        description: "24 ColorChecker patches, Ohta 1997 (cc24:dark-skin, cc24:red, cc24:neutral-6-5, ...)",
         members: || members_of("cc24", shared!("cc24.csv")?),
     },
     ReflectanceSet {
         name: "cc24-babelcolor",
-        about: "24 ColorChecker patches, mean of 30 charts, BabelColor 2012",
+        description: "24 ColorChecker patches, mean of 30 charts, BabelColor 2012",
         members: || members_of("cc24-babelcolor", shared!("cc24-babelcolor.csv")?),
     },
     ReflectanceSet {
         name: "cc24-iso17321",
-        about: "24 ColorChecker patches, ISO 17321-1:2012 (the same values as cc24)",
+        description: "24 ColorChecker patches, ISO 17321-1:2012 (the same values as cc24)",
         members: || members_of("cc24-iso17321", shared!("cc24.csv")?),
     },
     ReflectanceSet {
         name: "munsell",
-        about: "1269 matt Munsell chips by hue, value/chroma (munsell:5R6/12, ...)",
+        description: "1269 matt Munsell chips by hue, value/chroma (munsell:5R6/12, ...)",
         members: munsell::chips,
     },
 ];
@@ -92,8 +92,8 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
     let mut rows = listed(what)?;
     for file in own::files()? {
         let hidden = if find(what, &file.name)?.is_some() { "; the built-in one has the name" } else { "" };
-        let about = format!("own, {} in {}{hidden}", file.file_name(), own::VARIABLE);
-        rows.push((file.name, about));
+        let description = format!("own, {} in {}{hidden}", file.file_name(), own::VARIABLE);
+        rows.push((file.name, description));
     }
     Ok(rows)
 }
@@ -123,7 +123,7 @@ pub fn is_built_in(what: What, name: &str) -> bool {
 fn listed(what: What) -> Result<Vec<(String, String)>> {
     Ok(match what {
         What::Cameras => listed_cameras(),
-        What::Reflectances => rows(REFLECTANCE_SETS.iter().map(|set| (set.name, set.about))),
+        What::Reflectances => rows(REFLECTANCE_SETS.iter().map(|set| (set.name, set.description))),
         What::Illuminants => {
             let cie = cie_illuminants()?;
             let daylight = ("daylight:CCT", "CIE daylight of 4000..25000 K, such as daylight:5500");
@@ -132,24 +132,24 @@ fn listed(what: What) -> Result<Vec<(String, String)>> {
                 "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
             let black_body = ("2856K", "black body of 1000..25000 K, such as 3200K for a lamp");
             let computed = [daylight, black_body, ("sun:WHERE", sun), ("sky:WHERE", sky)];
-            rows(cie.iter().map(|cie| (cie.name(), about(cie.name()))).chain(computed))
+            rows(cie.iter().map(|cie| (cie.name(), description(cie.name()))).chain(computed))
         }
     })
 }
 
 fn rows<'a>(rows: impl Iterator<Item = (&'a str, &'a str)>) -> Vec<(String, String)> {
-    rows.map(|(name, about)| (name.to_owned(), about.to_owned())).collect()
+    rows.map(|(name, description)| (name.to_owned(), description.to_owned())).collect()
 }
 
 /// The first three, then those of rawtoaces-data but for one that is among the three.
 fn listed_cameras() -> Vec<(String, String)> {
-    let first = rows(CAMERAS.iter().map(|camera| (camera.name, camera.about)));
-    let measured = cameras::measured_cameras().map(|camera| (camera.name(), camera.about()));
+    let first = rows(CAMERAS.iter().map(|camera| (camera.name, camera.description)));
+    let measured = cameras::measured_cameras().map(|camera| (camera.name(), camera.description()));
     let others = measured.filter(|(name, _)| CAMERAS.iter().all(|camera| camera.name != name.as_str()));
     first.into_iter().chain(others).collect()
 }
 
-fn about(illuminant: &str) -> &'static str {
+fn description(illuminant: &str) -> &'static str {
     match illuminant {
         "A" => "CIE standard illuminant A, light bulb, 2856 K",
         "E" => "equal energy at every wavelength",

@@ -5,6 +5,7 @@
 
 mod black_body;
 mod cameras;
+mod candidate_lights;
 mod channels;
 mod clear_sky;
 mod daylight;
@@ -12,26 +13,25 @@ mod donaldson;
 pub mod formats;
 mod grid;
 mod interpolation;
-mod kinds;
 pub mod library;
-mod likely_lights;
 mod munsell;
 mod names;
 mod own;
+mod quantities;
 pub mod spec;
 mod sun;
 mod tables;
 
-pub use cameras::{MeasuredCamera, measured_cameras, measured_curves};
+pub use cameras::{MeasuredCamera, measured_cameras, measured_sensitivities};
+pub use candidate_lights::{CandidateLight, candidate_lights, equal_candidates, fine_candidate_lights};
 pub use channels::have_one_peak;
 pub use clear_sky::ClearSky;
 pub use daylight::{daylight_vectors, daylight_weights, in_ultraviolet};
 pub use donaldson::{Bispectral, Donaldson};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
-pub use kinds::Sensitivities;
 pub use library::{camera_by_exif, is_other_camera, other_measurements};
-pub use likely_lights::{LikelyLight, equally_likely, finely_likely_lights, likely_lights};
+pub use quantities::Sensitivities;
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 

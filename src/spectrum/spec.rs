@@ -3,12 +3,11 @@
 //! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `2856K`, `sun:WHERE` or `sky:WHERE`, the same in the
 //! directory `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
 
-use super::Spectrum;
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
-use super::kinds::{Sensitivities, bad, check_power, check_radiance_factor, check_reflectance};
-use super::library;
 use super::names::{What, unknown};
 use super::own::{self, OwnFile};
+use super::quantities::{Sensitivities, bad, check_power, check_radiance_factor, check_reflectance};
+use super::{Spectrum, library};
 use crate::error::Result;
 use crate::message::printable;
 use std::path::Path;

@@ -13,7 +13,7 @@ pub struct Sun {
     day: Option<u32>,
 }
 
-/// How a sun is told.
+/// How a sun is specified.
 const FORMS: &str = "write sun:40deg, its angle from the zenith, or sun:LAT,LON,TIME as in sun:48.1,11.6,2026-06-21T14:30+02:00";
 
 impl Sun {

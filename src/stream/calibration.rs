@@ -22,10 +22,10 @@ pub struct CalibrationRecord {
     cos: f64,
     /// Its corners, [x, y] each, px of the upright picture.
     corners: [[f64; 2]; 4],
-    /// Of a chart that was found, the probability that its corners are right.
+    /// Probability that the corners of a detected chart are right.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
-    found_confidence: Option<f64>,
+    detection_confidence: Option<f64>,
     /// The exposure that it gives.
     #[schemars(extend("exclusiveMinimum" = 0))]
     exposure: f64,
@@ -76,7 +76,7 @@ impl CalibrationRecord {
             grid,
             cos,
             corners: corners.map(|corner| [corner.x, corner.y]),
-            found_confidence: None,
+            detection_confidence: None,
             exposure: calibration.exposure(),
             exposure_sd: calibration.exposure_sd(),
             coefficients: (0..residual_rms.len()).map(|channel| calibration.coefficients(channel)).collect(),
@@ -87,10 +87,10 @@ impl CalibrationRecord {
 }
 
 impl CalibrationRecord {
-    /// The record with the probability that a chart which was found is right; none of one that was told.
+    /// The record with the probability that a detected chart is right; none for a stated one.
     #[must_use]
     pub fn with_confidence(mut self, confidence: Option<f64>) -> Self {
-        self.found_confidence = confidence;
+        self.detection_confidence = confidence;
         self
     }
 

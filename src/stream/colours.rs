@@ -62,7 +62,7 @@ impl Sample {
     fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<FacetValues>> {
         let facets: Option<Rows> = match self.fields.get(name) {
             Ok(facets) => facets,
-            Err(_) => Some(beside_each_other(name, &self.pictures(name)?)?),
+            Err(_) => Some(side_by_side(name, &self.pictures(name)?)?),
         };
         let Some(facets) = facets else { return Ok(None) };
         within(name, &facets, range)?;
@@ -81,7 +81,7 @@ pub(super) fn values(name: &str, rows: &Rows) -> Result<FacetValues> {
     FacetValues::of_rows(rows).ok_or_else(|| Error::field(name, problem))
 }
 
-fn beside_each_other(name: &str, pictures: &[Rows]) -> Result<Rows> {
+fn side_by_side(name: &str, pictures: &[Rows]) -> Result<Rows> {
     let facets = pictures[0].len();
     if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
         let problem = format!("{} facets in one picture, {facets} in another", other.len());

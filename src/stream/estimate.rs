@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
 use super::fluorescence::{FluorescenceRecord, LightThroughRecord};
-use super::light_found::FoundLightRecord;
+use super::inferred_light::InferredLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
 use super::sample::{Sample, checked, checked_radiance};
@@ -19,7 +19,7 @@ use crate::estimate::noise::Noise;
 use crate::estimate::photograph::Finding;
 use crate::estimate::unknowns::Unknown;
 use crate::estimate::verdict::{Level, Verdict};
-use crate::estimate::{Estimate, Fitted, MISFIT};
+use crate::estimate::{Estimate, Fitted, WRONG_CHI};
 use crate::plot::spectra::Curve;
 use crate::solve::Termination;
 use crate::spectrum::formats::Measured;
@@ -55,11 +55,12 @@ pub struct EstimateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
-    /// Albedo, one number per wavelength, of a photographed sheet that is not taken to be Lambertian: what it reflects of light from all
-    /// directions into all directions. The reflectance is that of an instrument that lights at 45° and looks from 0°.
+    /// Bihemispherical albedo, one number per wavelength, of a photographed sheet that is not taken to be Lambertian: the share of light from all
+    /// directions that it reflects into all directions. `reflectance` is the 45°:0° reflectance factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
-    pub total_reflectance: Option<Vec<f64>>,
+    #[serde(alias = "total_reflectance")]
+    pub bihemispherical_albedo: Option<Vec<f64>>,
     /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it reflects and what it sends out itself under
     /// the light of the scene, as an instrument with this light says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -83,7 +84,7 @@ pub struct EstimateRecord {
     day: Option<DayRecord>,
     /// The light, where nobody stated it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub light: Option<FoundLightRecord>,
+    pub light: Option<InferredLightRecord>,
     /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this sample's among them; absent of
     /// a sample that was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -91,10 +92,10 @@ pub struct EstimateRecord {
     /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FindingRecord>,
-    /// Whether it can be believed; absent from a method that does not know how far off it is.
+    /// Whether it can be trusted; absent from a method that does not know how far off it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<VerdictRecord>,
-    /// What was not tried, or not told by the facets of a photograph.
+    /// What was not tried, or not determined by the facets of a photograph.
     #[serde(default, skip_serializing_if = "Vec::is_empty", skip_deserializing)]
     skipped: Vec<SkippedRecord>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
@@ -120,7 +121,7 @@ pub struct NewEstimate<'a> {
     pub noise: Option<&'a Noise>,
     /// Ids of all samples that it was made of, if there were several.
     pub joined: &'a [String],
-    /// Whether it can be believed, by a method that knows how far off it is.
+    /// Whether it can be trusted, by a method that knows how far off it is.
     pub verdict: Option<&'a Verdict>,
     /// Whether to record the covariance, waveband by waveband.
     pub with_covariance: bool,
@@ -178,7 +179,7 @@ pub struct FindingRecord {
     pub remedy: String,
 }
 
-/// Whether an estimate can be believed.
+/// Whether an estimate can be trusted.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct VerdictRecord {
     /// How far: good, doubtful or wrong.
@@ -190,7 +191,7 @@ pub struct VerdictRecord {
     pub remedy: Option<String>,
 }
 
-/// How far an estimate can be believed.
+/// How far an estimate can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LevelRecord {
@@ -317,19 +318,20 @@ impl EstimateRecord {
     /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
-        let misfit = Some(self.residual_rms).filter(|rms| *rms > MISFIT).map(|rms| {
+        let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
             format!(
-                "facets are {rms:.0} times further from the model than their noise; check angle, corners, light, camera and exposure"
+                "the model misfits the facets by {rms:.0} times the noise; check angle, corners, light, camera and exposure"
             )
         });
         // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do not speak of it.
         let is_real =
             self.fit.iter().flat_map(Quantities::iter).any(|(unknown, _)| unknown.is_of_photographs());
-        let untold = self.fit.iter().flat_map(Quantities::iter);
-        let untold = untold.filter(|(_, one)| !is_real && !one.supported);
-        let untold =
-            untold.map(|(unknown, _)| format!("the facets do not tell {}; it is as expected", unknown.name));
-        misfit.into_iter().chain(untold).collect()
+        let assumed = self.fit.iter().flat_map(Quantities::iter);
+        let assumed = assumed.filter(|(_, one)| !is_real && !one.supported);
+        let assumed = assumed.map(|(unknown, _)| {
+            format!("the facets do not determine {}; it was left at its prior mean", unknown.name)
+        });
+        warning.into_iter().chain(assumed).collect()
     }
 }
 
@@ -344,7 +346,7 @@ impl Sample {
         let reflectance_sd = estimate.reflectance_sd();
         finite("estimate.reflectance", &estimate.reflectance)?;
         finite("estimate.reflectance_sd", reflectance_sd.iter().flatten())?;
-        finite("estimate.total_reflectance", estimate.total.iter().flatten())?;
+        finite("estimate.bihemispherical_albedo", estimate.albedo.iter().flatten())?;
         let sent = estimate.fluorescence.as_ref();
         let of = |is_behind: bool| sent.filter(|found| (found.origin == Origin::Behind) == is_behind);
         let (fluorescence, through) = (of(false), of(true));
@@ -370,7 +372,7 @@ impl Sample {
             iterations: estimate.iterations,
             termination: Some((&estimate.termination).into()),
             reflectance_sd,
-            total_reflectance: estimate.total.clone(),
+            bihemispherical_albedo: estimate.albedo.clone(),
             total_radiance_factor: fluorescence.map(|found| found.total_radiance_factor.clone()),
             total_radiance_factor_sd: fluorescence.map(|found| found.total_radiance_factor_sd.clone()),
             fluorescence: fluorescence.map(FluorescenceRecord::of).transpose()?,
@@ -380,7 +382,7 @@ impl Sample {
             day: estimate
                 .day
                 .map(|found| DayRecord { kind: found.day.name().to_owned(), probability: found.probability }),
-            light: estimate.light.as_ref().map(FoundLightRecord::of).transpose()?,
+            light: estimate.light.as_ref().map(InferredLightRecord::of).transpose()?,
             findings: estimate.findings.iter().map(FindingRecord::from).collect(),
             verdict: verdict.map(VerdictRecord::from),
             skipped: estimate.skipped.iter().map(SkippedRecord::from).collect(),
@@ -435,7 +437,7 @@ impl Sample {
     pub fn curve(&self, estimate: &EstimateRecord) -> Curve {
         // vscore judges the truth; what is not a spectrum cannot be drawn.
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
-        let light = estimate.light.as_ref().map(FoundLightRecord::curve);
+        let light = estimate.light.as_ref().map(InferredLightRecord::curve);
         Curve {
             name: self.id(),
             wavelengths_nm: estimate.wavelengths_nm.clone(),

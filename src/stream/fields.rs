@@ -224,8 +224,8 @@ fn inner<'a>(value: &'a RawValue, part: &str) -> Option<&'a RawValue> {
 /// What is wrong with JSON, without the place: that in a field tells nobody where to look.
 pub(super) fn problem(error: &serde_json::Error) -> String {
     let place = format!(" at line {} column {}", error.line(), error.column());
-    let said = error.to_string();
-    said.strip_suffix(&place).unwrap_or(&said).to_owned()
+    let text = error.to_string();
+    text.strip_suffix(&place).unwrap_or(&text).to_owned()
 }
 
 /// Checks that all numbers of a field are finite: JSON has no NaN or infinity, and a null in their place would hide them.

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::Fields;
 
-/// Most items of a list that are told one by one.
+/// Most items of a list that are listed one by one.
 const LISTED: usize = 6;
 
 impl Fields {

@@ -29,7 +29,7 @@ pub(super) struct SunRecord {
     #[serde(default = "one")]
     #[schemars(range(min = 0, max = 1))]
     sun: f64,
-    /// Irradiance by the sky of an open plane that faces the sun, relative to the sun's if there is one.
+    /// Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the sun's if there is one.
     #[schemars(range(min = 0))]
     sky: f64,
     /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is not read.
@@ -112,7 +112,8 @@ enum SourceRecord {
         irradiance: f64,
     },
     /// Light of which nothing is known but how much each facet gets.
-    Given,
+    #[serde(alias = "given")]
+    PerFacet,
 }
 
 impl From<&LightSource> for SourceRecord {
@@ -134,7 +135,7 @@ impl From<&LightSource> for SourceRecord {
             LightSource::OvercastSky { zenith, irradiance } => {
                 Self::OvercastSky { zenith: zenith.into(), irradiance }
             }
-            LightSource::Given => Self::Given,
+            LightSource::PerFacet => Self::PerFacet,
         }
     }
 }
@@ -158,7 +159,7 @@ impl SourceRecord {
             }
             Self::UniformSky { irradiance } => LightSource::uniform_sky(irradiance),
             Self::OvercastSky { zenith, irradiance } => LightSource::overcast_sky(zenith, irradiance),
-            Self::Given => Ok(LightSource::Given),
+            Self::PerFacet => Ok(LightSource::PerFacet),
         }
     }
 }

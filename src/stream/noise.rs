@@ -11,12 +11,12 @@ use crate::estimate::noise::{Noise, NoiseSource};
 /// How far facets were taken to be off.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct NoiseRecord {
-    /// What told it.
+    /// What gave it.
     from: NoiseSourceRecord,
     /// Error of the model, relative to a facet's value.
     #[schemars(range(min = 0))]
     pub(super) model_error: f64,
-    /// Standard deviation of all facets, where a flag told it.
+    /// Standard deviation of all facets, where a flag gave it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub(super) sd: Option<f64>,
@@ -42,7 +42,7 @@ impl NoiseRecord {
     /// [`crate::Error::Field`] if a number is not finite.
     pub(super) fn of(noise: &Noise) -> Result<Self> {
         let (from, sd) = match noise.source {
-            NoiseSource::Given(sd) => (NoiseSourceRecord::Flag, Some(sd)),
+            NoiseSource::Stated(sd) => (NoiseSourceRecord::Flag, Some(sd)),
             NoiseSource::OfFacets(_) => (NoiseSourceRecord::FacetSd, None),
             NoiseSource::Unexplained => (NoiseSourceRecord::Facets, None),
         };
@@ -59,7 +59,7 @@ impl Sample {
     /// [`crate::Error::Field`] if `facet_sd` does not hold numbers.
     pub fn noise(&self, sd: Option<f64>, model_error: Option<f64>) -> Result<Noise> {
         let source = match sd {
-            Some(sd) => NoiseSource::Given(sd),
+            Some(sd) => NoiseSource::Stated(sd),
             None => self.facet_sd()?.map_or(NoiseSource::Unexplained, NoiseSource::OfFacets),
         };
         let model_error = model_error.unwrap_or_else(|| Noise::model_error(self.is_photograph()));

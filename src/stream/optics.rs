@@ -48,9 +48,10 @@ pub struct StandInRecord {
     pub camera: String,
     /// Why the other one stands in for it.
     pub why: String,
-    /// How far off the other one's curves are in the mean of such cases, root mean square, green's peak being 1.
+    /// How far off the other one's sensitivities are in the mean of such cases, root mean square, green's peak being 1.
     #[schemars(range(min = 0))]
-    pub curve_error: f64,
+    #[serde(alias = "curve_error")]
+    pub sensitivity_error: f64,
     /// Whether the curves are no other camera's, but predicted from its colour matrix.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_predicted: bool,
@@ -182,7 +183,7 @@ impl Scene {
         Ok(lit)
     }
 
-    /// Marks the illuminant as one that nobody told.
+    /// Marks the illuminant as one that nobody stated.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -190,7 +191,7 @@ impl Scene {
         self.fields.set("daylight_assumed", true)
     }
 
-    /// Whether the illuminant is daylight that nobody told.
+    /// Whether the illuminant is daylight that nobody stated.
     ///
     /// # Errors
     /// [`Error::Field`] if that is neither true nor false.

@@ -13,7 +13,7 @@ pub struct RecordOutline {
     /// Its kind.
     pub kind: String,
     /// What it is.
-    pub about: String,
+    pub description: String,
     /// Tools that write it, where all of its fields have the same.
     pub writers: Option<String>,
     /// Its fields, those of a group after it.
@@ -28,7 +28,7 @@ pub struct FieldOutline {
     /// Type and range: `[number from 0 to 1]`; `either` and `or` before its forms.
     pub holds: String,
     /// Meaning, unit and shape.
-    pub about: String,
+    pub description: String,
     /// Tools that write it, if it is not within another, and not those that write the record.
     pub writers: Option<String>,
 }
@@ -40,7 +40,7 @@ pub struct FieldOutline {
 /// let records = vfold::stream::outline();
 /// let fit = records[1].fields.iter().find(|field| field.path == "estimate.fit.NAME.sd").unwrap();
 /// assert_eq!((records[1].kind.as_str(), fit.holds.as_str()), ("sample", "number from 0"));
-/// assert_eq!(fit.about, "Standard deviation.");
+/// assert_eq!(fit.description, "Standard deviation.");
 /// ```
 #[must_use]
 pub fn outline() -> Vec<RecordOutline> {
@@ -52,7 +52,7 @@ pub fn outline() -> Vec<RecordOutline> {
         walk.fields_of(schema, "");
         RecordOutline {
             kind: kind.clone(),
-            about: text(schema, "description"),
+            description: text(schema, "description"),
             writers: schema["x-writer"].as_str().map(str::to_owned),
             fields: walk.fields,
         }
@@ -99,11 +99,11 @@ impl<'a> Walk<'a, '_> {
             |field: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == field));
         let properties: Vec<_> = schema["properties"].as_object().into_iter().flatten().collect();
         if let Some(place) = self.listed_elsewhere(&properties, path) {
-            let about = format!("Of the same names as {place}.");
+            let description = format!("Of the same names as {place}.");
             self.fields.push(FieldOutline {
                 path: name("NAME"),
                 holds: self.holds_if_there(properties[0].1),
-                about,
+                description,
                 writers: None,
             });
             return;
@@ -112,8 +112,8 @@ impl<'a> Walk<'a, '_> {
         for alike in runs {
             for (field, value) in alike {
                 self.field(name(field), value, is_needed(field));
-                if let Some(last) = self.fields.last_mut().filter(|last| last.about.is_empty()) {
-                    last.about = text(schema, "description"); // a field that tells forms apart stands for its form
+                if let Some(last) = self.fields.last_mut().filter(|last| last.description.is_empty()) {
+                    last.description = text(schema, "description"); // a field that tells forms apart stands for its form
                 }
                 if alike.len() < MANY {
                     self.fields_of(value, &name(field));
@@ -125,8 +125,8 @@ impl<'a> Walk<'a, '_> {
         }
         if schema["additionalProperties"].is_object() {
             self.field(name("NAME"), &schema["additionalProperties"], false);
-            if let Some(last) = self.fields.last_mut().filter(|last| last.about.is_empty()) {
-                "Each of them.".clone_into(&mut last.about);
+            if let Some(last) = self.fields.last_mut().filter(|last| last.description.is_empty()) {
+                "Each of them.".clone_into(&mut last.description);
             }
             self.fields_of(&schema["additionalProperties"], &name("NAME"));
         }
@@ -134,9 +134,9 @@ impl<'a> Walk<'a, '_> {
             self.fields_of(&schema["items"], &format!("{path}[]"));
         }
         let forms = self.forms(schema);
-        let are_told_apart = forms.len() == 1 || schema["oneOf"].is_array();
+        let are_distinct = forms.len() == 1 || schema["oneOf"].is_array();
         for (n, form) in forms.into_iter().enumerate() {
-            if !are_told_apart {
+            if !are_distinct {
                 self.form(path, n, form);
             }
             self.fields_of(form, path);
@@ -146,7 +146,7 @@ impl<'a> Walk<'a, '_> {
             match (self.listed.get(target), self.fields.last_mut()) {
                 // within itself, an object is listed again: which of its forms is meant would stay open
                 (Some(first), Some(last)) if object["properties"].is_object() && !path.starts_with(first) => {
-                    last.about += &format!(" Its fields are those of {first}.");
+                    last.description += &format!(" Its fields are those of {first}.");
                 }
                 _ => {
                     self.listed.insert(target, path.to_owned());
@@ -181,19 +181,19 @@ impl<'a> Walk<'a, '_> {
 
     fn field(&mut self, path: String, schema: &'a Value, is_needed: bool) {
         let holds = if is_needed { self.holds(schema) } else { self.holds_if_there(schema) };
-        let about = match text(schema, "description") {
+        let description = match text(schema, "description") {
             none if none.is_empty() => text(self.resolved(schema), "description"),
-            about => about,
+            description => description,
         };
         let writers = schema["x-writer"].as_str().map(str::to_owned);
-        self.fields.push(FieldOutline { path, holds, about, writers });
+        self.fields.push(FieldOutline { path, holds, description, writers });
     }
 
     /// Adds the `n`th form of a value, where no field tells its forms apart.
     fn form(&mut self, path: &str, n: usize, schema: &Value) {
         let holds = if n == 0 { "either" } else { "or" }.to_owned();
-        let about = text(schema, "description");
-        self.fields.push(FieldOutline { path: path.to_owned(), holds, about, writers: None });
+        let description = text(schema, "description");
+        self.fields.push(FieldOutline { path: path.to_owned(), holds, description, writers: None });
     }
 
     /// The forms of a value that can have several, null aside.
@@ -218,9 +218,9 @@ impl<'a> Walk<'a, '_> {
         }
         let forms = self.forms(schema);
         if !forms.is_empty() {
-            let mut kinds: Vec<_> = forms.into_iter().map(|form| self.holds(form)).collect();
-            kinds.dedup();
-            return kinds.join(" or ");
+            let mut types: Vec<_> = forms.into_iter().map(|form| self.holds(form)).collect();
+            types.dedup();
+            return types.join(" or ");
         }
         let types = match &schema["type"] {
             Value::Array(types) => types.iter().filter_map(Value::as_str).collect(),
@@ -252,8 +252,9 @@ fn range(schema: &Value) -> String {
         ("maximum", "to"),
     ];
     let is_count = schema["minimum"] == 0 && schema["maximum"].is_null() && schema["format"] != "double";
-    let said = words.iter().filter(|(keyword, _)| schema[*keyword].is_number());
-    said.filter(|(keyword, _)| !(is_count && *keyword == "minimum"))
+    let stated = words.iter().filter(|(keyword, _)| schema[*keyword].is_number());
+    stated
+        .filter(|(keyword, _)| !(is_count && *keyword == "minimum"))
         .map(|(keyword, word)| format!(" {word} {}", schema[*keyword]))
         .collect()
 }

@@ -5,9 +5,8 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Sample;
-use super::colours;
 use super::development::DevelopmentRecord;
+use super::{Sample, colours};
 use crate::error::Result;
 use crate::image::{
     FacetMeasurement, FileStamp, FoldAngle, Framing, Grid, Making, OtherFold, PhotographInfo, Point,
@@ -95,10 +94,10 @@ pub struct ImageRecord {
     /// How corners were moved to the edges around them.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<RefinedRecord>,
-    /// Of panels that were found, not told, the probability that all their corners are right.
+    /// Probability that all corners are right, of panels that were detected rather than stated.
     #[schemars(inner(range(min = 0, max = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
-    found_confidence: Option<f64>,
+    detection_confidence: Option<f64>,
     /// What was wrong with the file but did no harm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
@@ -255,7 +254,7 @@ impl ImageRecord {
             margin_px,
             distortion: None,
             refined: None,
-            found_confidence: None,
+            detection_confidence: None,
             notes: info.camera.notes.clone(),
         }
     }
@@ -292,10 +291,10 @@ impl ImageRecord {
         self
     }
 
-    /// The record with the probability that panels which were found are right; none of panels that were told.
+    /// The record with the probability that detected panels are right; none for stated ones.
     #[must_use]
     pub fn with_confidence(mut self, confidence: Option<f64>) -> Self {
-        self.found_confidence = confidence;
+        self.detection_confidence = confidence;
         self
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct PlanRecord {
     angle_deg: Option<f64>,
     /// The picture together with which this one will be estimated, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    beside: Option<BesideRecord>,
+    with_photograph: Option<WithPhotographRecord>,
     /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
     reflectances: String,
     /// Number of them.
@@ -38,7 +38,7 @@ pub(super) struct PlanRecord {
 
 /// Another picture of the same sheet.
 #[derive(Serialize, JsonSchema)]
-struct BesideRecord {
+struct WithPhotographRecord {
     /// Name of its scene.
     scene: String,
     /// Angle between the panels of its fold, degrees.
@@ -62,7 +62,7 @@ pub struct NewPlan<'a> {
     /// Angle between the panels of a fold, degrees.
     pub angle_deg: Option<f64>,
     /// The scene of the picture together with which this one will be estimated, and the angle of its fold, degrees.
-    pub beside: Option<(&'a Scene, Option<f64>)>,
+    pub with_photograph: Option<(&'a Scene, Option<f64>)>,
     /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
     pub reflectances: &'a str,
     /// Standard deviation of every facet's value, white being 1.
@@ -78,16 +78,17 @@ pub struct NewPlan<'a> {
 /// # Errors
 /// [`crate::Error::Field`] if a number is not finite or the scene has no name.
 pub fn plan(scene: &Scene, new: NewPlan) -> Result<Fields> {
-    let NewPlan { angle_deg, beside, reflectances, noise_sd, rmse, fitted_sd } = new;
+    let NewPlan { angle_deg, with_photograph, reflectances, noise_sd, rmse, fitted_sd } = new;
     let mean = rmse.iter().sum::<f64>() / rmse.len().max(1) as f64;
     let worst = rmse.iter().copied().fold(0.0, f64::max);
     finite("expected_rmse", [&mean, &worst])?;
     finite("expected_sd", fitted_sd.iter().map(|(_, sd)| sd))?;
-    let beside = beside.map(|(scene, angle_deg)| Ok(BesideRecord { scene: scene.id()?, angle_deg }));
+    let with_photograph =
+        with_photograph.map(|(scene, angle_deg)| Ok(WithPhotographRecord { scene: scene.id()?, angle_deg }));
     Fields::of(&PlanRecord {
         scene: scene.id()?,
         angle_deg,
-        beside: beside.transpose()?,
+        with_photograph: with_photograph.transpose()?,
         reflectances: reflectances.to_owned(),
         samples: rmse.len(),
         noise_sd,

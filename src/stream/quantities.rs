@@ -74,7 +74,7 @@ impl<T: JsonSchema> JsonSchema for Quantities<T> {
 /// What an unknown is, with its unit.
 fn description(unknown: &Unknown) -> String {
     let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
-    format!("{}{unit}.", unknown.about)
+    format!("{}{unit}.", unknown.description)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ pub enum NoAngle {
     #[error("there are no corners of panel{0}, so that the angle is unknown")]
     NoCorners(usize),
     /// Where the middle of the picture is is unknown.
-    #[error("the picture's 'width' and 'height' are missing, without which corners do not tell the angle")]
+    #[error("the picture's 'width' and 'height' are missing, without which corners do not fix the angle")]
     NoSize,
     /// No fold that is open to the camera looks so.
     #[error("no fold that is open to the camera has these corners")]

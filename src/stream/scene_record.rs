@@ -75,7 +75,7 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract, vestimate"))]
     illuminant_unknown: Option<bool>,
-    /// Whether nobody told the illuminant: of daylight that is assumed, the colour is an unknown of the estimate.
+    /// Whether nobody stated the illuminant: of daylight that is assumed, the colour is an unknown of the estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     daylight_assumed: Option<bool>,

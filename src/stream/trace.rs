@@ -39,7 +39,7 @@ pub(super) struct IterationRecord {
 pub fn trace(sample: &str, runs: &[Vec<Iteration>]) -> Result<Vec<Fields>> {
     let mut records = Vec::new();
     for (run, iterations) in runs.iter().enumerate() {
-        for (iteration, &Iteration { cost, gradient_norm, damping, inflation: noise }) in
+        for (iteration, &Iteration { cost, gradient_norm, damping, tempering: noise }) in
             iterations.iter().enumerate()
         {
             finite("trace", &[cost, gradient_norm, damping, noise])?;

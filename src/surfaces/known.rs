@@ -14,7 +14,7 @@ use crate::solve::dot;
 /// What one light becomes: facets of reflectance r send out `known + Σ_k r·residue_k/(1 − r·pole_k)`, those of known
 /// reflectance as well.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BesideKnown {
+pub struct WithKnown {
     /// Radiance of every facet times π, were the unknown parts black.
     pub known: DVector<f64>,
     /// Modes of the unknown parts; residues are exitances of all facets.
@@ -37,12 +37,12 @@ impl ReducedExchange {
     /// // Two like patches hand half of their light to each other; one of them is lit and of reflectance 0.8.
     /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);
     /// let reduced = ReducedExchange::new(&exchange, &[0, 1], &[vec![1.0, 0.0]], 1e-12)?;
-    /// let light = &reduced.beside_known(&[Some(0.8), None])?[0];
+    /// let light = &reduced.with_known(&[Some(0.8), None])?[0];
     /// assert!((light.known[0] - 0.8).abs() < 1e-14);
     /// assert!((light.modes.poles[0] - 0.2).abs() < 1e-14); // half of 0.8 of half of the light comes back
     /// # Ok::<(), vfold::Error>(())
     /// ```
-    pub fn beside_known(&self, reflectances: &[Option<f64>]) -> Result<Vec<BesideKnown>> {
+    pub fn with_known(&self, reflectances: &[Option<f64>]) -> Result<Vec<WithKnown>> {
         let of = |function: &usize| reflectances[self.part_of[*function]];
         let (known, unknown): (Vec<usize>, Vec<usize>) =
             (0..self.part_of.len()).partition(|function| of(function).is_some());
@@ -72,7 +72,7 @@ impl ReducedExchange {
         let modes = |light: DVector<f64>| modes(&exchange, light, &means, self.tolerance);
         let constant = means_of_known * own;
         let of_light = |(n, known): (usize, nalgebra::DVectorView<f64>)| {
-            Ok(BesideKnown { known: known.into_owned(), modes: modes(lights.column(n).into_owned())? })
+            Ok(WithKnown { known: known.into_owned(), modes: modes(lights.column(n).into_owned())? })
         };
         constant.column_iter().enumerate().map(of_light).collect()
     }

@@ -62,7 +62,7 @@ impl ReducedExchange {
             }
             if least < ROUNDING {
                 let problem =
-                    format!("the bounces are not found to {tolerance:e}: ask for a larger tolerance");
+                    format!("interreflections did not converge to {tolerance:e}: ask for a larger tolerance");
                 return Err(Error::Numeric(problem));
             }
             least *= 0.1;
@@ -131,9 +131,7 @@ impl Functions {
     fn residual(&self, starts: &[Vec<f64>]) -> Result<f64> {
         let count = self.images.len();
         let system = (DMatrix::identity(count, count) - self.exchange()).cholesky().ok_or_else(|| {
-            Error::Numeric(
-                "the surface hands on all light that it receives: open it, or refine the mesh".to_owned(),
-            )
+            Error::Numeric("no light escapes this surface: open it, or refine the mesh".to_owned())
         })?;
         let of_light = |start: &Vec<f64>| {
             let solution = system.solve(&self.along(start));

@@ -89,7 +89,7 @@ fn towards_light(shape: &Shape, sources: &[LightSource], middle: &Vector3<f64>) 
         LightSource::UniformSky { .. }
         | LightSource::OvercastSky { .. }
         | LightSource::StandardSky { .. }
-        | LightSource::Given => None,
+        | LightSource::PerFacet => None,
     };
     let facing = || shape.facets().map(|facet| facet.area() * facet.normal()).sum::<Vector3<f64>>();
     sources.iter().find_map(of_source).or_else(|| facing().try_normalize(0.0)).unwrap_or_else(Vector3::z)

@@ -39,7 +39,7 @@ use points::Points;
 /// use vfold::transport::departures;
 /// let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
 /// let matt = Shape::from(Family::default());
-/// let glossy = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+/// let glossy = Shape::from(Family { specular_weight: 0.5, roughness: 0.4, ..Family::default() });
 /// let beyond = departures(&fold, &Vector3::z(), &Point3::new(1.0, 1.1, 8.4), &[matt, glossy], &[0.1, 0.6]);
 /// assert!((0..200).all(|facet| beyond[[0, facet, 1]].abs() < 1e-12));
 /// assert!(beyond[[1, 5, 1]].abs() > 1e-3); // panel 0, at the crease

@@ -156,7 +156,7 @@ impl WithSimd for Radiances<'_> {
         let albedos = nodes();
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, albedo) in albedos.into_iter().enumerate() {
-            let r = shape.reflectance_45_0(albedo) as f32;
+            let r = shape.reflectance_factor_45_0(albedo) as f32;
             for (between, matrix) in between.iter().flatten().zip(&mut matrices) {
                 between.mix(r, matrix);
             }
@@ -391,7 +391,7 @@ mod tests {
     #[test]
     fn panels_that_send_the_same_are_followed_once() {
         let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 4 }).unwrap();
-        let glossy = Shape::from(Family { gloss: 0.5, roughness: 0.4, ..Family::default() });
+        let glossy = Shape::from(Family { specular_weight: 0.5, roughness: 0.4, ..Family::default() });
         let eye = Point3::new(1.0, 1.1, 8.4);
         let [(one, once), (two, twice)] = [0.0, 1e-7].map(|x| {
             let frames = [0, 1].map(|panel| Frame::new(&fold, panel, &Vector3::new(x, 0.1, 1.0), &eye));

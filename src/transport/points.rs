@@ -38,7 +38,7 @@ struct Sight {
     /// Irradiance of its panel and of the other.
     lit: [f64; 2],
     from_sun: Angles,
-    ways: Vec<Way>,
+    directions: Vec<Way>,
 }
 
 /// A way of light by two reflections.
@@ -80,7 +80,7 @@ impl Points {
             let once = shape.at(&sight.from_sun);
             let twice = sight.twice(shape);
             for (value, &albedo) in row.iter_mut().zip(albedos) {
-                let (r, lambertian) = (shape.reflectance_45_0(albedo), albedo * FRAC_1_PI);
+                let (r, lambertian) = (shape.reflectance_factor_45_0(albedo), albedo * FRAC_1_PI);
                 let once = r * once[0] + once[1] - lambertian;
                 let twice = r * (r * twice[0] + twice[1]) + twice[2] - lambertian * lambertian * twice[3];
                 *value = PI * (sight.lit[0] * once + sight.lit[1] * twice);
@@ -94,15 +94,15 @@ impl Sight {
     fn new(here: &Frame, other: &Frame, place: [f64; 2], rules: &[Rule; 2], flat: bool) -> Self {
         let to_eye = here.to_eye(place);
         let from_sun = Angles::new(&here.sun, &to_eye);
-        let ways = if flat { Vec::new() } else { ways(here, &other.sun, place, &to_eye, rules) };
-        Self { lit: [here.lit(), other.lit()], from_sun, ways }
+        let directions = if flat { Vec::new() } else { directions(here, &other.sun, place, &to_eye, rules) };
+        Self { lit: [here.lit(), other.lit()], from_sun, directions }
     }
 
     /// Twice reflected per unit of π times the other panel's irradiance: by body and body, once by each, by surface and surface; and by
     /// two reflections of 1/sr.
     fn twice(&self, shape: &Shape) -> [f64; 4] {
         let mut sums = [0.0; 4];
-        for Way { at_other, at_point, weight } in &self.ways {
+        for Way { at_other, at_point, weight } in &self.directions {
             let ([body, surface], [next_body, next_surface]) = (shape.at(at_other), shape.at(at_point));
             sums[0] += weight * body * next_body;
             sums[1] += weight * (body * next_surface + surface * next_body);
@@ -114,7 +114,7 @@ impl Sight {
 }
 
 /// The directions from which light of the other panel reaches a point.
-fn ways(
+fn directions(
     here: &Frame,
     other_sun: &Vector3<f64>,
     [out, along]: [f64; 2],
@@ -125,7 +125,7 @@ fn ways(
     let opening = sin.atan2(cos);
     // from the crease to the other panel's edge
     let edge = ((here.other_depth / out - cos) / sin).atan();
-    let mut ways = Vec::with_capacity(across.nodes.len() * sideways.nodes.len());
+    let mut directions = Vec::with_capacity(across.nodes.len() * sideways.nodes.len());
     for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
         let away = out * sin / psi.cos();
         let [low, high] = [-0.5, 0.5].map(|end| end * here.width - along).map(|end| end / end.hypot(away));
@@ -134,14 +134,14 @@ fn ways(
             let (slope, cosine) = (psi - opening).sin_cos();
             let from = Vector3::new(flat * slope, side, flat * cosine);
             let back = Vector3::new(-flat * psi.sin(), -side, flat * psi.cos());
-            ways.push(Way {
+            directions.push(Way {
                 at_other: Angles::new(other_sun, &back),
                 at_point: Angles::new(&from, to_eye),
                 weight: weight_across * weight * flat * cosine,
             });
         }
     }
-    ways
+    directions
 }
 
 #[cfg(test)]
@@ -156,7 +156,11 @@ mod tests {
     fn finer_points_change_little() {
         let rough = Family { body_roughness_deg: 25.0, ..Family::default() };
         let glossy = [(0.4, 0.28), (1.0, 0.42), (0.4, 0.65)];
-        let glossy = glossy.map(|(gloss, roughness)| Family { gloss, roughness, ..Family::default() });
+        let glossy = glossy.map(|(specular_weight, roughness)| Family {
+            specular_weight,
+            roughness,
+            ..Family::default()
+        });
         for (angle_deg, sun, eye) in [
             (48.0, [0.0, 0.0, 1.0], [1.0, 1.1, 8.4]),
             (70.0, [0.05, 0.0, 1.0], [-2.5, 1.1, 8.4]),

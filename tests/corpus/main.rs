@@ -1,6 +1,6 @@
 //! Inputs that fuzzing kept: one of each kind that a reader tells apart, and every one that ever broke something.
 //!
-//! `targets` has what is done with them; `fuzz/` does it with new ones, under the guidance of what they reach.
+//! `targets` has what is done with them; `sheen/` does it with new ones, under the guidance of what they reach.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]

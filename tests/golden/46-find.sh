@@ -38,7 +38,7 @@ import numpy as np
 read = lambda name: json.loads(open(name).read().splitlines()[-1])
 told, found, estimate = map(read, ["told.ndjson", "found.ndjson", "estimate.ndjson"])
 off = np.abs(np.array(found["facet_rgb"]) / np.array(told["facet_rgb"]) - 1).max()
-print("facets", "alike" if off < 1e-3 else off, "confidence", "kept" if found["image"]["found_confidence"] >= 0.97 else "lost")
+print("facets", "alike" if off < 1e-3 else off, "confidence", "kept" if found["image"]["detection_confidence"] >= 0.97 else "lost")
 truth = json.load(open(f"{__import__('os').environ['CARGO_MANIFEST_DIR']}/tests/data/photos/a_ideal_magenta_50.json"))["reflectance"]
 rmse = np.sqrt(np.mean((np.array(estimate["estimate"]["reflectance"]) - truth) ** 2))
 print("RMSE below 0.05" if rmse < 0.05 else f"RMSE {rmse:.3f}")

@@ -49,7 +49,7 @@ import numpy as np
 told, found = (json.loads(open(name).read().splitlines()[-1]) for name in ("told.ndjson", "found.ndjson"))
 off = np.abs(np.array(found["facet_rgb"]) / np.array(told["facet_rgb"]) - 1).max()
 print("facets", "alike" if off < 5e-3 else off, "exposure", "alike" if abs(found["exposure"] / told["exposure"] - 1) < 2e-3 else found["exposure"])
-print("confidence", "kept" if found["calibration"]["found_confidence"] >= 0.97 else "lost", "of the found one alone:", "found_confidence" not in told["calibration"])
+print("confidence", "kept" if found["calibration"]["detection_confidence"] >= 0.97 else "lost", "of the found one alone:", "detection_confidence" not in told["calibration"])
 END
 
 echo what is left out

@@ -1,8 +1,8 @@
 //! Cameras that nobody measured: how far off stand-ins are, and what one photograph of a chart gives.
 
 use vfold::camera::{
-    CameraResponse, ChartCamera, ChartPatch, KnownCurves, PREDICTED_ERROR, Predictor, StandIns, Why,
-    curve_error, known_curves,
+    CameraResponse, ChartCamera, ChartPatch, KnownSensitivities, PREDICTED_ERROR, Predictor, StandIns, Why,
+    known_sensitivities, sensitivity_error,
 };
 use vfold::forward::noise::Noise;
 use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
@@ -20,7 +20,7 @@ fn stand_ins_are_as_far_off_as_is_said() {
         assert!((why.expected_error() - measured).abs() < 0.0015, "{why:?}: {measured}");
     }
     let predicted = Predictor::new(&WavelengthGrid::default()).unwrap().left_out();
-    let errors = predicted.iter().map(|one| curve_error(&one.predicted, &one.measured));
+    let errors = predicted.iter().map(|one| sensitivity_error(&one.predicted, &one.measured));
     let predicted = errors.sum::<f64>() / predicted.len() as f64;
     println!("predicted: {predicted:.4}");
     assert!((PREDICTED_ERROR - predicted).abs() < 0.0015, "{predicted}");
@@ -32,7 +32,8 @@ fn stand_ins_are_as_far_off_as_is_said() {
 fn errors_of_predicted_curves_hold_what_they_are_off_by() {
     let predictor = Predictor::new(&WavelengthGrid::default()).unwrap();
     let (left_out, errors) = (predictor.left_out(), predictor.errors());
-    let all = left_out.iter().map(|one| curve_error(&one.predicted, &one.measured).powi(2)).sum::<f64>();
+    let all =
+        left_out.iter().map(|one| sensitivity_error(&one.predicted, &one.measured).powi(2)).sum::<f64>();
     let bands = left_out[0].measured[0].len() as f64;
     let kept = errors.iter().map(|(_, error)| error.norm_squared()).sum::<f64>() / (3.0 * bands);
     let share = kept / (all / left_out.len() as f64);
@@ -65,12 +66,12 @@ fn a_chart_makes_a_camera() {
 
 /// Error of each camera's curves, and the share of wavebands within two standard deviations.
 fn chart_errors(grid: &WavelengthGrid, patch_sd: f64) -> (Vec<f64>, Vec<f64>) {
-    let known = known_curves(grid).unwrap();
+    let known = known_sensitivities(grid).unwrap();
     let power = illuminant("sun:40deg").unwrap().on(grid, Outside::Refuse).unwrap();
     let chart = reflectances("cc24").unwrap();
     let chart: Vec<Vec<f64>> = chart.iter().map(|patch| patch.on(grid, Outside::Refuse).unwrap()).collect();
     let one = |at: usize| {
-        let truth = &known[at].curves;
+        let truth = &known[at].sensitivities;
         let response = CameraResponse::new(grid, truth, &power).unwrap();
         let patch = |(n, reflectance): (usize, &Vec<f64>)| {
             let mut factors = [1.0; 3];
@@ -79,13 +80,17 @@ fn chart_errors(grid: &WavelengthGrid, patch_sd: f64) -> (Vec<f64>, Vec<f64>) {
             ChartPatch { reflectance: reflectance.clone(), measured, standard_error: [1e-4; 3] }
         };
         let patches: Vec<_> = chart.iter().enumerate().map(patch).collect();
-        let others: Vec<KnownCurves> =
+        let others: Vec<KnownSensitivities> =
             known.iter().enumerate().filter(|(k, _)| *k != at).map(|(_, k)| k.clone()).collect();
         let camera = ChartCamera::by_prior_of(&others, grid, &power, &patches).unwrap();
-        let found =
-            camera.curves.iter().flatten().zip(truth.iter().flatten()).zip(camera.curves_sd.iter().flatten());
+        let found = camera
+            .sensitivities
+            .iter()
+            .flatten()
+            .zip(truth.iter().flatten())
+            .zip(camera.sensitivities_sd.iter().flatten());
         let within = found.filter(|((found, truth), sd)| (*found - *truth).abs() <= 2.0 * *sd).count();
-        (curve_error(&camera.curves, truth), within as f64 / (3 * grid.len()) as f64)
+        (sensitivity_error(&camera.sensitivities, truth), within as f64 / (3 * grid.len()) as f64)
     };
     (0..known.len()).map(one).unzip()
 }

@@ -86,10 +86,10 @@ fn nothing_is_asked_beside_a_card() {
     let (response, _) = respond(&fold, 1e-4).unwrap();
     let eye = CameraResponse::from_weights(vec![vec![0.5; 2]]);
     let lighting = Lighting { light: Light::new(&fold, 0.0, 0.0, 0.0).unwrap(), sun: eye.clone(), sky: eye };
-    let beside_card = FacetModel::with_card(&response, &lighting, 1, vec![0.9; 2]);
-    let rgb = FacetValues::from(&beside_card.facet_rgb(&[0.5; 2]));
+    let families_with_card = FacetModel::with_card(&response, &lighting, 1, vec![0.9; 2]);
+    let rgb = FacetValues::from(&families_with_card.facet_rgb(&[0.5; 2]));
     let sd = deviations(&rgb, |_| 1e-3, 0.0);
-    let scene = SceneModel::known(beside_card).under(&[430.0, 600.0], &[1.0, 1.0]);
+    let scene = SceneModel::known(families_with_card).under(&[430.0, 600.0], &[1.0, 1.0]);
     let measured = Measured { rgb: &rgb, sd: &sd };
     let data = FacetData::new(&scene, &measured, Exposure::Known(1.0), 1e-2).unwrap();
     assert!(data.emitting(&scene.emissions()[1]).is_none());

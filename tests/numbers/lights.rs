@@ -251,7 +251,7 @@ fn the_cornell_box_keeps_its_energy() {
     // By elimination of what is known in place of conjugate gradients.
     let parts: Vec<usize> = (0..shape.len()).map(|facet| usize::from(is_white(&facet))).collect();
     let reduced = lit.reduce(&parts, 1e-8).unwrap();
-    let model = FacetModel::beside_known(&reduced, &[None, Some(vec![0.75])], &[eye]).unwrap();
+    let model = FacetModel::with_known(&reduced, &[None, Some(vec![0.75])], &[eye]).unwrap();
     let means = lit.kernel.facet_means(&lit.kernel.start(radiance.as_slice()));
     for (ours, mean) in model.facet_rgb(&[0.3]).iter().zip(&means) {
         assert!((ours / mean - 1.0).abs() < 1e-6, "{ours} {mean}");

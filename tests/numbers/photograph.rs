@@ -8,10 +8,10 @@ use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::hypotheses::{
     Hypothesis, Mistake, hypotheses_without_bounces, usual_hypotheses,
 };
-use vfold::estimate::photograph::kinds::Kinds;
 use vfold::estimate::photograph::model::PhotographModel;
 use vfold::estimate::photograph::parts::Eye;
-use vfold::estimate::photograph::{Parts, Told};
+use vfold::estimate::photograph::sheet_models::SheetModels;
+use vfold::estimate::photograph::{Parts, StatedScene};
 use vfold::estimate::prior::Prior;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture};
 use vfold::solve::posterior::Model;
@@ -28,14 +28,14 @@ fn derivatives_are_those_of_the_residuals() {
     let fold = PhotographedFold::of(&setting);
     let measured = Measured { rgb: &rgb, sd: &sd };
     let parts = fold.parts(&Picture::of(sample, &measured, None).unwrap()).unwrap().unwrap();
-    assert!(parts.told.daylight.is_some(), "sky and ground shine, too");
+    assert!(parts.stated.daylight.is_some(), "sky and ground shine, too");
     // what is not known of curves of so few samples
     let curve = |channel: usize| parts.eye.sensitivities.column(channel).into_owned();
     let errors = vec![(0, 0.05 * curve(0)), (2, 0.05 * curve(1))];
     let eye = Eye { errors, ..parts.eye.clone() };
     for by_chart in [false, true] {
-        let told = Told { by_chart, ..parts.told };
-        let parts = Parts { told, eye: eye.clone(), ..parts.clone() };
+        let stated = StatedScene { by_chart, ..parts.stated };
+        let parts = Parts { stated, eye: eye.clone(), ..parts.clone() };
         check_derivatives(parts, scene.grid().unwrap().wavelengths_nm());
     }
 }
@@ -43,8 +43,8 @@ fn derivatives_are_those_of_the_residuals() {
 fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let parts = [parts];
     let prior = Prior::built_in(wavelengths_nm).unwrap();
-    let kinds = Kinds::of(&parts).remove(0);
-    let whitening = ModelError::of(parts[0].told.beliefs, Day::Clear)
+    let kinds = SheetModels::of(&parts).remove(0);
+    let whitening = ModelError::of(parts[0].stated.priors, Day::Clear)
         .whitening(&parts[0].places, &parts[0].values, &parts[0].sd)
         .unwrap();
     let ideal =

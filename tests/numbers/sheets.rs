@@ -36,7 +36,7 @@ struct Material {
     name: String,
     angle_deg: f64,
     tilt_deg: f64,
-    reflectance_45_0: [f64; 3],
+    reflectance_factor_45_0: [f64; 3],
     eye: [f64; 3],
     rows: [[f64; 3]; 10],
 }
@@ -100,7 +100,7 @@ impl Scene {
 /// Rows 1 to 9 within half a percent, the row at the crease within one and a half.
 #[test]
 fn rendered_sheets_look_like_their_photographs() {
-    let glossy = Family { gloss: 0.5, roughness: 0.4, ..Family::default() };
+    let glossy = Family { specular_weight: 0.5, roughness: 0.4, ..Family::default() };
     let rough = Family { body_roughness_deg: 20.0, ..Family::default() };
     for (photograph, family) in data().photographs.iter().zip([glossy, rough]) {
         let scene = Scene::new(photograph.angle_deg, 0.0, photograph.eye, family.into());
@@ -123,7 +123,7 @@ fn a_measured_sheet_agrees_with_patches() {
     let number = measured_names().position(|name| name == material.name).unwrap();
     let shape = measured().unwrap()[number].clone();
     let scene = Scene::new(material.angle_deg, material.tilt_deg, material.eye, shape);
-    for (channel, reflectance) in material.reflectance_45_0.into_iter().enumerate() {
+    for (channel, reflectance) in material.reflectance_factor_45_0.into_iter().enumerate() {
         let rows = scene.rows(reflectance);
         for (row, (found, patches)) in rows.iter().zip(&material.rows).enumerate().skip(2) {
             let off = found / patches[channel] - 1.0;
@@ -137,9 +137,11 @@ fn shapes_do_not_depend_on_their_company() {
     let fold = Fold::new(60.0, 1.0, 0.8, FacetGrid { rows: 3, cols: 2 }).unwrap();
     let unequal = fold.with_panel1_depth(1.3).unwrap();
     let eye = Point3::new(0.4, 0.3, 6.0);
-    let shapes =
-        [Family::default(), Family { gloss: 0.4, roughness: 0.5, body_roughness_deg: 10.0, fuzz: 0.1 }]
-            .map(Shape::from);
+    let shapes = [
+        Family::default(),
+        Family { specular_weight: 0.4, roughness: 0.5, body_roughness_deg: 10.0, sheen: 0.1 },
+    ]
+    .map(Shape::from);
     for fold in [fold, unequal] {
         let both = departures(&fold, &Vector3::z(), &eye, &shapes, &[0.2, 0.9]);
         let one = departures(&fold, &Vector3::z(), &eye, &shapes[1..], &[0.9]);

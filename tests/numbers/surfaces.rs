@@ -176,7 +176,7 @@ proptest! {
         let lights = surface.lights.clone().map(|light| light.as_slice().to_vec());
         let reduced = ReducedExchange::new(&surface.exchange(), &part_of, &lights, 1e-12).unwrap();
         let parts = [Some(known[..2].to_vec()), None, Some(known[2..].to_vec())];
-        let model = FacetModel::beside_known(&reduced, &parts, &[eye(2), eye(2)]).unwrap();
+        let model = FacetModel::with_known(&reduced, &parts, &[eye(2), eye(2)]).unwrap();
         let mut dense = DVector::zeros(count);
         for band in 0..2 {
             let of = |facet: usize| parts[part_of[facet]].as_ref().map_or(sheet[band], |r| r[band]);

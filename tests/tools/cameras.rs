@@ -98,7 +98,7 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     let camera = &scene(&run.stdout)["camera"];
     assert!(camera["name"].as_str().unwrap().starts_with("nikon-"), "{camera}");
     assert_eq!(camera["stands_in"]["camera"], "NIKON CORPORATION NIKON D5200");
-    assert!(camera["stands_in"]["curve_error"].as_f64().unwrap() > 0.03);
+    assert!(camera["stands_in"]["sensitivity_error"].as_f64().unwrap() > 0.03);
     let warning = "warning: nobody measured the curves of NIKON CORPORATION NIKON D5200: nikon-";
     assert!(run.stderr.contains(warning) && run.stderr.contains("--save-camera"), "{}", run.stderr);
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);

@@ -68,7 +68,7 @@ fn photographs_of_one_sheet_tell_more_together() {
 const GLOSSY: &str = r#"
 photograph() {
     vkernel --angle-deg $2 > scene.json
-    vforward scene.json --reflectance $3 --gloss 0.6 --gloss-roughness 0.4 --exposure $4 --render $1.exr --render-size 320x240 -o $1.json 2>/dev/null
+    vforward scene.json --reflectance $3 --specular-weight 0.6 --specular-roughness 0.4 --exposure $4 --render $1.exr --render-size 320x240 -o $1.json 2>/dev/null
     oiiotool $1.exr -d uint16 -o $1.tif
     vextract $1.tif --regions $1.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -q -o $1.ndjson
 }
@@ -80,10 +80,14 @@ photograph other-45 50 cc24:foliage 0.5
 /// Standard deviations of gloss, exposure and, in the mean, reflectance.
 fn deviations(sample: &Value) -> [f64; 3] {
     let estimate = &sample["estimate"];
-    let [gloss, exposure] = ["gloss", "exposure"].map(|name| &estimate["fit"][name]);
+    let [specular_weight, exposure] = ["specular_weight", "exposure"].map(|name| &estimate["fit"][name]);
     let sd = numbers(&estimate["reflectance_sd"]);
     let of = |one: &Value| one["sd"].as_f64().unwrap();
-    [of(gloss), of(exposure) / exposure["value"].as_f64().unwrap(), sd.iter().sum::<f64>() / sd.len() as f64]
+    [
+        of(specular_weight),
+        of(exposure) / exposure["value"].as_f64().unwrap(),
+        sd.iter().sum::<f64>() / sd.len() as f64,
+    ]
 }
 
 /// Gloss and exposure brighten a fold alike at one angle; at two they do not.
@@ -123,7 +127,7 @@ fn a_plan_says_which_second_picture_helps_most() {
     let [alone, again, other_angle, by_lamp, auto, ideal] = rmse[..] else { panic!("{}", run.stdout) };
     assert!(by_lamp < again.min(other_angle) && again.max(other_angle) < alone && ideal < 0.8 * alone);
     assert!((alone - auto).abs() < 1e-12);
-    let beside = |n: usize| plans[n]["beside"]["angle_deg"].as_f64();
+    let beside = |n: usize| plans[n]["with_photograph"]["angle_deg"].as_f64();
     assert_eq!([0, 2, 4].map(beside), [None, Some(45.0), None]);
     assert!(
         run.stderr.contains("--join: a plan joins the first scene with each of the others"),
@@ -142,7 +146,7 @@ fn error_bars_hold_with_a_second_photograph() {
         photograph() {
             seed=$((seed + 1))
             vkernel --angle-deg $2 > scene.json
-            vforward scene.json --reflectance cc24:$chip --gloss 0.4 --gloss-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
+            vforward scene.json --reflectance cc24:$chip --specular-weight 0.4 --specular-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
                 --noise-sd 2e-3 --seed $seed --exposure 0.5 --render-size 480x360 --render $1.tif -q -o simulated.json
             vextract $1.tif --exact-corners --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
         }

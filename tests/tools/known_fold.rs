@@ -91,7 +91,7 @@ fn photographs_are_nearer_beside_a_known_fold() {
     let names = chips.map(|chip| format!("cc24:{chip}")).join(" ");
     let run = Workdir::new().sh(&format!(
         "photograph() {{
-            vforward scene.json --reflectance $2 --illuminant D50 --gloss 0.5 --gloss-roughness 0.4 --exposure 0.5 \
+            vforward scene.json --reflectance $2 --illuminant D50 --specular-weight 0.5 --specular-roughness 0.4 --exposure 0.5 \
                 --render $1.exr --render-size 320x240 -o $1.json 2> render.log
             vextract $1.exr --regions $1.json --scene scene.json --camera canon-5d-mark-ii --illuminant unknown -q
         }}

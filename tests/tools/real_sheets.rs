@@ -121,7 +121,7 @@ fn sheets_on_other_grounds_give_their_spectra() {
 #[test]
 fn a_little_gloss_is_not_taken_for_bounces() {
     let run = Workdir::new().sh("
-        vkernel --angle-deg 70 | vforward --reflectance cc24:yellow --gloss 0.2 --illuminant daylight:5300 --exposure 0.6 \\
+        vkernel --angle-deg 70 | vforward --reflectance cc24:yellow --specular-weight 0.2 --illuminant daylight:5300 --exposure 0.6 \\
             --noise-sd 1e-3 --photon-noise 1e-2 --render p.tif --render-size 400x300 -q -o simulated.ndjson
         vkernel --angle-deg 70 -o scene.json
         vextract p.tif --regions simulated.ndjson --scene scene.json --camera canon-5d-mark-ii --illuminant D55 -q -o p.ndjson
@@ -286,9 +286,10 @@ vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{pane
 /// noise of which is 0.1 %.
 #[test]
 fn simulated_sheets_look_as_the_renderers_do() {
-    for (name, flags) in
-        [("one_gloss", "--gloss 0.5 --gloss-roughness 0.4"), ("one_rough", "--body-roughness-deg 20")]
-    {
+    for (name, flags) in [
+        ("one_gloss", "--specular-weight 0.5 --specular-roughness 0.4"),
+        ("one_rough", "--body-roughness-deg 20"),
+    ] {
         let path = Path::new(SHARED).join("real").join(name).with_extension("json");
         if !path.exists() {
             left_out(&format!("{}, which is not there", path.display()));

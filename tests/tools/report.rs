@@ -82,8 +82,8 @@ fn what_was_found_is_said_with_how_sure_it_is() {
         ),
     );
     let page = Document::parse(body(&page)).unwrap();
-    let sure = 100.0 * records(&folder)[1]["image"]["found_confidence"].as_f64().unwrap();
-    let found = &table(&page, "Found in the picture, not told")[1..];
+    let sure = 100.0 * records(&folder)[1]["image"]["detection_confidence"].as_f64().unwrap();
+    let found = &table(&page, "Detected in the picture")[1..];
     assert_eq!(found, [["corners of the panels".to_owned(), format!("{sure:.1} %")]]);
 }
 

@@ -13,7 +13,7 @@ const JPEG_CORNERS: [&str; 2] =
 
 /// What is told of a photograph.
 #[derive(Clone, Copy)]
-struct Told {
+struct StatedScene {
     photo: &'static str,
     angle_deg: f64,
     camera: &'static str,
@@ -24,7 +24,7 @@ struct Told {
     flags: &'static str,
 }
 
-const AS_IT_IS: Told = Told {
+const AS_IT_IS: StatedScene = StatedScene {
     photo: PHOTO,
     angle_deg: 50.0,
     camera: "canon-5d-mark-ii",
@@ -44,8 +44,8 @@ struct Judged {
     said: String,
 }
 
-fn judged(what: &str, told: Told) -> Judged {
-    let Told { photo, angle_deg, camera, light, corners: [panel0, panel1], truth, flags } = told;
+fn judged(what: &str, told: StatedScene) -> Judged {
+    let StatedScene { photo, angle_deg, camera, light, corners: [panel0, panel1], truth, flags } = told;
     let run = Workdir::new().sh(&format!(
         "vkernel --angle-deg {angle_deg} | vextract -q '{photo}' --camera {camera} --illuminant {light} --refine \\
             --panel0 '{panel0}' --panel1 '{panel1}' | vestimate {flags} | vscore --truth '{truth}'"
@@ -84,7 +84,7 @@ fn judged(what: &str, told: Told) -> Judged {
 fn a_wrong_angle_is_found_out() {
     println!("| told | RMSE | within two sd | said |");
     for angle_deg in [45.0, 47.0, 48.0, 49.0, 49.5, 50.0, 50.5, 51.0, 52.0, 53.0, 55.0] {
-        let one = judged(&format!("{angle_deg}° for 50°"), Told { angle_deg, ..AS_IT_IS });
+        let one = judged(&format!("{angle_deg}° for 50°"), StatedScene { angle_deg, ..AS_IT_IS });
         assert!(one.rmse < 0.015 && one.within_two_sd > 0.9, "{angle_deg}: {one:?}");
         let off = f64::abs(angle_deg - 50.0);
         assert_eq!(one.level, if off > 4.0 { "doubtful" } else { "good" }, "{angle_deg}: {one:?}");
@@ -102,21 +102,24 @@ fn a_wrong_angle_is_found_out() {
 #[test]
 fn a_wrong_angle_that_is_to_be_believed_is_doubtful() {
     for angle_deg in [48.0, 51.0] {
-        let one =
-            judged(&format!("{angle_deg}°, --fit none"), Told { angle_deg, flags: "--fit none", ..AS_IT_IS });
+        let one = judged(
+            &format!("{angle_deg}°, --fit none"),
+            StatedScene { angle_deg, flags: "--fit none", ..AS_IT_IS },
+        );
         assert_eq!(one.level, "doubtful", "{one:?}");
         assert!(one.because.contains("explains the facets better"), "{one:?}");
     }
-    let one = judged("50°, --fit none", Told { flags: "--fit none", ..AS_IT_IS });
+    let one = judged("50°, --fit none", StatedScene { flags: "--fit none", ..AS_IT_IS });
     assert_eq!(one.level, "good", "{one:?}");
 }
 
 /// The colour of the light and the camera's curves are no facet's business: the verdict names what it was told.
 #[test]
 fn what_facets_do_not_show_is_said_to_be_told() {
-    let light = judged("D50 for D65", Told { light: "D50", ..AS_IT_IS });
+    let light = judged("D50 for D65", StatedScene { light: "D50", ..AS_IT_IS });
     assert!(light.level == "good" && light.because.contains("the light D50"), "{light:?}");
-    let camera = judged("nikon-d5100 for canon-5d-mark-ii", Told { camera: "nikon-d5100", ..AS_IT_IS });
+    let camera =
+        judged("nikon-d5100 for canon-5d-mark-ii", StatedScene { camera: "nikon-d5100", ..AS_IT_IS });
     assert!(camera.level != "good" || camera.because.contains("the camera nikon-d5100"), "{camera:?}");
     let run = Workdir::new().sh("for camera in nikon-d5100 canon-5d-mark-ii; do
             vkernel --facets 4x4 | vforward -q --reflectance cc24:red --camera $camera | vestimate | tail -n 1
@@ -128,7 +131,7 @@ fn what_facets_do_not_show_is_said_to_be_told() {
 
 #[test]
 fn a_picture_that_was_developed_is_wrong() {
-    let told = Told {
+    let told = StatedScene {
         photo: JPEG,
         camera: "nikon-d5100",
         corners: JPEG_CORNERS,
@@ -145,7 +148,7 @@ fn corners_far_from_the_panels_are_not_good() {
     let inside = ["332,462 345,77 182,32 164,422", "332,462 345,77 425,37 412,426"];
     for (what, corners) in [("outer corners 40 px outside", outside), ("outer corners 60 px inside", inside)]
     {
-        let one = judged(what, Told { corners, ..AS_IT_IS });
+        let one = judged(what, StatedScene { corners, ..AS_IT_IS });
         assert!(one.level != "good" || one.within_two_sd > 0.8, "{what}: {one:?}");
     }
 }

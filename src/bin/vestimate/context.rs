@@ -18,8 +18,8 @@ use super::settings::Smoothness;
 /// A scene with what its samples are estimated by.
 pub struct Context {
     pub grid: WavelengthGrid,
-    /// The scene as it was told, with what is to be fitted.
-    pub told: SceneModel,
+    /// The scene as it was stated, with what is to be fitted.
+    pub model: SceneModel,
     pub method: SceneMethod,
     /// The reflectance to set out from, if one was given.
     pub start: Option<Vec<f64>>,
@@ -57,7 +57,7 @@ impl Context {
         let setting = Setting::of(scene)?;
         Ok(Self {
             grid: scene.grid()?,
-            told: setting.model_to_fit(fit)?,
+            model: setting.model_to_fit(fit)?,
             method,
             start,
             fold: match setting {
@@ -74,7 +74,7 @@ impl Context {
     /// How its samples are estimated under a prior, `is_auto` if what is fitted is up to the photograph.
     pub fn inference<'a>(&'a self, prior: &'a Prior, is_auto: bool) -> Inference<'a> {
         Inference {
-            model: &self.told,
+            model: &self.model,
             wavelengths_nm: self.grid.wavelengths_nm(),
             prior,
             start: self.start.as_deref(),
@@ -88,7 +88,7 @@ impl Context {
     }
 }
 
-/// The fold among sources other than sun and uniform sky, as photographs of it are believed; none if the scene is none, or a part of it is known.
+/// The fold among sources other than sun and uniform sky, as photographs of it are modelled; none if the scene is no fold, or a part of it is known.
 fn among_sources(scene: &Scene) -> Result<Option<FoldSetting>> {
     let is_whole = scene.fold_if_one()?.is_some() && scene.materials()?.is_empty();
     if is_whole { FoldSetting::of(scene).map(Some) } else { Ok(None) }

@@ -19,7 +19,7 @@ use vfold::paper::components::FlatSheet;
 use vfold::paper::smooth;
 use vfold::scene::{Setting, other_lights, photographed};
 use vfold::spectrum::{
-    Outside, Spectrum, WavelengthGrid, equally_likely, finely_likely_lights, likely_lights,
+    Outside, Spectrum, WavelengthGrid, candidate_lights, equal_candidates, fine_candidate_lights,
 };
 use vfold::stream::{
     CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
@@ -31,7 +31,7 @@ use super::asked::Asked;
 use super::context::{Context, SceneMethod};
 use super::flat::FlatEstimator;
 use super::known_fold::KnownFold;
-use super::said::{self, Deviations};
+use super::messages::{self, Deviations};
 use super::settings::{MUNSELL, SHEETS, Smoothness};
 
 /// How spectra are estimated, from `--method` and `--prior`.
@@ -70,7 +70,7 @@ pub struct Estimator<'a> {
 
 /// The paper's estimator fits an exposure and nothing else of the scene.
 fn check_fit(args: &Args) -> Result<()> {
-    if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|given| given != Exposure::Free) {
+    if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|exposure| exposure != Exposure::Free) {
         let problem = "exposure is given by --exposure already";
         return Err(Error::usage("--fit", problem, "leave one of them out"));
     }
@@ -164,7 +164,7 @@ impl Transform for Estimator<'_> {
         self.known_fold.iter().try_for_each(|known| known.check(sample, exposure))?;
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let deviations = Deviations::of(&noise, context.told.facets(), &rgb)?;
+                let deviations = Deviations::of(&noise, context.model.facets(), &rgb)?;
                 let is_photograph = sample.is_photograph();
                 let fold = context.fold.as_deref();
                 let photographed_fold = fold.filter(|_| is_photograph);
@@ -180,7 +180,8 @@ impl Transform for Estimator<'_> {
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
                 let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
-                let how = format!("prior {}, {deviations}, {}", self.asked.args.prior(), said::size(&data));
+                let how =
+                    format!("prior {}, {deviations}, {}", self.asked.args.prior(), messages::size(&data));
                 (estimate, Some(verdict), how)
             }
             SceneMethod::Smooth(smoothness) => {
@@ -189,7 +190,7 @@ impl Transform for Estimator<'_> {
             }
             SceneMethod::Flat(flat) => {
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
-                let sheet = FlatSheet::new(context.told.facets(), &measured, exposure)?;
+                let sheet = FlatSheet::new(context.model.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, None, flat.to_string())
             }
         };
@@ -283,12 +284,12 @@ impl<'a> Estimator<'a> {
             ));
         }
         let lights = match &self.asked.args.illuminants {
-            Some(spec) => equally_likely(self.asked.args.common.illuminants(spec)?),
+            Some(spec) => equal_candidates(self.asked.args.common.illuminants(spec)?),
             // a known sheet tells lights apart that are nearer to each other
             None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
-                finely_likely_lights()?
+                fine_candidate_lights()?
             }
-            None => likely_lights()?,
+            None => candidate_lights()?,
         };
         Candidate::all(&lights, grid, &camera.sensitivities)
     }
@@ -303,7 +304,7 @@ impl<'a> Estimator<'a> {
             SceneMethod::Smooth(_) | SceneMethod::Flat(_) => {
                 let prior = self.asked.args.prior();
                 let problem =
-                    format!("'{prior}' does not say how far off estimates are, as --plan and --join ask");
+                    format!("--plan and --join need error bars, which --prior {prior} does not give");
                 Err(Error::usage("--prior", problem, "leave --prior and --method out, or give spectra"))
             }
         }
@@ -331,10 +332,10 @@ impl<'a> Estimator<'a> {
         let noise = self.asked.noise(sample)?;
         if self.asked.args.common.verbose {
             let (id, exposure) = (sample.id(), self.asked.exposure_of(sample)?);
-            cli::say("vestimate", &format!("{id}: {how}; {}", said::outcome(estimate, exposure)));
+            cli::say("vestimate", &format!("{id}: {how}; {}", messages::outcome(estimate, exposure)));
         }
         // methods that weigh no facets know their noise all the same
-        let rms = || Ok(Deviations::of(&noise, context.told.facets(), &sample.facet_rgb()?)?.rms());
+        let rms = || Ok(Deviations::of(&noise, context.model.facets(), &sample.facet_rgb()?)?.rms());
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
@@ -359,9 +360,9 @@ impl<'a> Estimator<'a> {
     /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.
     fn say_unmodelled(&self, sample: &Sample, ideal: &Estimate, why: Unmodelled) {
         if !self.asked.args.common.quiet {
-            let (id, misfit) = (sample.id(), ideal.residual_rms);
+            let (id, reduced_chi) = (sample.id(), ideal.residual_rms);
             let text = format!(
-                "{id}: misfit {misfit:.1}: this is no ideal fold, and as {why}, what that changes is not estimated; expect errors beyond the bars"
+                "{id}: residual {reduced_chi:.1} times the noise: this is no ideal fold. Real-sheet effects cannot be modelled here ({why}); errors may exceed the bars"
             );
             cli::say("vestimate", &text);
         }
@@ -377,20 +378,20 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
         let measured = Measured { rgb, sd: &alike(rgb) };
-        let data = FacetData::new(&context.told, &measured, exposure, smooth::CUTOFF)?;
+        let data = FacetData::new(&context.model, &measured, exposure, smooth::CUTOFF)?;
         let middle = vec![0.5; context.grid.len()];
         let start = context.start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = Deviations::of(noise, context.told.facets(), rgb)?;
+                let noise = Deviations::of(noise, context.model.facets(), rgb)?;
                 (
                     smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
                     format!("as allowed by {noise}"),
                 )
             }
         };
-        Ok((estimate, format!("smoothness {weight}, {}", said::size(&data))))
+        Ok((estimate, format!("smoothness {weight}, {}", messages::size(&data))))
     }
 }
 

@@ -143,7 +143,7 @@ impl Estimator<'_> {
         };
         let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is no fold".to_owned()))?;
         let rgb = sample.facet_rgb()?;
-        let sd = self.asked.noise(sample)?.deviations(context.told.facets(), &rgb)?;
+        let sd = self.asked.noise(sample)?.deviations(context.model.facets(), &rgb)?;
         let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
         let rgb = Shadow::left_out(&shadows, &rgb);
         let measured = Measured { rgb: &rgb, sd: &sd };

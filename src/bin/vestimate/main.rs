@@ -7,8 +7,8 @@ mod estimator;
 mod flat;
 mod join;
 mod known_fold;
+mod messages;
 mod plan;
-mod said;
 mod settings;
 mod verdicts;
 
@@ -45,48 +45,51 @@ struct Args {
     /// Scenes and samples from vforward or vextract [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// What is known of reflectances beforehand: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper's estimator) or none [default: sheets]
+    /// Prior on the reflectance: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or
+    /// file), smooth (the paper's estimator) or none [default: sheets]
     #[arg(long, value_name = "SPEC|smooth|none")]
     prior: Option<String>,
-    /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: what the
-    /// noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
+    /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or
+    /// khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
     smoothness: Option<Smoothness>,
-    /// Standard deviation of every facet; auto: what the samples say, else what no reflectance explains
+    /// Standard deviation of every facet; auto: from the samples, else from what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
     /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
-    /// Value of white facing the sun; free: fitted; sum: by sums, as in the paper [default: what the sample says, else free]
+    /// Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as
+    /// in the paper [default: the sample's, else free]
     #[arg(long, value_name = "X|free|sum", value_parser = settings::exposure)]
     exposure: Option<Exposure>,
-    /// What is fitted along with the spectrum, with commas between; the scene's values are what is expected [default: auto
+    /// Scene parameters to fit, comma-separated; the scene's values are the prior means [default: auto
     /// for photographs that an ideal fold does not explain, else none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = settings::fit())]
     fit: Vec<&'static Flag>,
-    /// Photographs that name the same sheet are estimated together: in this field, or, with commas between, these ids; alone, by the id
-    /// up to its last - or _
+    /// Estimate photographs of one sheet together: group by FIELD, or join the listed IDs. Without a
+    /// value, group by the id up to its last - or _
     #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
         conflicts_with = "fit")]
     join: Option<Join>,
-    /// What an unknown light may be: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs,
-    /// fluorescent lamps]
+    /// Candidates for an unknown light: every column of a file [default: daylight of 4000 to 12500 K,
+    /// suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]
     #[arg(long, value_name = "FILE")]
     illuminants: Option<String>,
-    /// A fold of a sheet whose reflectance is known, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It
-    /// tells the light and, of computed facets, the exposure
+    /// A fold of a sheet of known reflectance, taken by the same camera in the same light: one sample of
+    /// vforward or vextract, and its reflectance. It fixes the light and, for computed facets, the
+    /// exposure
     #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec, conflicts_with_all = ["join", "plan"])]
     known_fold: Option<(String, String)>,
-    /// Panel 1 is a card of this reflectance [default: what the scene says]
+    /// Panel 1 is a card of this reflectance [default: the scene's]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
-    /// Reflectance to set out from [default: the prior's mean; 0.5 for --prior smooth and none]
+    /// Initial reflectance [default: the prior mean; 0.5 for --prior smooth and none]
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
-    /// Draw estimates, their error bands and true spectra, what the sheets look like under D65, flat and folded, and of a single
-    /// sheet what the estimate leaves of its facets; of more than seven samples, up to sixty, a small chart each; -: spectra of the first
-    /// seven on standard error, in characters as wide as the terminal
+    /// Draw estimates with their error bands, true spectra, the sheets' look under D65, flat and folded,
+    /// and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the
+    /// first seven on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
@@ -134,7 +137,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.join.as_ref().map_or(Ok(()), |_| join::check(args))?;
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
-    if let Some(kernel) = args.kernel.given()? {
+    if let Some(kernel) = args.kernel.external()? {
         let mut scene = kernel.scene()?;
         args.planning.complete(&mut scene, &args.common)?;
         reader = reader.after(scene);

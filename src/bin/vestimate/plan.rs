@@ -25,8 +25,9 @@ const NOISE_SD: f64 = 1e-3;
 #[derive(Args)]
 #[command(next_help_heading = "Planning")]
 pub struct PlanArgs {
-    /// Take scenes without samples and say how far off estimates will be: one record per scene, for --noise-sd [default: 1e-3]; of ideal
-    /// folds, of photographs of real sheets with --fit auto, and with --join of the first scene's and each of the others' together
+    /// Take scenes without samples and report the expected errors: one record per scene, for --noise-sd
+    /// [default: 1e-3]; for ideal folds, for photographs of real sheets with --fit auto, and with --join
+    /// for the first scene together with each of the others
     #[arg(long, conflicts_with_all = ["plot", "trace"])]
     pub plan: bool,
     /// Reflectances that will be photographed [default: cc24]
@@ -168,14 +169,14 @@ impl PlanArgs {
     }
 
     /// The plan of a scene, its pictures being estimated together with those of another if there is one.
-    fn plan(&self, estimator: &Estimator, planned: &Planned, beside: Option<&Planned>) -> Result<Fields> {
+    fn plan(&self, estimator: &Estimator, planned: &Planned, other: Option<&Planned>) -> Result<Fields> {
         let mut expected = ExpectedError::default();
-        planned.estimates(estimator, beside)?.iter().for_each(|estimate| expected.add(estimate));
+        planned.estimates(estimator, other)?.iter().for_each(|estimate| expected.add(estimate));
         plan(
             &planned.scene,
             NewPlan {
                 angle_deg: planned.angle_deg,
-                beside: beside.map(|other| (&other.scene, other.angle_deg)),
+                with_photograph: other.map(|other| (&other.scene, other.angle_deg)),
                 reflectances: self.set(),
                 noise_sd: noise_sd(estimator),
                 rmse: expected.rmse(),
@@ -192,7 +193,7 @@ impl PlanArgs {
 
 impl Planned {
     /// One estimate per sheet; their error bars are what to expect.
-    fn estimates(&self, estimator: &Estimator, beside: Option<&Self>) -> Result<Vec<Estimate>> {
+    fn estimates(&self, estimator: &Estimator, other: Option<&Self>) -> Result<Vec<Estimate>> {
         match &self.sheets {
             Sheets::Ideal(sheets) => {
                 let exposure = estimator.asked.exposure_or(Exposure::Known(1.0));
@@ -201,7 +202,7 @@ impl Planned {
             }
             Sheets::Real(sheets) => {
                 let prior = estimator.prior_of(&self.context)?;
-                let others: &[Parts] = match beside {
+                let others: &[Parts] = match other {
                     Some(Self { context, sheets: Sheets::Real(others), .. }) => {
                         join::check_wavelengths(context, &self.context)?;
                         others

@@ -35,8 +35,8 @@ pub struct CalibrationArgs {
         allow_negative_numbers = true
     )]
     chart_cos: f64,
-    /// Write the camera's curves with their standard deviations, by the chart in the one IMAGE and the known --illuminant, and nothing
-    /// else; a --camera from then on
+    /// Estimate the camera's sensitivities from the chart in IMAGE under --illuminant, write them and
+    /// exit; use the file with --camera
     #[arg(long, value_name = "FILE.csv", requires = "chart_place")]
     pub save_camera: Option<PathBuf>,
     /// Reflectance of the white card
@@ -58,7 +58,7 @@ impl CalibrationArgs {
     ///
     /// # Errors
     /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference; as [`Common::reflectances`].
-    pub fn given(&self, grid: &WavelengthGrid, common: &Common) -> Result<GivenCalibration> {
+    pub fn resolved(&self, grid: &WavelengthGrid, common: &Common) -> Result<ResolvedCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
             return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
         }
@@ -80,7 +80,7 @@ impl CalibrationArgs {
             ));
         }
         let white = common.one_reflectance("--white-reflectance", &self.white_reflectance)?;
-        Ok(GivenCalibration {
+        Ok(ResolvedCalibration {
             exposure: self.exposure,
             chart: Target::new(("chart", "--chart"), (rows, cols), self.chart_cos, &chart, grid)?,
             white: Target::new(("white card", "--white-region"), (1, 1), self.white_cos, &[white], grid)?,
@@ -89,14 +89,14 @@ impl CalibrationArgs {
 }
 
 /// What can calibrate a photograph.
-pub struct GivenCalibration {
+pub struct ResolvedCalibration {
     pub exposure: Option<f64>,
     pub chart: Target,
     white: Target,
 }
 
-impl GivenCalibration {
-    /// Leaves out a chart that was found where a white card or the exposure was told.
+impl ResolvedCalibration {
+    /// Leaves out a detected chart where a white card or the exposure was stated.
     pub fn forget_spare(&self, regions: &mut Regions) {
         if regions.chart_confidence.is_some() && (regions.white.is_some() || self.exposure.is_some()) {
             (regions.chart, regions.chart_confidence) = (None, None);
@@ -119,7 +119,7 @@ impl GivenCalibration {
     /// The patches of what is marked.
     ///
     /// # Errors
-    /// As [`GivenCalibration::calibrate`].
+    /// As [`ResolvedCalibration::calibrate`].
     pub fn grid(&self, regions: &Regions, lens: Lens) -> Result<Option<Grid>> {
         self.marked(regions)?.map(|(target, corners)| target.grid(lens, corners)).transpose()
     }

@@ -1,4 +1,4 @@
-//! `--save-camera`: a camera's curves from the chart in a photograph.
+//! `--save-camera`: a camera's sensitivities from the chart in a photograph.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,8 @@ use vfold::spectrum::Outside;
 use vfold::spectrum::formats::{Measured, check_ending, write};
 use vfold::{Error, Result, cli};
 
-use super::calibration::GivenCalibration;
-use super::regions::GivenRegions;
+use super::calibration::ResolvedCalibration;
+use super::regions::ResolvedRegions;
 use super::{Args, light};
 
 /// Writes the camera of the one photograph.
@@ -21,7 +21,7 @@ pub fn save(
     file: &Path,
     images: &[PathBuf],
     first: Result<Photograph>,
-    (regions, calibration): (&GivenRegions, &GivenCalibration),
+    (regions, calibration): (&ResolvedRegions, &ResolvedCalibration),
     flat_field: Option<std::sync::Arc<FlatField>>,
 ) -> Result<()> {
     const FLAG: &str = "--save-camera";
@@ -52,26 +52,30 @@ pub fn save(
     let corners = corners
         .ok_or_else(|| Error::usage(FLAG, "no chart is marked", "give --chart, or 'chart' in --regions"))?;
     let camera = calibration.chart.camera((path, &photograph), lens, corners, (grid, &power))?;
-    let said = said(file, illuminant.name(), &camera);
+    let note = note(file, illuminant.name(), &camera);
     let channel = |((name, curve), sd): ((&str, Vec<f64>), Vec<f64>)| Measured {
         name: name.to_owned(),
         wavelengths_nm: grid.wavelengths_nm().to_vec(),
         reflectance: curve,
         reflectance_sd: Some(sd),
     };
-    let channels: Vec<_> =
-        ["R", "G", "B"].into_iter().zip(camera.curves).zip(camera.curves_sd).map(channel).collect();
+    let channels: Vec<_> = ["R", "G", "B"]
+        .into_iter()
+        .zip(camera.sensitivities)
+        .zip(camera.sensitivities_sd)
+        .map(channel)
+        .collect();
     write(file, &channels)?;
     assumed
         .into_iter()
-        .chain([said])
+        .chain([note])
         .filter(|_| !args.common.quiet)
         .for_each(|line| cli::say("vextract", &line));
     Ok(())
 }
 
-fn said(file: &Path, light: &str, camera: &ChartCamera) -> String {
-    let all = camera.curves_sd.iter().flatten();
+fn note(file: &Path, light: &str, camera: &ChartCamera) -> String {
+    let all = camera.sensitivities_sd.iter().flatten();
     let sd = (all.clone().map(|sd| sd * sd).sum::<f64>() / all.count() as f64).sqrt();
     format!(
         "{}: curves by the chart in {light}, patches within {:.1} %, standard deviation {:.1} % of green's peak in the mean; give it as --camera",

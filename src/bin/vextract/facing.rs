@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use vfold::Result;
-use vfold::image::{FoundChart, Homography, Lens, camera_pose};
+use vfold::image::{DetectedChart, Homography, Lens, camera_pose};
 use vfold::scene::Setting;
 use vfold::stream::{Corners, Regions};
 
-/// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is believed to be off by 4 %.
+/// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is taken to be off by 4 %.
 const MOST_DEG: f64 = 15.0;
 
 /// By how much at least a found chart is turned from the sun, degrees, if that is more than the angle of this cosine allows: it is turned
@@ -22,7 +22,7 @@ pub fn turned_deg(setting: &Setting, regions: &Regions, lens: Lens, cos: f64) ->
     let corners = setting.fold.panels().map(|panel| panel.corners);
     let middle = corners.iter().flatten().sum::<nalgebra::Vector3<f64>>() / 8.0;
     let from_sun = (eye.position.coords - middle).angle(&setting.light.towards()).to_degrees();
-    let [rows, cols] = FoundChart::GRID.map(|count| count as f64);
+    let [rows, cols] = DetectedChart::GRID.map(|count| count as f64);
     let from_camera = Homography::through(lens, chart)?.view_angle_deg([cols, rows]);
     let least = from_camera - from_sun;
     let is_lit_by_sun = setting.light.sun() > 0.0;

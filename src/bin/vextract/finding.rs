@@ -1,15 +1,15 @@
-//! Panels and charts that are found, not told.
+//! Panels and charts that are detected, not stated.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use vfold::cli;
 use vfold::image::{
-    CornersBy, FoldSeen, FoundChart, FoundFold, Grid, Homography, Lens, NoFold, OtherFold, Photograph,
+    CornersBy, DetectedChart, DetectedFold, FoldSeen, Grid, Homography, Lens, NoFold, OtherFold, Photograph,
     find_chart, find_fold,
 };
 use vfold::scene::stated_fold;
-use vfold::stream::{Output, Regions, Scene, found_line, not_found_line};
+use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
 use vfold::{Error, Result};
 
 use super::{Args, balance, reading::Reading};
@@ -23,7 +23,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     for path in images {
         let photograph = match reading.open(path) {
             Err(error) if images.len() > 1 && !error.is_out_of_files() => {
-                out.text(&not_found_line(path, &error.to_string())?)?;
+                out.text(&no_detection_line(path, &error.to_string())?)?;
                 continue;
             }
             opened => opened?,
@@ -42,16 +42,16 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
 /// The line of a photograph in which this was found.
 ///
 /// # Errors
-/// As [`found_line`].
+/// As [`detection_line`].
 pub fn line(
     args: &Args,
     path: &Path,
     photograph: &Photograph,
     lens: Lens,
-    (fold, chart): (&std::result::Result<FoundFold, NoFold>, Option<&FoundChart>),
+    (fold, chart): (&std::result::Result<DetectedFold, NoFold>, Option<&DetectedChart>),
 ) -> Result<String> {
     let angle = fold.as_ref().ok().and_then(|found| seen(args, photograph, lens).angle(&found.panels));
-    found_line(path, photograph, fold, angle.as_ref(), chart)
+    detection_line(path, photograph, fold, angle.as_ref(), chart)
 }
 
 /// What tells the angle of a fold in a photograph beside its corners.
@@ -59,7 +59,7 @@ fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
     FoldSeen {
         size: [photograph.width(), photograph.height()],
         corners_by: CornersBy::Finding,
-        lens: args.placing.is_lens_told().then_some(lens),
+        lens: args.placing.is_lens_stated().then_some(lens),
         focal_35mm: photograph.info().camera.focal_35mm,
         depths: None,
     }
@@ -117,8 +117,8 @@ pub fn find_calibration(photograph: &Photograph, lens: Lens, regions: &mut Regio
 }
 
 /// The chart in a photograph, if it is found surely.
-pub fn sure_chart(photograph: &Photograph, lens: Lens) -> Option<FoundChart> {
-    find_chart(photograph, &lens).filter(FoundChart::is_sure)
+pub fn sure_chart(photograph: &Photograph, lens: Lens) -> Option<DetectedChart> {
+    find_chart(photograph, &lens).filter(DetectedChart::is_sure)
 }
 
 /// What to do where finding does not.
@@ -140,7 +140,7 @@ fn draw(
     args: &Args,
     path: &Path,
     photograph: &Photograph,
-    (fold, chart): (Option<&FoundFold>, Option<&FoundChart>),
+    (fold, chart): (Option<&DetectedFold>, Option<&DetectedChart>),
     lens: Lens,
 ) -> Result<()> {
     let panel = |(number, corners)| {
@@ -148,8 +148,9 @@ fn draw(
         Ok(Grid::of_panel(number, outline, &[0.0, 1.0], &[0.0, 1.0]))
     };
     let panels = fold.into_iter().flat_map(|fold| fold.panels.into_iter().enumerate()).map(panel);
-    let patches =
-        |chart: &FoundChart| Ok(Grid::even(Homography::through(lens, chart.corners)?, FoundChart::GRID));
+    let patches = |chart: &DetectedChart| {
+        Ok(Grid::even(Homography::through(lens, chart.corners)?, DetectedChart::GRID))
+    };
     let grids = panels.chain(chart.map(patches)).collect::<Result<Vec<_>>>()?;
     args.pictures.overlay(path, photograph, &grids, &[], &balance::of_photograph(args, photograph))
 }

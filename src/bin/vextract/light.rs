@@ -8,19 +8,19 @@ use vfold::measure::{LightTaken, light_of};
 use vfold::spectrum::UNKNOWN_LIGHT;
 
 /// What was given, or, if no illuminant was, the light of the `first` photograph by what its camera wrote; and what is to be said of that.
-pub fn optics(given: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
-    let mut optics = given.clone();
+pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
+    let mut optics = stated.clone();
     let (true, Some(photograph)) = (optics.illuminant.is_empty(), first) else { return (optics, None) };
-    let said = match light_of(&photograph.info().camera.taken) {
+    let note = match light_of(&photograph.info().camera.taken) {
         LightTaken::Sun(spec, sun) => {
-            let said = format!(
+            let note = format!(
                 "{spec} by place and time of {}: a cloudless sky, the sun {:.1}° from the zenith; \
                  --illuminant says otherwise",
                 path.display(),
                 sun.zenith_deg()
             );
             optics.illuminant = vec![spec];
-            said
+            note
         }
         LightTaken::Daylight(why) => {
             format!("daylight assumed, D65: {why}; --illuminant says which light it was")
@@ -30,5 +30,5 @@ pub fn optics(given: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (O
             format!("which light it was is to be found in the picture: {why}; --illuminant says which it was")
         }
     };
-    (optics, Some(said))
+    (optics, Some(note))
 }

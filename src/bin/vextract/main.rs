@@ -92,11 +92,12 @@ struct Args {
     camera: Option<String>,
     #[command(flatten)]
     optics: OpticsArgs,
-    /// Print where fold and chart are in each photograph, one line of JSON as --regions reads it, and nothing else; needs no scene
+    /// Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it,
+    /// and exit; needs no scene
     #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
-    /// Show the photograph with the fold that is found in it in a browser, to be put right there, and print that as --find does; the page is
-    /// seen on this machine alone
+    /// Show the photograph and the detected fold in a browser on this machine, to be corrected there,
+    /// then print the corners as --find does
     #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region", "preview", "overlay"])]
     pick: bool,
     #[command(flatten)]
@@ -144,8 +145,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         "standard input is the scene",
         "give --scene FILE",
     )?;
-    let regions = args.regions.given()?;
-    let calibration = args.calibration.given(&args.optics.wavelengths_nm, &args.common)?;
+    let regions = args.regions.resolved()?;
+    let calibration = args.calibration.resolved(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("give one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&reading)?.map(Arc::new);
     if let Some(file) = &args.calibration.save_camera {
@@ -154,20 +155,20 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     }
     let mut scene = read_scene(&args.scene)?;
     let first = reading.open(&images[0]);
-    let mut said = Vec::new();
+    let mut notes = Vec::new();
     if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        let (given, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
+        let (resolved, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
         let mut optics =
-            given.resolve(&camera.sensitivities(|spec| args.common.camera(spec))?, &args.common)?;
+            resolved.resolve(&camera.sensitivities(|spec| args.common.camera(spec))?, &args.common)?;
         let stands_in = camera.stands_in.is_some();
         optics.camera.stands_in = camera.stands_in;
         scene.set_optics(&optics)?;
-        if given.illuminant.is_empty() {
+        if resolved.illuminant.is_empty() {
             scene.set_daylight_assumed()?;
         }
-        // another camera's curves are never taken silently
-        said.extend(camera.said.filter(|_| stands_in || !args.common.quiet));
-        said.extend(assumed.filter(|_| !args.common.quiet));
+        // another camera's sensitivities are never taken silently
+        notes.extend(camera.note.filter(|_| stands_in || !args.common.quiet));
+        notes.extend(assumed.filter(|_| !args.common.quiet));
     }
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
@@ -194,18 +195,18 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         && !args.common.quiet
     {
         let replaced = replaced.display();
-        said.push(format!(
+        notes.push(format!(
             "{replaced} was replaced since it was measured: it is measured again, and what follows it"
         ));
     }
     if let ([only], None) = (images.as_slice(), &args.files_from) {
         // Nothing to go on with: the one photograph's error is the tool's.
         let sample = setup.sample(only, first)?;
-        said.iter().for_each(|line| cli::say("vextract", line));
+        notes.iter().for_each(|line| cli::say("vextract", line));
         out.scene(&scene)?;
         return out.sample(&sample);
     }
-    said.iter().for_each(|line| cli::say("vextract", line));
+    notes.iter().for_each(|line| cli::say("vextract", line));
     out.expect(images.len());
     out.scene(&scene)?;
     let kept = out.kept()?;

@@ -9,10 +9,11 @@ use vfold::{Error, Result};
 
 #[derive(Args)]
 pub struct PictureArgs {
-    /// Draw panels, facets and left-out pixels (red) over the photograph; {} in the name stands for the IMAGE's
+    /// Draw panels, facets and excluded pixels (red) over the photograph; {} in the name stands for the
+    /// IMAGE's
     #[arg(long, value_name = "FILE.png")]
     overlay: Option<PathBuf>,
-    /// Write a small picture to find corners in, with share/picker.html, and nothing else; {} as above
+    /// Write a small picture for finding corners with share/picker.html, and exit; {} as above
     #[arg(long, value_name = "FILE.png")]
     preview: Option<PathBuf>,
 }

@@ -1,14 +1,14 @@
 //! Where the panels are seen exactly.
 
 use clap::Args;
-use vfold::cli;
 use vfold::image::{Grid, Lens, Photograph, REFINED_WITHIN_PX, Refinement, refine};
 use vfold::scene::MarkedPanels;
-use vfold::{Error, Result};
+use vfold::{Error, Result, cli};
 
 #[derive(Args)]
 pub struct PlacingArgs {
-    /// Move the panels' corners to the edges and the crease within PX pixels, not 6, and say along which sides there are none
+    /// Move the panels' corners to the edges and the crease within PX pixels instead of 6, and report
+    /// sides that have no edge
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
     /// Leave the corners where they are
@@ -50,7 +50,7 @@ impl PlacingArgs {
     }
 
     /// Whether somebody told how the lens bends the picture.
-    pub fn is_lens_told(&self) -> bool {
+    pub fn is_lens_stated(&self) -> bool {
         self.distortion.is_some()
     }
 

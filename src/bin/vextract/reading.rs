@@ -10,16 +10,19 @@ use vfold::{Error, Result};
 #[derive(Args)]
 #[command(next_help_heading = "Reading photographs")]
 pub struct ReadingArgs {
-    /// Curve of the stored numbers; auto: what the file says, or else sRGB for 8 bits and linear for the rest
+    /// Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear
+    /// for the rest
     #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]
     transfer: Transfer,
-    /// Stored number that means no light; auto: the darkest ones, where they are alike in all channels and not 0
+    /// Stored number that means no light; auto: the darkest, where these are alike in all channels and
+    /// not 0
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = black_level)]
     black_level: Option<BlackLevel>,
-    /// Stored number that means 1, from which on pixels are clipped
+    /// Stored number that means 1; pixels from it on are clipped
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
-    /// Photograph of a white sheet, framed alike, to divide by: undoes uneven light; its mean counts as 1
+    /// Photograph of a white sheet, framed alike, to divide by: it corrects uneven light; its mean counts
+    /// as 1
     #[arg(long, value_name = "IMAGE")]
     white: Option<PathBuf>,
     /// Undo the white balance and the matrix with which the camera made an sRGB picture
@@ -30,7 +33,7 @@ pub struct ReadingArgs {
 /// The stored number that means no light.
 #[derive(Clone, Copy)]
 enum BlackLevel {
-    Given(f64),
+    Stated(f64),
     /// As the darkest pixels say.
     Darkest,
 }
@@ -68,13 +71,13 @@ impl ReadingArgs {
     /// # Errors
     /// If what the camera did cannot be read.
     pub fn reading(&self) -> Result<Reading> {
-        let given = |level| match level {
-            BlackLevel::Given(stored) => Some(stored),
+        let resolved = |level| match level {
+            BlackLevel::Stated(stored) => Some(stored),
             BlackLevel::Darkest => None,
         };
         let options = ReadOptions {
             transfer: self.transfer,
-            black_level: self.black_level.and_then(given),
+            black_level: self.black_level.and_then(resolved),
             white_level: self.white_level,
             development: self.undo.as_deref().map(read_development).transpose()?,
         };
@@ -91,7 +94,7 @@ impl ReadingArgs {
 fn black_level(text: &str) -> std::result::Result<BlackLevel, String> {
     match text {
         "auto" => Ok(BlackLevel::Darkest),
-        number => number.parse().map(BlackLevel::Given).map_err(|_| "write a number, or auto".to_owned()),
+        number => number.parse().map(BlackLevel::Stated).map_err(|_| "write a number, or auto".to_owned()),
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use vfold::image::{CHART_CORNERS, FoundFold, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
+use vfold::image::{CHART_CORNERS, DetectedFold, PANEL_CORNERS, Photograph, WHITE_CORNERS, parse_corners};
 use vfold::stream::{Corners, Regions, RegionsFile};
 use vfold::{Error, Result};
 
@@ -17,7 +17,8 @@ use super::finding;
     group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
 )]
 pub struct RegionArgs {
-    /// Corners of panel 0; facets of panels without corners are null [default: found, if no panel has any]
+    /// Corners of panel 0; facets of panels without corners are null [default: detected, if no panel has
+    /// corners]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel0: Option<String>,
     /// Corners of panel 1
@@ -26,7 +27,8 @@ pub struct RegionArgs {
     /// Corners of panel N, counted from 0 as the scene has them; once for each
     #[arg(long, value_name = "N=x,y x,y x,y x,y", allow_hyphen_values = true, value_parser = numbered)]
     panel: Vec<(usize, String)>,
-    /// Corners of a colour chart's block of patches, to calibrate with [default: found, if no corners are given]
+    /// Corners of a colour chart's block of patches, for calibration [default: detected, if no corners
+    /// are given]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
     /// Corners of a white card in the picture, to calibrate with
@@ -35,7 +37,7 @@ pub struct RegionArgs {
     /// JSON file of corners, see below, - for standard input; the flags above win over it
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
-    /// Stay this far from the panels' edges
+    /// Keep this distance from the panels' edges
     #[arg(long, value_name = "PX", default_value_t = 0.0, allow_negative_numbers = true)]
     pub margin: f64,
 }
@@ -50,7 +52,7 @@ impl RegionArgs {
     ///
     /// # Errors
     /// [`Error::Usage`] if flags are not corners or the margin is no distance, or as [`RegionsFile::open`].
-    pub fn given(&self) -> Result<GivenRegions> {
+    pub fn resolved(&self) -> Result<ResolvedRegions> {
         if !(self.margin >= 0.0 && self.margin.is_finite()) {
             let problem = format!("{} is not a distance", self.margin);
             return Err(Error::usage("--margin", problem, "give pixels, 0 or more"));
@@ -65,7 +67,7 @@ impl RegionArgs {
             ..Regions::default()
         };
         let file = self.regions.as_deref().map(RegionsFile::open).transpose()?;
-        Ok(GivenRegions { flags, file })
+        Ok(ResolvedRegions { flags, file })
     }
 
     fn panels(&self) -> Result<BTreeMap<usize, Corners>> {
@@ -84,11 +86,11 @@ impl RegionArgs {
 }
 
 /// Refuses panels of a file that were not found, or not surely.
-fn check_found(path: &Path, regions: &Regions) -> Result<()> {
+fn check_detected(path: &Path, regions: &Regions) -> Result<()> {
     if let Some(reason) = &regions.missing {
         return Err(finding::not_found(path, reason));
     }
-    let unsure = regions.confidence.filter(|confidence| *confidence < FoundFold::SURE);
+    let unsure = regions.confidence.filter(|confidence| *confidence < DetectedFold::SURE);
     unsure.map_or(Ok(()), |confidence| Err(finding::unsure(path, confidence)))
 }
 
@@ -101,13 +103,13 @@ fn numbered(text: &str) -> std::result::Result<(usize, String), String> {
 }
 
 /// Regions from the command line, and those from a file.
-pub struct GivenRegions {
+pub struct ResolvedRegions {
     flags: Regions,
     file: Option<RegionsFile>,
 }
 
-impl GivenRegions {
-    /// Whether nothing was told at all.
+impl ResolvedRegions {
+    /// Whether nothing was stated at all.
     pub fn are_none(&self) -> bool {
         self.file.is_none() && self.flags == Regions::default()
     }
@@ -119,7 +121,7 @@ impl GivenRegions {
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
         let regions = self.of_any(path, photograph)?;
         if self.flags.panels.is_empty() {
-            check_found(path, &regions)?;
+            check_detected(path, &regions)?;
         }
         Ok(regions)
     }

@@ -16,10 +16,10 @@ use vfold::stream::{CalibrationRecord, ImageRecord, Regions, Sample, Scene};
 use vfold::surfaces::Sight;
 use vfold::{Error, Result};
 
-use super::calibration::{GivenCalibration, apply};
+use super::calibration::{ResolvedCalibration, apply};
 use super::pictures::name;
 use super::reading::Reading;
-use super::regions::GivenRegions;
+use super::regions::ResolvedRegions;
 use super::{Args, balance, camera, finding, numbers, placing};
 
 /// What all photographs of a run have in common.
@@ -32,8 +32,8 @@ pub struct Setup<'a> {
     pub facet_count: usize,
     /// Of a surface whose panels may hide each other.
     pub sight: Option<Sight>,
-    pub regions: GivenRegions,
-    pub calibration: GivenCalibration,
+    pub regions: ResolvedRegions,
+    pub calibration: ResolvedCalibration,
     pub flat_field: Option<Arc<FlatField>>,
 }
 
@@ -46,8 +46,8 @@ impl Setup<'_> {
         self.check_colours(path, &photograph)?;
         let args = self.args;
         let mut regions = self.regions.of(path, &photograph)?;
-        let told = !regions.panels.is_empty() || self.scene.fold_if_one()?.is_none();
-        let confidence = if told {
+        let stated = !regions.panels.is_empty() || self.scene.fold_if_one()?.is_none();
+        let confidence = if stated {
             regions.confidence
         } else {
             let lens = args.placing.lens(&photograph)?;
@@ -114,7 +114,7 @@ impl Setup<'_> {
         Ok(sample)
     }
 
-    /// The calibration by what is marked. A chart that was found is left out, and that is said, where one that was told would be an error.
+    /// The calibration by what is marked. A detected chart is left out with a message where a stated one would be an error.
     fn calibrated(
         &self,
         regions: &Regions,

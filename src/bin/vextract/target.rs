@@ -67,10 +67,10 @@ impl Target {
     /// The calibration by this target between `corners`.
     pub fn calibrate(&self, view: &View, corners: Corners) -> Result<(Calibration, CalibrationRecord)> {
         let found = |corners| self.fit(view, corners);
-        let given = found(corners);
-        let residual = given.as_ref().map_or(f64::INFINITY, |(_, record)| record.residual());
+        let as_stated = found(corners);
+        let residual = as_stated.as_ref().map_or(f64::INFINITY, |(_, record)| record.residual());
         if residual < GOOD_RESIDUAL {
-            return given;
+            return as_stated;
         }
         let better = corner_orders(corners)
             .into_iter()
@@ -78,7 +78,7 @@ impl Target {
             .filter_map(|order| Some((order, found(order).ok()?.1.residual())))
             .filter(|(_, other)| *other < residual / 2.0)
             .min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((order, other)) = better else { return given };
+        let Some((order, other)) = better else { return as_stated };
         Err(self.turned(view.path, order, other))
     }
 
@@ -142,14 +142,14 @@ impl Target {
         light: (&WavelengthGrid, &[f64]),
     ) -> Result<ChartCamera> {
         let found = |corners| self.fit_camera(of, lens, corners, light);
-        let given = found(corners);
-        let residual = given.as_ref().map_or(f64::INFINITY, |camera| camera.residual);
+        let as_stated = found(corners);
+        let residual = as_stated.as_ref().map_or(f64::INFINITY, |camera| camera.residual);
         if residual < GOOD_RESIDUAL {
-            return given;
+            return as_stated;
         }
         let other_orders = corner_orders(corners).into_iter().skip(1);
         let fits = |order: &[Point; 4]| found(*order).is_ok_and(|camera| camera.residual < residual / 2.0);
-        let Some(order) = other_orders.into_iter().find(fits) else { return given };
+        let Some(order) = other_orders.into_iter().find(fits) else { return as_stated };
         Err(self.turned(of.0, order, found(order)?.residual))
     }
 

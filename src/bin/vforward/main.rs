@@ -41,7 +41,8 @@ struct Args {
     #[arg(long, value_name = "SPEC", num_args = 1..,
         required_unless_present_any = ["panel_reflectance", "facet_reflectance", "donaldson", "generate", "list"])]
     reflectance: Vec<String>,
-    /// Panel P (0 or 1) has this reflectance, the other is the sheet; given for both, panel 0 is the sheet
+    /// Reflectance of panel P (0 or 1), the other panel being the sheet; if both are given, panel 0 is
+    /// the sheet
     #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
     panel_reflectance: Vec<(usize, String)>,
     /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per
@@ -49,13 +50,14 @@ struct Args {
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,
-    /// The sheet fluoresces: it sends out this part of white's light, as --reflectance names spectra, wherever the light of --illuminant
-    /// falls directly
+    /// The sheet fluoresces: it emits this fraction of white's light, named as for --reflectance,
+    /// wherever the light of --illuminant falls directly
     #[arg(long, value_name = "SPEC", allow_negative_numbers = true,
         conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
     fluorescence: Option<String>,
-    /// Donaldson matrices in the place of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file
-    /// has wavelengths of emission in the first column, those of excitation in the header (CSV), or is the export of a Labsphere BFC-450
+    /// Donaldson matrices instead of reflectances: all light that falls on a sheet excites it,
+    /// ultraviolet and bounced light included. A file has emission wavelengths in the first column and
+    /// excitation wavelengths in the header (CSV), or is the export of a Labsphere BFC-450
     #[arg(long, value_name = "FILE", num_args = 1..,
         conflicts_with_all = ["reflectance", "fluorescence", "panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
     donaldson: Vec<String>,
@@ -67,7 +69,8 @@ struct Args {
     /// Panel 1 is a card of this reflectance: --panel-reflectance 1=SPEC
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,
-    /// Bounces of light that count: all, the first N (0: direct light alone), or as many as the scene's tolerance asks for
+    /// Bounces of light that count: all, the first N (0: direct light only), or as many as the scene's
+    /// tolerance requires
     #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with_all = ["material", "sheet"])]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel
@@ -120,8 +123,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let emission = Emission::of(args, &optics.grid)?;
     let subject = Subject::of(args, &optics.grid, &emission)?;
     let materials = args.materials.on(&optics.grid, &args.common)?;
-    let given = args.kernel.given()?;
-    let mut reader = match &given {
+    let external = args.kernel.external()?;
+    let mut reader = match &external {
         Some(kernel) => Reader::of(kernel.scene()?),
         None => Reader::open(&args.scene)?,
     };
@@ -137,7 +140,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
                 if !materials.is_empty() {
                     scene.set_materials(&materials)?;
                 }
-                let setup = Setup::new(args, noise, &scene, given.as_ref(), &emission);
+                let setup = Setup::new(args, noise, &scene, external.as_ref(), &emission);
                 let setup = setup.map_err(|e| reader.at(e))?;
                 let seen = setup.photograph(&subject)?;
                 out.scene(&scene)?;

@@ -5,7 +5,7 @@ use vfold::Result;
 use vfold::camera::CameraResponse;
 use vfold::forward::Lighting;
 use vfold::paper::{FoldKernel, form_factors, nonuniform};
-use vfold::scene::{GivenKernel, Setting};
+use vfold::scene::{ExternalKernel, Setting};
 use vfold::surfaces::kernel::SurfaceKernel;
 
 /// Direct light a patch of every source, and the camera's response to it.
@@ -15,19 +15,19 @@ type Lights = Vec<(Vec<f64>, CameraResponse)>;
 pub enum Nonuniform<'a> {
     Fold(FoldKernel, Lighting),
     Mesh(SurfaceKernel, Lights),
-    Kernel(&'a GivenKernel, Lights),
+    Kernel(&'a ExternalKernel, Lights),
 }
 
 impl<'a> Nonuniform<'a> {
     /// That of the scene, which may be of a kernel that is given.
-    pub fn of(setting: &Setting, given: Option<&'a GivenKernel>) -> Result<Self> {
+    pub fn of(setting: &Setting, external: Option<&'a ExternalKernel>) -> Result<Self> {
         let surface = match setting {
             Setting::Fold(fold) => return Ok(Self::Fold(form_factors(&fold.fold), fold.lighting()?)),
             Setting::Surface(surface) => surface,
         };
         let cameras = surface.source_responses()?.into_iter();
-        if let Some(given) = given {
-            return Ok(Self::Kernel(given, given.sources.iter().cloned().zip(cameras).collect()));
+        if let Some(external) = external {
+            return Ok(Self::Kernel(external, external.sources.iter().cloned().zip(cameras).collect()));
         }
         let lit = surface.lit()?;
         let lights = lit.lights.into_iter().map(|light| light.irradiance);
@@ -39,7 +39,9 @@ impl<'a> Nonuniform<'a> {
         match self {
             Self::Fold(kernel, lighting) => nonuniform::facet_rgb(kernel, lighting, reflectance),
             Self::Mesh(kernel, lights) => nonuniform::surface_rgb(kernel, lights, reflectance),
-            Self::Kernel(given, lights) => nonuniform::surface_rgb(&given.exchange, lights, reflectance),
+            Self::Kernel(external, lights) => {
+                nonuniform::surface_rgb(&external.exchange, lights, reflectance)
+            }
         }
     }
 }

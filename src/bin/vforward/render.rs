@@ -18,17 +18,17 @@ pub struct RenderArgs {
     /// Size of the photograph
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
-    /// Where the camera stands, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: off by a few
-    /// degrees from where the sun is]
+    /// Position of the camera, in the unit of the panels, for --render and for sheets that are not
+    /// perfectly matt [default: a few degrees off the sun's direction]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<Vector3<f64>>,
-    /// What it looks at [default: the middle]
+    /// Point that the camera looks at [default: the middle]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     look_at: Option<Vector3<f64>>,
-    /// What points upwards in the photograph [default: the crease]
+    /// Direction that points upwards in the photograph [default: the crease]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     up: Option<Vector3<f64>>,
-    /// Angle over the photograph's width [default: it is cut to what it shows]
+    /// Horizontal field of view [default: fits the sheet]
     #[arg(long, value_name = "DEG", requires = "render", allow_negative_numbers = true)]
     field_of_view_deg: Option<f64>,
 }
@@ -41,7 +41,11 @@ impl RenderArgs {
             return Ok(());
         }
         let problem = "where the camera stands makes no difference to the facets of a perfectly matt sheet";
-        Err(Error::usage("--eye", problem, "give --render, or --gloss, --body-roughness-deg or --fuzz"))
+        Err(Error::usage(
+            "--eye",
+            problem,
+            "give --render, or --specular-weight, --body-roughness-deg or --sheen",
+        ))
     }
 
     /// # Errors
@@ -60,7 +64,7 @@ impl RenderArgs {
         Viewpoint { eye, look_at, up, field_of_view_deg }
     }
 
-    /// Says how vextract is told where the panels are in the photograph, if one was taken.
+    /// Says which flags tell vextract where the panels are in the photograph, if one was taken.
     pub fn say_corners(&self, panels: &[(usize, Corners)], common: &Common) {
         let Some(path) = self.render.as_ref().filter(|_| !common.quiet && !panels.is_empty()) else { return };
         let flag = |(number, corners): &(usize, Corners)| {

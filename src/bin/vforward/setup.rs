@@ -8,7 +8,7 @@ use vfold::forward::render::FoldView;
 use vfold::forward::{BispectralSheet, FacetModel, FacetValues, Fluorescing};
 use vfold::paper::bounces::{Bounces, Truncation};
 use vfold::parallel::{Item, in_order};
-use vfold::scene::{FoldedSheet, GivenKernel, Setting};
+use vfold::scene::{ExternalKernel, FoldedSheet, Setting};
 use vfold::stream::{Corners, Output, ReflectanceRecord, Sample, Scene, read_matrix};
 use vfold::{Error, Result};
 
@@ -25,7 +25,7 @@ pub struct Setup<'a> {
     pub(super) args: &'a Args,
     pub(super) scene: &'a Scene,
     pub(super) setting: Setting<'a>,
-    given: Option<&'a GivenKernel>,
+    external: Option<&'a ExternalKernel>,
     pub(super) noise: Noise,
     pub(super) bounces: Bounces,
     pub(super) model: FacetModel,
@@ -39,7 +39,7 @@ impl<'a> Setup<'a> {
         args: &'a Args,
         noise: Noise,
         scene: &'a Scene,
-        given: Option<&'a GivenKernel>,
+        external: Option<&'a ExternalKernel>,
         emission: &'a Emission,
     ) -> Result<Self> {
         let setting = Setting::of(scene)?;
@@ -58,7 +58,7 @@ impl<'a> Setup<'a> {
             )),
         });
         let sheet = sheet.transpose()?;
-        Ok(Self { args, scene, setting, given, noise, bounces, model, sheet, emission })
+        Ok(Self { args, scene, setting, external, noise, bounces, model, sheet, emission })
     }
 
     /// Writes one sample per sheet or file; the first says where its panels are `seen`.
@@ -131,7 +131,7 @@ impl<'a> Setup<'a> {
 
     /// One after the other: each keeps all threads busy.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
-        let surface = Nonuniform::of(&self.setting, self.given)?;
+        let surface = Nonuniform::of(&self.setting, self.external)?;
         for (n, path) in files.iter().enumerate() {
             let rgb = surface.facet_rgb(&self.facet_reflectance(path)?)?;
             let id = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -73,8 +73,8 @@ fn scene(
 /// The sun where flags say it stands, and the sky.
 pub fn light(args: &Args, fold: &Fold) -> Result<Light> {
     if args.sky.is_infinite() {
-        let given = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
-        refuse(given, "there is no sun", "leave it out, or give --sky a number")?;
+        let flags = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
+        refuse(flags, "there is no sun", "leave it out, or give --sky a number")?;
     }
     Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)
 }
@@ -150,12 +150,12 @@ fn save(path: &Path, kernel: &FoldKernel) -> Result<()> {
 }
 
 fn method(args: &Args) -> Result<Method> {
-    let given = [
+    let flags = [
         ("--sampling", args.sampling.is_some()),
         ("--samples", args.samples.is_some()),
         ("--seed", args.seed.is_some()),
     ];
-    let refuse_samples = || refuse(given, "there is nothing to sample", "add --method monte-carlo");
+    let refuse_samples = || refuse(flags, "there is nothing to sample", "add --method monte-carlo");
     match args.method {
         MethodName::MonteCarlo => {
             let sampling = match args.sampling {
@@ -176,7 +176,7 @@ const ANGLE_DEG: f64 = 45.0;
 /// A fold, and how exactly its angle is known.
 pub struct Opened {
     pub fold: Fold,
-    /// Standard deviation of the angle, degrees, if a photograph told it.
+    /// Standard deviation of the angle, degrees, if a photograph gave it.
     pub angle_sd_deg: Option<f64>,
 }
 

@@ -62,7 +62,7 @@ enum SkyType {
 
 impl LightArgs {
     /// Whether there is more than a sun and a uniform sky.
-    pub fn is_given(&self) -> bool {
+    pub fn is_present(&self) -> bool {
         !self.light.is_empty() || self.sky_type != SkyType::Uniform || self.zenith.is_some()
     }
 
@@ -90,7 +90,7 @@ impl LightArgs {
         let lights = match self.light.as_slice() {
             [] if sky.is_infinite() => Vec::new(),
             [] => vec![LightArg::Directional(sun, 1.0)],
-            given => given.to_vec(),
+            flags => flags.to_vec(),
         };
         let mut sources = Vec::new();
         for light in &lights {

@@ -37,14 +37,15 @@ struct Args {
     /// Angle between the two panels, degrees [default: that of --regions, or 45]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     angle_deg: Option<f64>,
-    /// Panel along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]
+    /// Panel size, along the crease x away from it; only the ratio matters [default: that of --regions,
+    /// or 1x1]
     #[arg(long, value_name = "WIDTHxDEPTH", value_parser = cli::pair::<f64>)]
     panel: Option<(f64, f64)>,
-    /// Take angle and panels from what vextract --find printed of a photograph, - for standard input; of other files with the corners of both
-    /// panels and the picture's size the corners tell them
+    /// Take angle and panels from the output of vextract --find, - for standard input; other files need
+    /// the corners of both panels and the picture's size
     #[arg(long, value_name = "FILE", conflicts_with_all = ["shape", "folds", "ridge_deg", "bow_deg"])]
     regions: Option<PathBuf>,
-    /// Depth of panel 1, in the unit of --panel, if it is not that of panel 0
+    /// Depth of panel 1, in the unit of --panel, if it differs from panel 0's
     #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
     panel1_depth: Option<f64>,
     /// Facets of a panel, rows away from the crease x columns along it: where colour is measured
@@ -53,31 +54,32 @@ struct Args {
     /// Rows of equal depth, or graded: narrow at the crease, where colour varies
     #[arg(long, value_name = "SPACING", default_value = "uniform")]
     spacing: SpacingName,
-    /// How form factors are found: right to rounding, estimated from samples as in the paper, or eq. (2) at the facets' centres,
-    /// which is far off at the crease; the last two are for comparison
+    /// Method for the form factors: exact to rounding, Monte Carlo as in the paper, or eq. (2) at facet
+    /// centres, which is far off at the crease; the last two are for comparison
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
-    /// Monte Carlo from pairs of points even over two facets (the paper's way; its variance is infinite where facets meet at
-    /// the crease), or from rays with the cosine law [default: area]
+    /// Monte Carlo from pairs of points spread evenly over two facets (the paper's method; its variance
+    /// is infinite where facets meet at the crease), or from rays with the cosine law [default: area]
     #[arg(long, value_name = "SAMPLING")]
     sampling: Option<SamplingName>,
-    /// Pairs of points a distinct entry, or rays a row of facets [default: 10000]
+    /// Samples per form factor (point pairs), or per facet row (rays) [default: 10000]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
     /// Seed of the samples [default: 0]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Instead of a scene, print what the form factors of the facets (or of the patches of --mesh) make of the laws of light; exit
-    /// status 1 if one is broken
+    /// Instead of a scene, report how well the form factors of the facets (or of the patches of --mesh)
+    /// satisfy reciprocity and energy conservation; exit status 1 if one is violated
     #[arg(long)]
     check: bool,
-    /// Where the bounces are solved: as fine as needed, one flat patch per facet (the paper's model), given patches, or on a shape so many
-    /// cells along each side of a facet [default: auto; facets unless --method is exact]
+    /// Mesh on which interreflections are solved: as fine as needed, one flat patch per facet (the
+    /// paper's model), given patches, or, on a shape, cells along each side of a facet [default: auto;
+    /// facets unless --method is exact]
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,
-    /// Relative error of facet means that --mesh auto may leave, for any reflectance up to 1 [default: 1e-5, or as near as it
-    /// gets on a narrow fold; on shapes 5e-3, or as near as it gets, for reflectances up to 0.9, of facets in the dark relative to a tenth of the
-    /// mean]
+    /// Relative error of facet means that --mesh auto may leave, for reflectances up to 1 [default: 1e-5,
+    /// or the least that a narrow fold allows; on shapes 5e-3, or the least possible, for reflectances up
+    /// to 0.9, relative to a tenth of the mean for dark facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more
@@ -86,15 +88,16 @@ struct Args {
     /// Angle of the sun along the crease, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     slant_deg: f64,
-    /// Sky, uniform or as --sky-type says: its irradiance on an open plane facing the sun, of one with a horizon on an open horizontal
-    /// plane, relative to the sun's; sun:40deg or sun:LAT,LON,TIME: as much as a cloudless sky gives with the sun there; only: there is
-    /// no sun, and the sky gives an open plane 1
+    /// Diffuse-to-direct ratio: irradiance by the sky, uniform or of --sky-type, relative to the sun's;
+    /// on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane.
+    /// sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and the
+    /// sky gives an open plane 1
     #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
     #[arg(long, default_value = "fold")]
     id: String,
-    /// Draw how much of its light every facet hands to others, and the direct light on it
+    /// Draw the share of its light that every facet hands to others, and the direct light on it
     #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing, conflicts_with = "check")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -148,7 +151,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if let Some(tolerance) = args.tolerance.filter(|tolerance| !(1e-12..=0.1).contains(tolerance)) {
         return Err(Error::usage("--tolerance", format!("{tolerance} is out of range"), "give 1e-12 to 0.1"));
     }
-    let is_any = args.shape.is_shape() || args.light.is_given();
+    let is_any = args.shape.is_shape() || args.light.is_present();
     if is_any { shape::write(args, out) } else { fold::write(args, out) }
 }
 

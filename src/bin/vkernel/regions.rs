@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use vfold::cli;
-use vfold::image::{FoldAngle, FoundFold};
+use vfold::image::{DetectedFold, FoldAngle};
 use vfold::stream::{NoAngle, Regions, RegionsFile};
-use vfold::{Error, Result};
+use vfold::{Error, Result, cli};
 
 use super::Args;
 
@@ -22,7 +21,7 @@ pub struct Seen {
     pub panel: (f64, f64),
 }
 
-/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the one that is told.
+/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the one that is stated.
 const MOST_SD_DEG: f64 = 3.0;
 /// Angles further apart than this, in standard deviations, are not those of one fold.
 const APART: f64 = 3.0;
@@ -30,15 +29,15 @@ const APART: f64 = 3.0;
 /// The fold that the regions of one photograph show.
 ///
 /// # Errors
-/// [`Error::Regions`] if there is none, or not surely, or its angle is not told.
+/// [`Error::Regions`] if there is none, or not surely, or its angle is not stated.
 pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
     let name = path.display().to_string();
     let file = RegionsFile::open(path)?;
     let regions = file.only()?;
-    check_found(&name, regions)?;
-    let told = told_depths(args);
-    let stated = stated(regions).filter(|_| told.is_none());
-    match (stated.map_or_else(|| by_corners(regions, told), Ok), args.angle_deg) {
+    check_detected(&name, regions)?;
+    let by_flags = depths_by_flags(args);
+    let stated = stated(regions).filter(|_| by_flags.is_none());
+    match (stated.map_or_else(|| by_corners(regions, by_flags), Ok), args.angle_deg) {
         (Ok(seen), Some(angle_deg)) => {
             warn_if_apart(args, &name, &seen, angle_deg);
             Ok(seen)
@@ -52,13 +51,13 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
 }
 
 /// Refuses regions of a photograph in which no fold was found, or not surely.
-fn check_found(name: &str, regions: &Regions) -> Result<()> {
+fn check_detected(name: &str, regions: &Regions) -> Result<()> {
     let remedy = "mark its corners with vextract --pick";
     if let Some(reason) = &regions.missing {
         return Err(Error::regions(name, reason, remedy));
     }
     match regions.confidence {
-        Some(confidence) if confidence < FoundFold::SURE => {
+        Some(confidence) if confidence < DetectedFold::SURE => {
             let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
             Err(Error::regions(name, problem, remedy))
         }
@@ -67,7 +66,7 @@ fn check_found(name: &str, regions: &Regions) -> Result<()> {
 }
 
 /// Depths of both panels over their width, if flags tell them.
-fn told_depths(args: &Args) -> Option<[f64; 2]> {
+fn depths_by_flags(args: &Args) -> Option<[f64; 2]> {
     let (width, depth) = args.panel.or(args.panel1_depth.map(|_| PANEL))?;
     Some([depth / width, args.panel1_depth.unwrap_or(depth) / width])
 }
@@ -83,18 +82,18 @@ fn panel(regions: &Regions) -> (f64, f64) {
 }
 
 /// What the corners tell, of panels of these depths if they are known.
-fn by_corners(regions: &Regions, told: Option<[f64; 2]>) -> std::result::Result<Seen, NoAngle> {
-    let depths = told.or_else(|| regions.panel.map(|[width, depth]| [depth / width; 2]));
+fn by_corners(regions: &Regions, by_flags: Option<[f64; 2]>) -> std::result::Result<Seen, NoAngle> {
+    let depths = by_flags.or_else(|| regions.panel.map(|[width, depth]| [depth / width; 2]));
     let FoldAngle { angle_deg, angle_sd_deg, depths } = regions.angle_by_corners(depths)?;
     Ok(Seen { angle_deg, angle_sd_deg: Some(angle_sd_deg), panel: (1.0, depths[0]) })
 }
 
-/// Says so if the angle that was told is another than that of the photograph.
-fn warn_if_apart(args: &Args, name: &str, seen: &Seen, told_deg: f64) {
+/// Says so if the angle that was stated is another than that of the photograph.
+fn warn_if_apart(args: &Args, name: &str, seen: &Seen, stated_deg: f64) {
     let Seen { angle_deg, angle_sd_deg: Some(sd_deg), .. } = *seen else { return };
-    if (told_deg - angle_deg).abs() > APART * sd_deg && !args.common.quiet {
+    if (stated_deg - angle_deg).abs() > APART * sd_deg && !args.common.quiet {
         let line = format!(
-            "{name}: the corners say {angle_deg:.1} ± {sd_deg:.1}°, --angle-deg {told_deg}, which is taken"
+            "{name}: the corners say {angle_deg:.1} ± {sd_deg:.1}°, --angle-deg {stated_deg}, which is taken"
         );
         cli::say("vkernel", &line);
     }

@@ -37,7 +37,7 @@ pub struct ShapeArgs {
     #[arg(long, value_name = "FILE.obj|.ply|.json",
           conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg", "bow_deg"])]
     shape: Option<PathBuf>,
-    /// The surface of --shape reflects on both sides: the backs are as many facets again
+    /// The surface of --shape reflects on both sides: its backs are as many facets again
     #[arg(long, requires = "shape")]
     two_sided: bool,
     /// Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases
@@ -117,7 +117,7 @@ fn save(path: &Path, shape: &Shape, solved: &Solved, mesh: Mesh, tolerance: f64)
 fn check(args: &Args) -> Result<()> {
     let (sun_is_elsewhere, remedy) =
         (args.shape.is_shape() || args.light.states_lights(), "give --light X,Y,Z towards the sun");
-    let given = [
+    let flags = [
         (
             "--method",
             !matches!(args.method, MethodName::Exact),
@@ -134,14 +134,14 @@ fn check(args: &Args) -> Result<()> {
     ];
     let problem =
         if args.shape.is_shape() { "not for shapes" } else { "not beside --light, --sky-type or --zenith" };
-    given.into_iter().try_for_each(|(flag, given, remedy)| cli::refuse([(flag, given)], problem, remedy))
+    flags.into_iter().try_for_each(|(flag, flags, remedy)| cli::refuse([(flag, flags)], problem, remedy))
 }
 
 /// A surface among sources of light.
 struct Lit {
     surface: Surface,
     shape: Shape,
-    /// Standard deviation of a fold's angle, degrees, if a photograph told it.
+    /// Standard deviation of a fold's angle, degrees, if a photograph gave it.
     angle_sd_deg: Option<f64>,
     /// Where the sun stands if no light is stated.
     sun: [f64; 3],

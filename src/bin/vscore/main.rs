@@ -41,11 +41,12 @@ struct Args {
     /// Estimated samples from vestimate [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// True reflectance: one for all samples, or a set with a member of each sample's name [default: what the samples say]
+    /// True reflectance: one for all samples, or a set with a member of each sample's name [default: the
+    /// samples' own]
     #[arg(long, value_name = "SPEC")]
     truth: Option<String>,
-    /// Measurement condition of ISO 13655 under which spectra are compared: M2, without ultraviolet, what the sheet reflects; M1, under D50, also
-    /// what it sends out by fluorescence. Without fluorescence they are the same
+    /// Measurement condition of ISO 13655: M2, without ultraviolet, compares what the sheet reflects; M1,
+    /// under D50, also what it emits by fluorescence. Without fluorescence they are the same
     #[arg(long, value_name = "M1|M2", default_value = "M2", ignore_case = true)]
     condition: Condition,
     /// Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others
@@ -54,27 +55,29 @@ struct Args {
     /// Standard observer of the colour difference, degrees
     #[arg(long, value_name = "2|10", default_value = "10", value_parser = observer)]
     observer: Observer,
-    /// What is scored: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index
-    /// of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]
+    /// Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism
+    /// (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several
+    /// illuminants]
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true, value_parser = metric())]
     metrics: Vec<&'static Metric>,
     /// Add the estimate's XYZ, CIELAB and sRGB under the first illuminant to the records, with standard deviations
     #[arg(long, conflicts_with = "table")]
     colour: bool,
-    /// Also sum up the samples that share the value of a field of theirs or of their scene, such as `geometry.angle_deg`
+    /// Also summarise by the value of a field of the samples or their scenes, such as
+    /// `geometry.angle_deg`
     #[arg(long, value_name = "FIELD")]
     by: Option<String>,
-    /// Draw estimates, their error bands and true spectra, what the sheets look like, flat and folded, and of a single sheet what
-    /// the estimate leaves of its facets; of more than seven samples how scores are spread and which ten are worst; -: spectra on
-    /// standard error, in characters as wide as the terminal
+    /// Draw estimates with their error bands, true spectra, the sheets' look, flat and folded, and the
+    /// residuals of a single sheet; for more than seven samples, the distribution of scores and the ten
+    /// worst; -: spectra on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
-    /// Write a page with all of it and what the tools decided, one file for browsers and printers; of many
-    /// samples the worst 24 are shown. For it and for --plot samples need no truth
+    /// Write a page with all of it and the tools' decisions, one file for browsers and printers; of many
+    /// samples it shows the worst 24. Samples need no truth for this and for --plot
     #[arg(long, value_name = "FILE.html", value_parser = page)]
     report: Option<PathBuf>,
-    /// Picture of what was measured for --report, as vextract --overlay drew it; {} in the name stands for the sample's; repeated: pictures that
-    /// have their samples' names
+    /// Picture of what was measured, for --report, as drawn by vextract --overlay; {} in the name stands
+    /// for the sample's; repeated: pictures named after their samples
     #[arg(long, value_name = "FILE.png", requires = "report")]
     overlay: Vec<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27

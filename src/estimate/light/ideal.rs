@@ -4,7 +4,7 @@ use std::iter;
 
 use nalgebra::DVector;
 
-use super::{Candidate, FoundLight};
+use super::{Candidate, InferredLight};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
 use crate::estimate::alternatives::Alternatives;
@@ -17,8 +17,8 @@ use crate::estimate::search::{Search, Sorted};
 /// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question; that is more than what
 /// knowing the class of spectra changes.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
-/// Under so many lights classes of spectra are told apart at most.
-const TOLD_APART: usize = 48;
+/// Under so many lights classes of spectra are distinguished at most.
+const DISTINCT_ODDS: usize = 48;
 
 /// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out from.
 ///
@@ -40,7 +40,7 @@ pub fn estimate(
     found.shares.iter().for_each(|(light, share)| probabilities[*light] += share);
     let weighed = |(light, probability): (&'_ Candidate, f64)| light.weighed(probability);
     let light = iter::zip(lights, probabilities).map(|one| (weighed(one), one.0.power.as_slice()));
-    let light = FoundLight::of(light);
+    let light = InferredLight::of(light);
     let best = &family.0[found.best.start.hypothesis];
     Ok(Estimate { light: Some(light), ..into_estimate(best, &found, &found, search.trace) })
 }
@@ -63,6 +63,6 @@ fn sorted(
     }
     all.retain(|one| one.ln_weight() >= best + LN_EVIDENCE_HOPELESS);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    all.truncate(TOLD_APART);
+    all.truncate(DISTINCT_ODDS);
     all
 }

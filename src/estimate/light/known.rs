@@ -9,7 +9,7 @@ use nalgebra::DVector;
 
 use super::photograph::{LN_HOPELESS, daylight_of_known};
 use super::stated::LN_ODDS;
-use super::{Candidate, Likelier, Others, ShownWays};
+use super::{Candidate, Others, RivalLight, ShownScenarios};
 use crate::error::{Error, Result};
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
@@ -20,7 +20,7 @@ use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
-use crate::solve::posterior::{Model, Solution, first_inflation, maximise};
+use crate::solve::posterior::{Model, Solution, find_mode, first_tempering};
 
 /// How far off the reflectance is that an instrument on a bench says, relative to it: instruments of one model agree to 0.4 ΔE*94 in the mean on ceramic
 /// tiles (X-Rite, *i1Pro 2*, technical specification), which is 1 % of a white sheet's light, and sheets differ from place to place.
@@ -41,10 +41,10 @@ pub struct KnownSheet {
 pub struct Shown {
     /// Logarithm of the exposure of computed facets, in the light that was stated.
     pub exposure: Option<Normal>,
-    /// A light that is likelier than the stated one.
-    pub likelier: Option<Likelier>,
+    /// A light that is more probable than the stated one.
+    pub rival: Option<RivalLight>,
     /// What a photograph of the sheet shows of lights that are unknown.
-    pub ways: Option<ShownWays>,
+    pub scenarios: Option<ShownScenarios>,
     /// What it shows of daylight that was stated.
     pub daylight: Option<ShownDaylight>,
     /// How far the known facets are from the model in the light that suits them best, in units of their noise.
@@ -59,7 +59,7 @@ struct InLight {
 }
 
 impl InLight {
-    /// The noise being as large as the facets leave it in the light that suits them best: where none does, lights are told apart less surely.
+    /// The noise being as large as the facets leave it in the light that suits them best: where none does, lights are distinguished less surely.
     fn ln_evidence(&self, least_rms: f64) -> Option<f64> {
         self.solution.ln_evidence(least_rms.max(1.0))
     }
@@ -82,7 +82,7 @@ impl KnownSheet {
         let none = || Error::Numeric("a known sheet needs wavelengths".to_owned());
         let errors = smooth_errors(wavelengths_nm, &sd).ok_or_else(none)?;
         let known = KnownReflectance::new(wavelengths_nm, reflectance, &sd).ok_or_else(none)?;
-        Ok(Self { gaussian: Gaussian::about(reflectance, &errors), reflectance: known })
+        Ok(Self { gaussian: Gaussian::centred_on(reflectance, &errors), reflectance: known })
     }
 
     /// What a fold of it shows in the light that was stated, which may be one of `others`.
@@ -98,8 +98,8 @@ impl KnownSheet {
         let named = iter::zip(others, &in_others)
             .filter_map(|(light, one)| Some((light.name.clone(), one.as_ref()?.ln_evidence(rms)?)));
         let ln_stated = stated.ln_evidence(rms).ok_or_else(not_finite)?;
-        let likelier = Likelier::of(named, ln_stated, LN_ODDS);
-        Ok(Shown { likelier, exposure: stated.exposure, ways: None, daylight: None, rms })
+        let rival = RivalLight::of(named, ln_stated, LN_ODDS);
+        Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 
     /// The same `lights` as probable as a fold of it leaves them, those that it rules out left out; and what it shows beside them.
@@ -114,11 +114,11 @@ impl KnownSheet {
             let ln_share = light.ln_share + seen.ln_evidence(rms)?;
             Some(Candidate { ln_share, exposure: seen.exposure, ..light })
         };
-        let lights = likely(iter::zip(lights, seen).filter_map(weighed).collect());
+        let lights = probable(iter::zip(lights, seen).filter_map(weighed).collect());
         if lights.is_empty() {
             return Err(not_finite());
         }
-        Ok((lights, Shown { exposure: None, likelier: None, ways: None, daylight: None, rms }))
+        Ok((lights, Shown { exposure: None, rival: None, scenarios: None, daylight: None, rms }))
     }
 
     /// What a photograph of it shows: of `lights`, if it is not known which it is, else of the daylight that was stated.
@@ -129,20 +129,20 @@ impl KnownSheet {
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
     pub fn in_photograph(&self, parts: &Parts, lights: &[Candidate], prior: &Prior) -> Result<Shown> {
-        let (ways, daylight) = if lights.is_empty() {
+        let (scenarios, daylight) = if lights.is_empty() {
             (None, daylight_of_known(parts, &self.reflectance, prior))
         } else {
-            (Some(ShownWays::of(parts, lights, &self.reflectance, prior)?), None)
+            (Some(ShownScenarios::of(parts, lights, &self.reflectance, prior)?), None)
         };
-        let rms = ways.as_ref().map_or(0.0, |ways| ways.rms);
-        Ok(Shown { exposure: None, likelier: None, ways, daylight, rms })
+        let rms = scenarios.as_ref().map_or(0.0, |scenarios| scenarios.rms);
+        Ok(Shown { exposure: None, rival: None, scenarios, daylight, rms })
     }
 
     fn in_light(&self, data: &FacetData) -> Option<InLight> {
         let model = Facets { data, gaussian: &self.gaussian };
         let start = DVector::zeros(model.unknowns());
-        let first = first_inflation(&model, &start, 1.0);
-        let solution = maximise(&model, start, (first, 1.0), TOLERANCE, LIMIT);
+        let first = first_tempering(&model, &start, 1.0);
+        let solution = find_mode(&model, start, (first, 1.0), TOLERANCE, LIMIT);
         solution.ln_evidence(1.0).filter(|ln| ln.is_finite())?;
         let exposure = if data.fits_exposure() {
             let (value, spread) =
@@ -160,14 +160,14 @@ impl Shown {
     /// What the known fold says against an estimate in light that was `stated`, if any was.
     #[must_use]
     pub fn doubt(&self, stated: Option<&str>) -> Option<Doubt> {
-        if let (Some(likelier), Some(stated)) = (&self.likelier, stated) {
-            let Doubt { because, remedy, .. } = likelier.doubt(stated);
+        if let (Some(rival), Some(stated)) = (&self.rival, stated) {
+            let Doubt { because, remedy, .. } = rival.doubt(stated);
             return Some(Doubt::new(format!("by the known fold, {because}"), remedy));
         }
         (self.rms >= EXPLAINED).then(|| {
             Doubt::new(
                 format!(
-                    "facets of the known fold are {:.1} times further from the model than their noise in every light",
+                    "facets of the known fold are {:.1} times the noise off the model in every light",
                     self.rms
                 ),
                 "check its reflectance, angle and corners, and that the same camera took both",
@@ -185,7 +185,7 @@ fn least_rms<'a>(all: impl Iterator<Item = &'a InLight>) -> f64 {
 }
 
 /// Those that are in question, their shares adding up to 1.
-fn likely(mut lights: Vec<Candidate>) -> Vec<Candidate> {
+fn probable(mut lights: Vec<Candidate>) -> Vec<Candidate> {
     let most = lights.iter().map(|light| light.ln_share).fold(f64::NEG_INFINITY, f64::max);
     lights.retain(|light| light.ln_share >= most + LN_HOPELESS);
     let ln_sum = most + lights.iter().map(|light| (light.ln_share - most).exp()).sum::<f64>().ln();
@@ -204,7 +204,7 @@ mod tests {
     use crate::forward::{FacetModel, FacetValues, Lighting};
     use crate::geometry::{FacetGrid, Fold, Light};
     use crate::kernel::mesh::respond;
-    use crate::spectrum::{Outside, WavelengthGrid, camera, equally_likely, illuminant};
+    use crate::spectrum::{Outside, WavelengthGrid, camera, equal_candidates, illuminant};
 
     const LIGHTS: [&str; 4] = ["D65", "A", "FL11", "LED-B3"];
 
@@ -225,7 +225,7 @@ mod tests {
         let rgb = FacetValues::from(&scene.facets().facet_rgb(&grey));
         let sd = deviations(&rgb, |_| noise_sd, 0.0);
         let data = FacetData::new(&scene, &Measured { rgb: &rgb, sd: &sd }, Exposure::Free, 1e-2).unwrap();
-        let lights = Candidate::all(&equally_likely(spectra.to_vec()), &grid, &curves).unwrap();
+        let lights = Candidate::all(&equal_candidates(spectra.to_vec()), &grid, &curves).unwrap();
         let ln_share = lights[0].ln_share;
         let sheet = KnownSheet::new(grid.wavelengths_nm(), &grey).unwrap();
         (sheet.weigh(&data, lights).unwrap().0, ln_share)

@@ -1,6 +1,6 @@
 //! A light that nobody stated, found by evidence.
 //!
-//! The misfit does not tell lights apart: some spectrum explains the facets in nearly every one. How probable that spectrum is does. So each
+//! The residual does not tell lights apart: some spectrum explains the facets in nearly every one. How probable that spectrum is does. So each
 //! light is a hypothesis, weighed by the evidence of what is known of reflectances, and the estimate is the mean over all of them, as it is over
 //! classes of spectra.
 
@@ -14,15 +14,15 @@ use std::iter;
 
 pub use ideal::estimate;
 pub use known::{KnownSheet, Shown};
-pub use photograph::{ShownWays, estimate_photograph};
-pub use stated::{Likelier, Others, likelier};
-pub use stated_photograph::likelier_in_photograph;
+pub use photograph::{ShownScenarios, estimate_photograph};
+pub use stated::{Others, RivalLight, rival};
+pub use stated_photograph::rival_in_photograph;
 
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::data::FacetData;
 use crate::estimate::unknowns::Normal;
-use crate::spectrum::{LikelyLight, Outside, WavelengthGrid};
+use crate::spectrum::{CandidateLight, Outside, WavelengthGrid};
 
 /// A light that may be the one, on the wavelengths of a scene.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ pub struct Weighed {
 
 /// A light as found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FoundLight {
+pub struct InferredLight {
     /// Candidates that may be it, the most probable first; their probabilities add up to 1.
     pub candidates: Vec<Weighed>,
     /// The expected relative power, one number per waveband, its mean 1.
@@ -71,11 +71,11 @@ impl Candidate {
     /// # Errors
     /// [`crate::Error::Spectrum`] if one does not cover the wavelengths, [`crate::Error::Numeric`] if a channel sees nothing of it.
     pub fn all(
-        lights: &[LikelyLight],
+        lights: &[CandidateLight],
         grid: &WavelengthGrid,
         sensitivities: &[Vec<f64>],
     ) -> Result<Vec<Self>> {
-        let candidate = |light: &LikelyLight| {
+        let candidate = |light: &CandidateLight| {
             let power = light.spectrum.on(grid, Outside::Refuse)?;
             Ok(Self {
                 name: light.spectrum.name().to_owned(),
@@ -106,7 +106,7 @@ impl Candidate {
     }
 }
 
-impl FoundLight {
+impl InferredLight {
     /// Lights of these powers, the probabilities of which add up to 1; those that have none are left out.
     #[must_use]
     pub fn of<'p>(all: impl IntoIterator<Item = (Weighed, &'p [f64])>) -> Self {
@@ -150,7 +150,7 @@ mod tests {
             let sum: f64 = shares.iter().sum();
             prop_assume!(sum > 0.01);
             let light = |share: &f64| Weighed { name: String::new(), cct_k: None, probability: share / sum };
-            let found = FoundLight::of(iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice)));
+            let found = InferredLight::of(iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice)));
             let total: f64 = found.candidates.iter().map(|light| light.probability).sum();
             prop_assert!((total - 1.0).abs() < 1e-12);
             prop_assert!(found.candidates.is_sorted_by(|a, b| a.probability >= b.probability));
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn one_candidate_is_the_light() {
         let one = Weighed { name: "A".to_owned(), cct_k: Some(2856.0), probability: 1.0 };
-        let found = FoundLight::of([(one.clone(), [2.0, 4.0].as_slice())]);
+        let found = InferredLight::of([(one.clone(), [2.0, 4.0].as_slice())]);
         assert_eq!((found.candidates, found.power_sd), (vec![one], vec![0.0; 2]));
     }
 }

@@ -7,13 +7,13 @@ use std::{iter, slice};
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
-use super::{Candidate, FoundLight, Weighed};
+use super::{Candidate, InferredLight, Weighed};
 use crate::error::{Error, Result};
 use crate::estimate::Estimate;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
-use crate::estimate::photograph::kinds::Kind;
+use crate::estimate::photograph::sheet_models::SheetModel;
 use crate::estimate::photograph::{
     self, KnownReflectance, KnownSeen, Parts, Photographs, SheetEstimate, ShownDaylight, shown_daylight,
 };
@@ -33,7 +33,7 @@ pub(super) const WITHOUT_SKY: f64 = 0.1;
 const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
 
 /// A light, and the photograph in it.
-struct Way<'a> {
+struct Scenario<'a> {
     /// The candidate; none for any daylight.
     light: Option<&'a Candidate>,
     ln_share: f64,
@@ -42,7 +42,7 @@ struct Way<'a> {
 
 /// What a photograph of a known sheet shows of the lights that it may have been taken in.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ShownWays {
+pub struct ShownScenarios {
     /// Logarithm of how probable it is in each.
     ln_evidence: Vec<f64>,
     /// Daylight.
@@ -51,22 +51,22 @@ pub struct ShownWays {
     pub rms: f64,
 }
 
-impl ShownWays {
+impl ShownScenarios {
     /// What a photograph of a known sheet shows, its `parts` being those in daylight that nobody stated.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
     pub fn of(parts: &Parts, lights: &[Candidate], known: &KnownReflectance, prior: &Prior) -> Result<Self> {
-        let ways = ways(parts, lights);
+        let scenarios = scenarios(parts, lights);
         let photographs = Photographs::of(slice::from_ref(parts));
         let (mut best, mut start, mut rms, mut daylight) = (f64::NEG_INFINITY, None, f64::INFINITY, None);
-        let mut ln_evidence = Vec::with_capacity(ways.len());
-        for way in &ways {
-            let days = way.known(&photographs, known, prior, &mut start, best + LN_HOPELESS);
+        let mut ln_evidence = Vec::with_capacity(scenarios.len());
+        for scenario in &scenarios {
+            let days = scenario.known(&photographs, known, prior, &mut start, best + LN_HOPELESS);
             let ln_all = ln_of_days(&days);
             best = best.max(ln_all);
             rms = days.iter().map(|(.., seen)| seen.rms).fold(rms, f64::min);
-            if way.light.is_none() {
+            if scenario.light.is_none() {
                 daylight = shown_daylight(&days);
             }
             ln_evidence.push(ln_all);
@@ -79,25 +79,25 @@ impl ShownWays {
     }
 
     /// Takes out what it rules out, and makes all others as probable as it leaves them.
-    fn enter(&self, ways: &mut Vec<Way>) {
-        for (way, ln_evidence) in iter::zip(ways.iter_mut(), &self.ln_evidence) {
-            way.ln_share += ln_evidence;
-            if way.light.is_none() {
-                way.parts.told.shown = self.daylight;
+    fn enter(&self, scenarios: &mut Vec<Scenario>) {
+        for (scenario, ln_evidence) in iter::zip(scenarios.iter_mut(), &self.ln_evidence) {
+            scenario.ln_share += ln_evidence;
+            if scenario.light.is_none() {
+                scenario.parts.stated.shown = self.daylight;
             }
         }
-        let most = ways.iter().map(|way| way.ln_share).fold(f64::NEG_INFINITY, f64::max);
-        ways.retain(|way| way.ln_share >= most + LN_HOPELESS);
+        let most = scenarios.iter().map(|scenario| scenario.ln_share).fold(f64::NEG_INFINITY, f64::max);
+        scenarios.retain(|scenario| scenario.ln_share >= most + LN_HOPELESS);
     }
 }
 
 /// What a photograph of a known sheet shows of the daylight that it was taken in; none of a lamp.
 #[must_use]
 pub fn daylight_of_known(parts: &Parts, known: &KnownReflectance, prior: &Prior) -> Option<ShownDaylight> {
-    parts.told.daylight?;
+    parts.stated.daylight?;
     let photographs = Photographs::of(slice::from_ref(parts));
-    let way = Way { light: None, ln_share: 0.0, parts: parts.clone() };
-    shown_daylight(&way.known(&photographs, known, prior, &mut None, f64::NEG_INFINITY))
+    let scenario = Scenario { light: None, ln_share: 0.0, parts: parts.clone() };
+    shown_daylight(&scenario.known(&photographs, known, prior, &mut None, f64::NEG_INFINITY))
 }
 
 /// Logarithm of the evidence on all days, each as often as it is.
@@ -114,50 +114,54 @@ fn ln_of_days(days: &[(Day, f64, KnownSeen)]) -> f64 {
 pub fn estimate_photograph(
     parts: &Parts,
     lights: &[Candidate],
-    shown: Option<&ShownWays>,
+    shown: Option<&ShownScenarios>,
     prior: &Prior,
 ) -> Result<Estimate> {
-    let mut ways = ways(parts, lights);
+    let mut scenarios = scenarios(parts, lights);
     if let Some(shown) = shown {
-        shown.enter(&mut ways);
+        shown.enter(&mut scenarios);
     }
     let mut tried = Vec::new();
-    let daylight = ways.iter().filter(|way| way.light.is_none());
-    for way in daylight.chain(likely(&ways, prior).into_iter().take(TRIED)) {
+    let daylight = scenarios.iter().filter(|scenario| scenario.light.is_none());
+    for scenario in daylight.chain(probable(&scenarios, prior).into_iter().take(TRIED)) {
         let SheetEstimate { photographs, ln_evidence } =
-            photograph::estimate(slice::from_ref(&way.parts), prior)?;
-        tried.extend(photographs.into_iter().map(|estimate| (way, way.ln_share + ln_evidence, estimate)));
+            photograph::estimate(slice::from_ref(&scenario.parts), prior)?;
+        tried.extend(
+            photographs.into_iter().map(|estimate| (scenario, scenario.ln_share + ln_evidence, estimate)),
+        );
     }
     let most = tried.iter().map(|(_, ln_weight, _)| *ln_weight).fold(f64::NEG_INFINITY, f64::max);
     let odds: Vec<f64> = tried.iter().map(|(_, ln_weight, _)| (ln_weight - most).exp()).collect();
     let sum: f64 = odds.iter().sum();
-    let all: Vec<_> =
-        iter::zip(tried, odds).map(|((way, _, estimate), odds)| (way, odds / sum, estimate)).collect();
-    let found: Vec<_> = all.iter().map(|(way, share, estimate)| way.found(*share, estimate)).collect();
-    let light = FoundLight::of(found.iter().map(|(light, power)| (light.clone(), power.as_slice())));
+    let all: Vec<_> = iter::zip(tried, odds)
+        .map(|((scenario, _, estimate), odds)| (scenario, odds / sum, estimate))
+        .collect();
+    let found: Vec<_> =
+        all.iter().map(|(scenario, share, estimate)| scenario.found(*share, estimate)).collect();
+    let light = InferredLight::of(found.iter().map(|(light, power)| (light.clone(), power.as_slice())));
     let mean = mean(all.into_iter().map(|(_, share, estimate)| (share, estimate)).collect());
     mean.map(|estimate| Estimate { light: Some(light), ..estimate })
         .ok_or_else(|| Error::Numeric("the facets of the photograph are not finite".to_owned()))
 }
 
 /// All daylight under a sky as one way, each daylight without one and each other light as one.
-fn ways<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Way<'a>> {
+fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
     let of_daylight: f64 =
         lights.iter().filter(|light| light.is_any_daylight).map(|light| light.ln_share.exp()).sum();
     let of_sky = (1.0 - WITHOUT_SKY) * of_daylight;
     let daylight =
-        (of_daylight > 0.0).then(|| Way { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
+        (of_daylight > 0.0).then(|| Scenario { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
     // of lamps one hypothesis stands for all days, with the share of a clear one
-    let ln_clear = parts.told.share_of(Day::Clear).ln();
+    let ln_clear = parts.stated.share_of(Day::Clear).ln();
     let of = |light: &'a Candidate| {
         let parts = parts.in_light(&light.power);
-        let ln_days = if parts.told.daylight.is_some() { 0.0 } else { ln_clear };
-        Way { light: Some(light), ln_share: light.ln_share - ln_days, parts }
+        let ln_days = if parts.stated.daylight.is_some() { 0.0 } else { ln_clear };
+        Scenario { light: Some(light), ln_share: light.ln_share - ln_days, parts }
     };
     let flashes: Vec<&Candidate> = lights.iter().filter(|light| is_of_flash(light)).collect();
     let ln_flash = (WITHOUT_SKY * of_daylight / flashes.len() as f64).ln() - ln_clear;
-    let of_flash = |light: &'a Candidate| Way {
+    let of_flash = |light: &'a Candidate| Scenario {
         light: Some(light),
         ln_share: ln_flash,
         parts: parts.in_light(&light.power).without_sky(),
@@ -170,42 +174,43 @@ pub(super) fn is_of_flash(light: &Candidate) -> bool {
     light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
 }
 
-/// Those beside any daylight that are not out of the question, the likeliest first.
-fn likely<'w, 'a>(ways: &'w [Way<'a>], prior: &Prior) -> Vec<&'w Way<'a>> {
-    let Some(first) = ways.first() else { return Vec::new() };
+/// Those beside any daylight that are not out of the question, the most probable first.
+fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Scenario<'a>> {
+    let Some(first) = scenarios.first() else { return Vec::new() };
     let photographs = Photographs::of(slice::from_ref(&first.parts));
-    let mut all: Vec<(&Way, f64)> = Vec::new();
+    let mut all: Vec<(&Scenario, f64)> = Vec::new();
     let mut start: Option<DVector<f64>> = None;
     let mut best = f64::NEG_INFINITY;
-    for way in ways {
-        let family = photographs.in_light_of(&way.parts);
+    for scenario in scenarios {
+        let family = photographs.in_light_of(&scenario.parts);
         let mut search = Search::new(&family, prior);
-        for day in way.days() {
-            let hypothesis = Hypothesis::on_dull_day(*day, Kind::Family);
-            let ln_share = way.ln_share + way.parts.told.share_of(*day).ln();
+        for day in scenario.days() {
+            let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
+            let ln_share = scenario.ln_share + scenario.parts.stated.share_of(*day).ln();
             // lights of another kind have other unknowns
             let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
             let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {
                 continue;
             };
             best = best.max(one.ln_weight());
-            all.push((way, one.ln_weight()));
+            all.push((scenario, one.ln_weight()));
             start = Some(one.solution.w);
         }
     }
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut kept: Vec<&Way> = Vec::new();
-    let near = all.into_iter().filter(|(way, ln)| way.light.is_some() && *ln >= best + LN_EVIDENCE_LEAST);
-    for (way, _) in near {
+    let mut kept: Vec<&Scenario> = Vec::new();
+    let near =
+        all.into_iter().filter(|(scenario, ln)| scenario.light.is_some() && *ln >= best + LN_EVIDENCE_LEAST);
+    for (scenario, _) in near {
         // one that is a daylight stands there once for each kind of day
-        if !kept.iter().any(|other| std::ptr::eq(*other, way)) {
-            kept.push(way);
+        if !kept.iter().any(|other| std::ptr::eq(*other, scenario)) {
+            kept.push(scenario);
         }
     }
     kept
 }
 
-impl Way<'_> {
+impl Scenario<'_> {
     /// A photograph of a known sheet in it, on each day on which it may have been so, with how often that is.
     fn known(
         &self,
@@ -216,7 +221,7 @@ impl Way<'_> {
         mut ln_least: f64,
     ) -> Vec<(Day, f64, KnownSeen)> {
         let family = photographs.in_light_of(&self.parts);
-        let share = |day: Day| self.parts.told.share_of(day);
+        let share = |day: Day| self.parts.stated.share_of(day);
         let of_all: f64 = self.days().iter().map(|day| share(*day)).sum();
         let mut all = Vec::new();
         for day in self.days() {
@@ -231,7 +236,7 @@ impl Way<'_> {
 
     /// Days on which the light may have been so; indoors they make no difference.
     fn days(&self) -> &'static [Day] {
-        if self.parts.told.daylight.is_some() { &Day::ALL } else { &[Day::Clear] }
+        if self.parts.stated.daylight.is_some() { &Day::ALL } else { &[Day::Clear] }
     }
 
     /// The light with this probability, and its power; of daylight, as the photograph shows it.
@@ -242,7 +247,7 @@ impl Way<'_> {
         let has_sun = estimate.day.is_none_or(|found| found.day.has_sun());
         let name = if has_sun { "sun_cct_k" } else { "sky_cct_k" };
         let cct_k = estimate.fitted.iter().find(|one| one.unknown.name == name).map(|one| one.value.round());
-        let mired = cct_k.map_or(self.parts.told.beliefs.sun_mired, |cct_k| 1e6 / cct_k);
+        let mired = cct_k.map_or(self.parts.stated.priors.sun_mired, |cct_k| 1e6 / cct_k);
         let name = cct_k.map_or_else(|| "daylight".to_owned(), |cct_k| format!("daylight:{cct_k}"));
         let power = Daylight::power(&self.parts.eye.daylight, mired);
         (Weighed { name, cct_k, probability }, power.as_slice().to_vec())
@@ -258,7 +263,7 @@ fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
         each?.into_iter().reduce(|sum, one| sum + one)
     };
     let reflectance = weighted(&|one| Some(DVector::from_column_slice(&one.reflectance)))?;
-    let total = weighted(&|one| one.total.as_deref().map(DVector::from_column_slice));
+    let total = weighted(&|one| one.albedo.as_deref().map(DVector::from_column_slice));
     let rows = |(share, one): &(f64, Estimate)| {
         let apart = RowDVector::from_row_slice(&one.reflectance) - reflectance.transpose();
         let within = one.spread.as_ref()?.row_iter().map(nalgebra::Matrix::into_owned);
@@ -271,7 +276,7 @@ fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
     let within = |values: DVector<f64>| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     Some(Estimate {
         reflectance: within(reflectance),
-        total: total.map(within).filter(|_| best.total.is_some()),
+        albedo: total.map(within).filter(|_| best.albedo.is_some()),
         spread,
         without_bounces,
         ..best

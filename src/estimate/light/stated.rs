@@ -1,9 +1,9 @@
-//! Whether another light is likelier than the one that was stated.
+//! Whether another light is more probable than the one that was stated.
 //!
 //! In another light the facets are those of another spectrum. How much more probable the facets are then is known before anything is
 //! known of who stated the light: the ratio of evidence. What people state is right in nineteen cases of twenty (docs/model.md), and nothing
 //! is known of what they take for it otherwise, so that every other light is weighed by itself: one in which facets are more than nineteen times as
-//! probable is likelier than the one that was stated.
+//! probable is more probable than the one that was stated.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -16,7 +16,7 @@ use crate::estimate::fluorescence_search::Fluorescing;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::verdict::Doubt;
-use crate::spectrum::{WavelengthGrid, likely_lights};
+use crate::spectrum::{WavelengthGrid, candidate_lights};
 
 /// Logarithm of the ratio of evidence that makes up for a statement: nineteen times, as one statement in twenty is mistaken, rounded.
 pub(super) const LN_ODDS: f64 = 3.0;
@@ -27,14 +27,14 @@ const USUAL: f64 = 0.5;
 /// ahead by so much under all spectra as one, so many of them at most: what classes add differs from light to light by less than the rest of
 /// [`LN_ODDS`].
 pub(super) const LN_AHEAD: f64 = 1.0;
-const TOLD_APART: usize = 3;
+const DISTINCT_ODDS: usize = 3;
 /// One of so many lights is tried first, as neighbours are alike.
 const STEP: usize = 6;
 /// More times than that are not counted.
 const MOST_TIMES: f64 = 1e6;
 
 /// Facets in the light that was stated, under all spectra as one.
-pub type Told = Sorted<(), Second>;
+pub type StatedScene = Sorted<(), Second>;
 
 /// Lights that may be the true one instead, made when they are first asked for.
 #[derive(Debug)]
@@ -60,22 +60,23 @@ impl Others {
     /// None on wavelengths that built-in lights do not cover.
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {
-            let all = likely_lights().and_then(|all| Candidate::all(&all, &self.grid, &self.sensitivities));
+            let all =
+                candidate_lights().and_then(|all| Candidate::all(&all, &self.grid, &self.sensitivities));
             all.unwrap_or_default()
         })
     }
 }
 
-/// A light that is likelier than the one that was stated.
+/// A light that is more probable than the one that was stated.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Likelier {
+pub struct RivalLight {
     /// What it is called.
     pub name: String,
     /// Logarithm of how many times as probable the facets are in it.
     pub ln_odds: f64,
 }
 
-impl Likelier {
+impl RivalLight {
     /// The one of most evidence among `lights`, if that is ahead of the stated one's by enough.
     pub(super) fn of(
         lights: impl Iterator<Item = (String, f64)>,
@@ -97,7 +98,7 @@ impl Likelier {
     }
 }
 
-impl fmt::Display for Likelier {
+impl fmt::Display for RivalLight {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let times = self.ln_odds.exp();
         if times > MOST_TIMES {
@@ -111,12 +112,12 @@ impl fmt::Display for Likelier {
 
 /// The light in which facets are much more probable than in the one that was `stated`, in which the sheet may fluoresce, if there is any among
 /// `others`.
-pub fn likelier(
+pub fn rival(
     data: &FacetData,
-    (stated, fluorescing): (&Told, &[Fluorescing]),
+    (stated, fluorescing): (&StatedScene, &[Fluorescing]),
     others: &Others,
     prior: &Prior,
-) -> Option<Likelier> {
+) -> Option<RivalLight> {
     if stated.solution.surprise(1.0) < USUAL {
         return None;
     }
@@ -156,7 +157,7 @@ pub fn likelier(
     let ln_stated = by_bands.fold(search.ln_evidence_by_classes(stated)?, |sum, own| {
         sum.max(own) + (-(sum - own).abs()).exp().ln_1p()
     });
-    Likelier::of(by_classes, ln_stated, LN_ODDS)
+    RivalLight::of(by_classes, ln_stated, LN_ODDS)
 }
 
 /// The reflectance that sends to the camera in another light what this one does: where to set out from.
@@ -192,7 +193,7 @@ pub(super) fn coarse_to_fine<'l, L, T>(
         }
     }
     all.sort_by(order);
-    all.truncate(TOLD_APART);
+    all.truncate(DISTINCT_ODDS);
     all.into_iter().map(|(at, one)| (&lights[at], one)).collect()
 }
 
@@ -202,16 +203,16 @@ mod tests {
 
     #[test]
     fn odds_are_said_to_two_digits() {
-        let said = |ln_odds: f64| Likelier { name: "A".to_owned(), ln_odds }.to_string();
-        assert_eq!(said(412_f64.ln()), "A is 410 times as probable");
-        assert_eq!(said(23.4_f64.ln()), "A is 23 times as probable");
-        assert_eq!(said(30.0), "A is more than a million times as probable");
+        let text = |ln_odds: f64| RivalLight { name: "A".to_owned(), ln_odds }.to_string();
+        assert_eq!(text(412_f64.ln()), "A is 410 times as probable");
+        assert_eq!(text(23.4_f64.ln()), "A is 23 times as probable");
+        assert_eq!(text(30.0), "A is more than a million times as probable");
     }
 
     #[test]
     fn a_light_must_make_up_for_the_statement() {
         let of = |ln_evidence| {
-            Likelier::of([("A".to_owned(), ln_evidence), ("B".to_owned(), -9.0)].into_iter(), 5.0, LN_ODDS)
+            RivalLight::of([("A".to_owned(), ln_evidence), ("B".to_owned(), -9.0)].into_iter(), 5.0, LN_ODDS)
         };
         assert_eq!(of(7.9), None);
         assert_eq!(of(8.1).map(|one| one.name), Some("A".to_owned()));

@@ -9,17 +9,17 @@ use nalgebra::DVector;
 
 use super::Candidate;
 use super::photograph::{WITHOUT_SKY, is_of_flash};
-use super::stated::{LN_AHEAD, Likelier, Others, coarse_to_fine};
+use super::stated::{LN_AHEAD, Others, RivalLight, coarse_to_fine};
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
-use crate::estimate::photograph::kinds::Kind;
+use crate::estimate::photograph::sheet_models::SheetModel;
 use crate::estimate::photograph::{Parts, Photographs};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
 /// Logarithm of the ratio of evidence that makes up for a statement, four hundred times: more than of computed facets, as a lamp may mimic what of a
-/// photograph no model has. Fitted to `../shared/train`: one of 48 in light that is told rightly is doubted.
+/// photograph no model has. Fitted to `../shared/train`: one of 48 in light that is stated rightly is doubted.
 const LN_ODDS: f64 = 6.0;
 
 type Tried = Sorted<Hypothesis, ()>;
@@ -35,7 +35,7 @@ struct Lit {
 
 /// The way of a light that has most evidence: which of all, and what it is under all spectra as one.
 struct Best {
-    way: usize,
+    scenario: usize,
     tried: Tried,
 }
 
@@ -56,12 +56,12 @@ impl Starts {
 
 /// The light in which a photograph is much more probable than in the one that was stated, if there is any among `others`; in that the kind of `day`
 /// has been found, if it is daylight.
-pub fn likelier_in_photograph(
+pub fn rival_in_photograph(
     parts: &Parts,
     day: Option<Day>,
     others: &Others,
     prior: &Prior,
-) -> Option<Likelier> {
+) -> Option<RivalLight> {
     let photographs = Photographs::of(slice::from_ref(parts));
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
@@ -69,7 +69,7 @@ pub fn likelier_in_photograph(
     let best_under_sky = under_sky.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     let lamp = parts.clone().without_sky();
     let of_sky = (&photographs, &best_under_sky.tried.solution.w);
-    let hypothesis = Hypothesis::on_dull_day(Day::Clear, Kind::Family);
+    let hypothesis = Hypothesis::on_dull_day(Day::Clear, SheetModel::Family);
     starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
     let mut least = best_under_sky.tried.ln_weight() + LN_AHEAD;
     let ahead = |light: &Option<&Candidate>| {
@@ -90,18 +90,18 @@ pub fn likelier_in_photograph(
     let best_of_stated = stated.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     least = best_of_stated.tried.ln_weight() + LN_AHEAD;
     ahead.retain(|(_, (_, best))| best.tried.ln_weight() > least);
-    let by_classes = |lit: &Lit, Best { way, tried }: &Best| {
-        let (parts, ..) = *lit.ways().get(*way)?;
+    let by_classes = |lit: &Lit, Best { scenario, tried }: &Best| {
+        let (parts, ..) = *lit.scenarios().get(*scenario)?;
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
     let of_lights =
         ahead.iter().filter_map(|(_, (lit, best))| Some((lit.name.clone(), by_classes(lit, best)?)));
-    Likelier::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
+    RivalLight::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
 }
 
 /// Daylight, unless that was stated, which is none here, then the lamps.
 fn other_lights<'o>(parts: &Parts, others: &'o Others) -> Vec<Option<&'o Candidate>> {
-    let is_stated = matches!(parts.told.daylight, Some(Daylight::Cie { .. }));
+    let is_stated = matches!(parts.stated.daylight, Some(Daylight::Cie { .. }));
     let lamps = others.lights().iter().filter(|light| !light.is_any_daylight).map(Some);
     (!is_stated).then_some(None).into_iter().chain(lamps).collect()
 }
@@ -109,7 +109,7 @@ fn other_lights<'o>(parts: &Parts, others: &'o Others) -> Vec<Option<&'o Candida
 impl Lit {
     fn of(name: String, with_sky: Parts, others: &Others) -> Self {
         let flashes =
-            others.lights().iter().filter(|light| with_sky.told.daylight.is_some() && is_of_flash(light));
+            others.lights().iter().filter(|light| with_sky.stated.daylight.is_some() && is_of_flash(light));
         let without_sky = flashes.map(|light| with_sky.in_light(&light.power).without_sky()).collect();
         Self { name, with_sky, without_sky, days: Day::ALL.to_vec() }
     }
@@ -122,9 +122,9 @@ impl Lit {
         (starts, ln_least): (&mut Starts, f64),
     ) -> Option<Best> {
         let mut best: Option<Best> = None;
-        for (way, (parts, day, share)) in self.ways().into_iter().enumerate() {
+        for (scenario, (parts, day, share)) in self.scenarios().into_iter().enumerate() {
             let family = photographs.in_light_of(parts);
-            let hypothesis = Hypothesis::on_dull_day(day, Kind::Family);
+            let hypothesis = Hypothesis::on_dull_day(day, SheetModel::Family);
             let least = best.as_ref().map_or(ln_least, |best| best.tried.ln_weight());
             let from = starts.of(family.unknowns(hypothesis, prior));
             let Some(tried) = Search::new(&family, prior).sort((hypothesis, share.ln()), from, least) else {
@@ -132,19 +132,19 @@ impl Lit {
             };
             starts.keep(&tried.solution.w);
             if tried.ln_weight() >= least {
-                best = Some(Best { way, tried });
+                best = Some(Best { scenario, tried });
             }
         }
         best
     }
 
     /// How it may fall on the fold: the photograph so, the kind of day, and how often; indoors days make no difference.
-    fn ways(&self) -> Vec<(&Parts, Day, f64)> {
-        let told = &self.with_sky.told;
-        if told.daylight.is_none() {
+    fn scenarios(&self) -> Vec<(&Parts, Day, f64)> {
+        let stated = &self.with_sky.stated;
+        if stated.daylight.is_none() {
             return vec![(&self.with_sky, Day::Clear, 1.0)];
         }
-        let share = |day: Day| (1.0 - WITHOUT_SKY) * told.share_of(day);
+        let share = |day: Day| (1.0 - WITHOUT_SKY) * stated.share_of(day);
         let with_sky = self.days.iter().map(|day| (&self.with_sky, *day, share(*day)));
         let without_sky = self.without_sky.iter().map(|parts| (parts, Day::Clear, WITHOUT_SKY));
         with_sky.chain(without_sky).collect()

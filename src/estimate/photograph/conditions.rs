@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beliefs::Beliefs;
 use super::day::Day;
+use super::priors::Priors;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::daylight_weights;
 
@@ -50,23 +50,23 @@ pub struct Conditions {
     pub fall_off: f64,
     /// Share of the light that the lens loses in the corners of the picture.
     pub vignetting: f64,
-    /// Share of the picture's mean light that the lens spreads over all of it.
-    pub glare: f64,
-    /// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
-    pub gloss: f64,
+    /// Veiling glare: share of the picture's mean light that the lens spreads over all of it.
+    pub veiling_glare: f64,
+    /// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+    pub specular_weight: f64,
     /// Roughness of the surface: α of its microfacets' distribution (GGX).
-    pub gloss_roughness: f64,
+    pub specular_roughness: f64,
     /// Roughness of the body: Oren and Nayar's σ, degrees.
     pub body_roughness_deg: f64,
-    /// By how much the body is brighter where light grazes it, or the eye.
-    pub fuzz: f64,
+    /// Sheen: brightening of the body at grazing incidence or viewing.
+    pub sheen: f64,
 }
 
-/// What was said of a photograph.
+/// What was stated about a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Told {
-    /// What is believed before it is looked at.
-    pub beliefs: &'static Beliefs,
+pub struct StatedScene {
+    /// The priors on it.
+    pub priors: &'static Priors,
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
     /// Logarithm of what it is in an unclouded sun by the camera's settings, if they are known.
@@ -83,7 +83,7 @@ pub struct Told {
     pub tilt_deg: f64,
     /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground are.
     pub daylight: Option<Daylight>,
-    /// Whether that was assumed, as nobody told it.
+    /// Whether that was assumed, as nobody stated it.
     pub is_daylight_assumed: bool,
     /// Irradiance by the sky that somebody stated, that by the sun being 1.
     pub sky: Option<f64>,
@@ -110,7 +110,7 @@ pub struct ShownDaylight {
     pub sky: [Option<Normal>; Day::ALL.len()],
 }
 
-impl Told {
+impl StatedScene {
     /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun being 1.
     #[must_use]
     pub fn even_sky(&self) -> f64 {
@@ -136,13 +136,13 @@ impl Told {
         if let Some(shown) = self.shown {
             return shown.shares[day as usize];
         }
-        let (beliefs, is_sunny) = (self.beliefs, self.sun > 0.0);
-        let mistaken = beliefs.mistake_share * day.usual_share(beliefs);
+        let (priors, is_sunny) = (self.priors, self.sun > 0.0);
+        let mistaken = priors.mistake_share * day.usual_share(priors);
         match self.sky_kind {
             Some(SkyKind { is_overcast, .. }) if day == Day::with(is_sunny, is_overcast) => 1.0,
             Some(_) => mistaken,
             None if day.has_sun() && !is_sunny => mistaken,
-            None => day.usual_share(beliefs),
+            None => day.usual_share(priors),
         }
     }
 
@@ -151,7 +151,7 @@ impl Told {
     pub fn metered_exposure(&self) -> Option<Normal> {
         self.metered
             .filter(|_| self.daylight.is_some())
-            .map(|in_the_sun| self.day.metered(self.beliefs, in_the_sun))
+            .map(|in_the_sun| self.day.metered(self.priors, in_the_sun))
     }
 
     /// Whether somebody stated the exposure, rather than that a chart or a card shows it.

@@ -8,7 +8,7 @@ use super::parts::Place;
 /// How the values of all facets change, channel by channel and in each facet by facet, for each corner that is off by one depth of a
 /// panel: the two ends of the crease, then the two outer corners of either panel.
 ///
-/// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is told by the facets before and
+/// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is determined by the facets before and
 /// behind. Shifts along the crease, along which light changes little, are left out.
 ///
 /// # Arguments

@@ -1,6 +1,6 @@
 //! Kinds of days: where daylight comes from.
 
-use super::beliefs::Beliefs;
+use super::priors::Priors;
 use crate::estimate::unknowns::Normal;
 
 /// Where daylight comes from.
@@ -18,7 +18,7 @@ pub enum Day {
 
 /// A kind of day that a photograph shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct DayEstimate {
     /// The most probable one.
     pub day: Day,
     /// How probable it is.
@@ -50,11 +50,11 @@ impl Day {
         }
     }
 
-    pub(super) fn usual_share(self, beliefs: &Beliefs) -> f64 {
+    pub(super) fn usual_share(self, priors: &Priors) -> f64 {
         match self {
-            Self::Clear => 1.0 - 2.5 * beliefs.dull_share,
-            Self::Hazy | Self::Overcast => beliefs.dull_share,
-            Self::Shade => 0.5 * beliefs.dull_share,
+            Self::Clear => 1.0 - 2.5 * priors.dull_share,
+            Self::Hazy | Self::Overcast => priors.dull_share,
+            Self::Shade => 0.5 * priors.dull_share,
         }
     }
 
@@ -67,14 +67,14 @@ impl Day {
     /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being 1; none if the sun is hidden. People know no
     /// better of one that they state.
     #[must_use]
-    pub fn sky(self, beliefs: &Beliefs, stated: Option<f64>) -> Option<Normal> {
+    pub fn sky(self, priors: &Priors, stated: Option<f64>) -> Option<Normal> {
         match self {
             Self::Clear | Self::Hazy if stated.is_some() => {
-                stated.map(|mean| Normal { mean, sd: beliefs.sky_stated_sd * mean })
+                stated.map(|mean| Normal { mean, sd: priors.sky_stated_sd * mean })
             }
             Self::Clear | Self::Hazy => {
-                let mean = self.usual_sky(beliefs);
-                Some(Normal { mean, sd: beliefs.sky_sd * mean })
+                let mean = self.usual_sky(priors);
+                Some(Normal { mean, sd: priors.sky_sd * mean })
             }
             Self::Overcast | Self::Shade => None,
         }
@@ -82,42 +82,42 @@ impl Day {
 
     /// Reciprocal colour temperature of the sky, 1e-6/K.
     #[must_use]
-    pub fn sky_mired(self, beliefs: &Beliefs) -> Normal {
+    pub fn sky_mired(self, priors: &Priors) -> Normal {
         match self {
-            Self::Clear | Self::Shade => Normal { mean: beliefs.sky_mired, sd: beliefs.sky_mired_sd },
-            Self::Hazy => Normal { mean: beliefs.cloud_mired, sd: beliefs.hazy_mired_sd },
-            Self::Overcast => Normal { mean: beliefs.cloud_mired, sd: beliefs.overcast_mired_sd },
+            Self::Clear | Self::Shade => Normal { mean: priors.sky_mired, sd: priors.sky_mired_sd },
+            Self::Hazy => Normal { mean: priors.cloud_mired, sd: priors.hazy_mired_sd },
+            Self::Overcast => Normal { mean: priors.cloud_mired, sd: priors.overcast_mired_sd },
         }
     }
 
     /// Share of the sky's light that is an overcast one's, the rest being a clear one's; none where it is all of it or nothing.
     #[must_use]
-    pub fn cloud(self, beliefs: &Beliefs) -> Option<Normal> {
-        let hazy = Normal { mean: beliefs.hazy_cloud, sd: beliefs.hazy_cloud };
+    pub fn cloud(self, priors: &Priors) -> Option<Normal> {
+        let hazy = Normal { mean: priors.hazy_cloud, sd: priors.hazy_cloud };
         (self == Self::Hazy).then_some(hazy)
     }
 
     /// Logarithm of the exposure, if that of an unclouded sun is `in_the_sun`: what haze takes from the sun it adds to the sky.
     #[must_use]
-    pub fn metered(self, beliefs: &Beliefs, in_the_sun: Normal) -> Normal {
+    pub fn metered(self, priors: &Priors, in_the_sun: Normal) -> Normal {
         let Normal { mean, sd } = in_the_sun;
         match self {
             Self::Clear => in_the_sun,
-            Self::Hazy => Normal { mean: mean - (1.0 + beliefs.hazy_sky).ln(), sd },
+            Self::Hazy => Normal { mean: mean - (1.0 + priors.hazy_sky).ln(), sd },
             Self::Overcast | Self::Shade => {
-                Normal { mean: mean + beliefs.hidden_light.ln(), sd: sd.hypot(beliefs.hidden_light_sd) }
+                Normal { mean: mean + priors.hidden_light.ln(), sd: sd.hypot(priors.hidden_light_sd) }
             }
         }
     }
 
     /// Share of the light on an open horizontal plane that is the sky's, as a rule.
     #[must_use]
-    pub fn diffuse_share(self, beliefs: &Beliefs) -> f64 {
-        if self.has_sun() { (1.0 + self.usual_sky(beliefs).recip()).recip() } else { 1.0 }
+    pub fn diffuse_share(self, priors: &Priors) -> f64 {
+        if self.has_sun() { (1.0 + self.usual_sky(priors).recip()).recip() } else { 1.0 }
     }
 
     /// Irradiance by the sky where the sun shines, that by the sun being 1.
-    fn usual_sky(self, beliefs: &Beliefs) -> f64 {
-        if self == Self::Hazy { beliefs.hazy_sky } else { beliefs.sky }
+    fn usual_sky(self, priors: &Priors) -> f64 {
+        if self == Self::Hazy { priors.hazy_sky } else { priors.sky }
     }
 }

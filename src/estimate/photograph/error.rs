@@ -2,10 +2,10 @@
 
 use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
-use super::beliefs::Beliefs;
 use super::corners::shifts;
 use super::day::Day;
 use super::parts::Place;
+use super::priors::Priors;
 use super::sums::add;
 
 /// Correlated error of facets, relative to their values.
@@ -39,17 +39,17 @@ const SIDE_SHARED: f64 = 0.8;
 impl ModelError {
     /// That of photographs of sheets that the kinds describe, on such a day.
     #[must_use]
-    pub fn of(beliefs: &Beliefs, day: Day) -> Self {
-        let diffuse = day.diffuse_share(beliefs);
+    pub fn of(priors: &Priors, day: Day) -> Self {
+        let diffuse = day.diffuse_share(priors);
         Self {
-            shared: beliefs.discrepancy_shared.hypot(diffuse * beliefs.discrepancy_sky),
-            aside: diffuse * beliefs.discrepancy_sky_aside,
-            own: beliefs.discrepancy_own,
-            white: beliefs.discrepancy_white,
-            at_crease: beliefs.discrepancy_at_crease,
-            at_outer_side: beliefs.discrepancy_at_outer_side,
-            corner: beliefs.corner,
-            length: beliefs.discrepancy_length,
+            shared: priors.discrepancy_shared.hypot(diffuse * priors.discrepancy_sky),
+            aside: diffuse * priors.discrepancy_sky_aside,
+            own: priors.discrepancy_own,
+            white: priors.discrepancy_white,
+            at_crease: priors.discrepancy_at_crease,
+            at_outer_side: priors.discrepancy_at_outer_side,
+            corner: priors.corner,
+            length: priors.discrepancy_length,
         }
     }
 

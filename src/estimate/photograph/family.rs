@@ -2,17 +2,17 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beliefs::Beliefs;
 use super::hypotheses::Hypothesis;
 use super::joint::{JointModel, Member};
 use super::model::Point;
 use super::parts::Parts;
+use super::priors::Priors;
 use super::whitened::Photograph;
 use crate::estimate::Fitted;
 use crate::estimate::emission::Fall;
 use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
-use crate::estimate::mixture::Maximum;
+use crate::estimate::mixture::LocalMode;
 use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::posterior::{Linearised, Model, information};
@@ -21,7 +21,7 @@ use crate::solve::posterior::{Linearised, Model, information};
 const TELLING_CHANNELS: usize = 3;
 /// A maximum counts as found within this many standard deviations of it.
 const TOLERANCE: f64 = 0.03;
-/// A number is told by the facets if its standard deviation is below that share of what it was before.
+/// A number is determined by the facets if its standard deviation is below that share of what it was before.
 const SUPPORTED: f64 = 0.8;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
@@ -70,13 +70,13 @@ impl<'a> Photographs<'a> {
         Some(here?.carried(&there?, w))
     }
 
-    /// What is believed of them.
-    pub fn beliefs(&self) -> &'static Beliefs {
-        self.0.first().map_or(&Beliefs::USUAL, |photograph| photograph.parts.told.beliefs)
+    /// The priors on them.
+    pub fn priors(&self) -> &'static Priors {
+        self.0.first().map_or(&Priors::USUAL, |photograph| photograph.parts.stated.priors)
     }
 
     /// Each photograph at a maximum; none if the model is not finite.
-    pub fn seen(&self, Maximum { start, at, .. }: &Maximum<Hypothesis, ()>) -> Option<Vec<Seen>> {
+    pub fn seen(&self, LocalMode { start, at, .. }: &LocalMode<Hypothesis, ()>) -> Option<Vec<Seen>> {
         let model = self.model(start.hypothesis, &start.gaussian)?;
         let lower = model.information(&start.w, at)?;
         let own = lower.solve_lower_triangular(&DMatrix::identity(lower.nrows(), lower.nrows()))?;
@@ -120,7 +120,7 @@ impl<'a> Family for Photographs<'a> {
     /// Computed pictures are of spectra that are known.
     fn ln_class_shares(&self, hypothesis: Hypothesis, prior: &Prior) -> Vec<f64> {
         let is_ideal = hypothesis.imperfection.is_ideal();
-        let of_all = prior.ln_shares(if is_ideal { 1.0 } else { self.beliefs().class_share_power });
+        let of_all = prior.ln_shares(if is_ideal { 1.0 } else { self.priors().class_share_power });
         let emissions = self.0.first().map(Photograph::emissions);
         match hypothesis.emission.zip(emissions).and_then(|(place, all)| all.get(place)) {
             Some(emission) => emission.ln_class_shares(of_all, prior),
@@ -132,7 +132,7 @@ impl<'a> Family for Photographs<'a> {
         self.0.iter().any(|photograph| photograph.parts.values.ncols() >= TELLING_CHANNELS)
     }
 
-    /// Noise of photographs is not so small that classes are told apart at a larger one.
+    /// Noise of photographs is not so small that classes are distinguished at a larger one.
     fn peak(&self) -> f64 {
         0.0
     }
@@ -201,16 +201,16 @@ impl JointModel<'_> {
         slopes(first, self.unknowns(), &own, &point).rows(0, point.albedo.len()).into_owned()
     }
 
-    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_told) of camera and light being numbers, too: an ideal fold is
+    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_nominal) of camera and light being numbers, too: an ideal fold is
     /// estimated as if that were exact, but is not known better than if it were not.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
         // ideal folds are not joined
-        let told = match self.members() {
-            [Member { model, .. }] => model.by_told(w),
+        let stated = match self.members() {
+            [Member { model, .. }] => model.by_nominal(w),
             _ => None,
         };
-        let Some(told) = told else { return Some(information(&at.jacobian)?.l()) };
-        let columns = at.jacobian.column_iter().chain(told.column_iter());
+        let Some(stated) = stated else { return Some(information(&at.jacobian)?.l()) };
+        let columns = at.jacobian.column_iter().chain(stated.column_iter());
         Some(information(&DMatrix::from_columns(&columns.collect::<Vec<_>>()))?.l())
     }
 }
@@ -244,9 +244,9 @@ fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> D
     let numbers = first.model.scene_unknowns().iter().zip(scene..);
     let of_sheet = numbers.filter(|(number, _)| number.unknown.is_of_sheet()).map(|(_, n)| n);
     for n in of_sheet.chain(sheet..camera) {
-        let mut beside = w.clone();
-        beside[n] += STEP;
-        let moved = first.model.point(&beside).departure.reflectance;
+        let mut shifted = w.clone();
+        shifted[n] += STEP;
+        let moved = first.model.point(&shifted).departure.reflectance;
         let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
         for (band, albedo) in point.albedo.iter().enumerate() {
             slopes[(band, first.place(n))] = slope * albedo + offset;

@@ -1,7 +1,7 @@
 //! What a photograph shows that sets its fold apart from an ideal one, in the words of who took it.
 
-use super::conditions::Told;
-use super::day::{Day, Found};
+use super::conditions::StatedScene;
+use super::day::{Day, DayEstimate};
 use super::finding::Finding;
 use super::hypotheses::Hypothesis;
 use super::number::Number;
@@ -14,7 +14,7 @@ const UNUSUAL: f64 = 2.24;
 
 /// Other light than that of a clear day.
 #[must_use]
-pub fn of_day(Found { day, .. }: Found) -> Option<Finding> {
+pub fn of_day(DayEstimate { day, .. }: DayEstimate) -> Option<Finding> {
     let what = match day {
         Day::Clear => return None,
         Day::Hazy => "much of the light comes from the sky, as in haze or under thin cloud",
@@ -30,14 +30,15 @@ pub fn of_day(Found { day, .. }: Found) -> Option<Finding> {
 
 /// What the facets tell of the unknowns under a hypothesis, what they are surest of first.
 #[must_use]
-pub fn of_unknowns(fitted: &[Fitted], told: &Told, hypothesis: Hypothesis) -> Vec<Finding> {
-    let numbers = Number::all(told, hypothesis);
+pub fn of_unknowns(fitted: &[Fitted], stated: &StatedScene, hypothesis: Hypothesis) -> Vec<Finding> {
+    let numbers = Number::all(stated, hypothesis);
     let found = |one: &Fitted| {
         let number = numbers.iter().find(|number| number.unknown == one.unknown)?;
         let (symptom, from_usual) = (number.effect.symptom.as_ref()?, number.normal(one.value).abs());
-        let off = (one.value - (symptom.ideal)(told)).abs();
-        let is_found = one.supported && off >= symptom.least && off > SURE * one.sd;
-        is_found.then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, told), symptom.remedy))
+        let off = (one.value - (symptom.ideal)(stated)).abs();
+        let is_noteworthy = one.supported && off >= symptom.least && off > SURE * one.sd;
+        is_noteworthy
+            .then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, stated), symptom.remedy))
     };
     let mut all: Vec<_> = fitted.iter().filter_map(found).collect();
     all.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));

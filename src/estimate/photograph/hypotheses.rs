@@ -1,17 +1,17 @@
 //! What a photograph may be taken to be, and how often it is so.
 
-use super::beliefs::Beliefs;
-use super::conditions::Told;
+use super::conditions::StatedScene;
 use super::day::Day;
 use super::imperfection::Imperfection;
-use super::kinds::Kind;
+use super::priors::Priors;
+use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
 
 /// What a photograph is taken to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hypothesis {
     /// The kind of its sheet.
-    pub kind: Kind,
+    pub kind: SheetModel,
     /// How far it is from an ideal one.
     pub imperfection: Imperfection,
     /// The kind of day on which it was taken.
@@ -39,10 +39,10 @@ pub enum Mistake {
 
 impl Mistake {
     /// How often it is made.
-    fn share(self, beliefs: &Beliefs) -> f64 {
+    fn share(self, priors: &Priors) -> f64 {
         match self {
-            Self::NoFold => beliefs.no_fold_share,
-            Self::Exposure | Self::Angle | Self::Sky => beliefs.mistake_share,
+            Self::NoFold => priors.no_fold_share,
+            Self::Exposure | Self::Angle | Self::Sky => priors.mistake_share,
         }
     }
 }
@@ -50,11 +50,11 @@ impl Mistake {
 /// All hypotheses on photographs of folds, the most probable first.
 pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
     let mut all = usual_hypotheses();
-    // the curves of another camera are never those of this one; an ideal fold is the same whatever its sheet's kind
+    // the sensitivities of another camera are never those of this one; an ideal fold is the same whatever its sheet's kind
     if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
         let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)];
         all.extend(mistakes.map(Hypothesis::ideal));
-        if photographs.iter().any(|photograph| photograph.parts.told.is_exposure_stated()) {
+        if photographs.iter().any(|photograph| photograph.parts.stated.is_exposure_stated()) {
             all.push(Hypothesis::ideal(Some(Mistake::Exposure)));
         }
     }
@@ -63,31 +63,31 @@ pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
 
 /// Hypotheses on photographs as people take them.
 pub fn usual_hypotheses() -> Vec<Hypothesis> {
-    Kind::ALL.map(Hypothesis::usual).to_vec()
+    SheetModel::ALL.map(Hypothesis::usual).to_vec()
 }
 
 /// Days other than clear ones on which photographs may have been taken.
 pub fn dull_days(photographs: &[Photograph]) -> Vec<Day> {
-    let are_in_daylight = photographs.iter().all(|photograph| photograph.parts.told.daylight.is_some());
+    let are_in_daylight = photographs.iter().all(|photograph| photograph.parts.stated.daylight.is_some());
     Day::ALL.into_iter().filter(|day| are_in_daylight && *day != Day::Clear).collect()
 }
 
 /// Hypotheses on what is no fold.
 pub fn hypotheses_without_bounces() -> [Hypothesis; 2] {
     let mistake = Some(Mistake::NoFold);
-    [Hypothesis { mistake, ..Hypothesis::usual(Kind::Matt) }, Hypothesis::ideal(mistake)]
+    [Hypothesis { mistake, ..Hypothesis::usual(SheetModel::Matt) }, Hypothesis::ideal(mistake)]
 }
 
 impl Hypothesis {
     /// A photograph as people take them, of this kind of sheet.
     #[must_use]
-    pub fn usual(kind: Kind) -> Self {
+    pub fn usual(kind: SheetModel) -> Self {
         Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None, emission: None }
     }
 
     /// One as people take them under another sky than a clear day's.
     #[must_use]
-    pub fn on_dull_day(day: Day, kind: Kind) -> Self {
+    pub fn on_dull_day(day: Day, kind: SheetModel) -> Self {
         Self { day, ..Self::usual(kind) }
     }
 
@@ -96,16 +96,16 @@ impl Hypothesis {
     pub fn ideal(mistake: Option<Mistake>) -> Self {
         // the sky of a computed scene is white rather than blue
         let day = if mistake == Some(Mistake::Sky) { Day::Hazy } else { Day::Clear };
-        Self { kind: Kind::Matt, imperfection: Imperfection::IDEAL, day, mistake, emission: None }
+        Self { kind: SheetModel::Matt, imperfection: Imperfection::IDEAL, day, mistake, emission: None }
     }
 
     /// Logarithm of how often it is true of photographs of which this was stated.
-    pub fn ln_share(&self, told: &Told) -> f64 {
-        let beliefs = told.beliefs;
-        let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(beliefs).ln());
-        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(beliefs) };
-        let of_day = if self.imperfection.is_ideal() { 0.0 } else { told.share_of(self.day).ln() };
-        let of_fold = self.imperfection.ln_share(beliefs) + of_kind + of_day;
+    pub fn ln_share(&self, stated: &StatedScene) -> f64 {
+        let priors = stated.priors;
+        let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(priors).ln());
+        let of_kind = if self.imperfection.is_ideal() { 0.0 } else { self.kind.ln_share(priors) };
+        let of_day = if self.imperfection.is_ideal() { 0.0 } else { stated.share_of(self.day).ln() };
+        let of_fold = self.imperfection.ln_share(priors) + of_kind + of_day;
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }
 
@@ -130,12 +130,14 @@ impl Hypothesis {
         self.mistake != Some(Mistake::NoFold)
     }
 
-    /// What of all that was stated is to be believed.
-    pub fn told(&self, told: &Told) -> Told {
+    /// Which of the stated values to use.
+    pub fn stated(&self, stated: &StatedScene) -> StatedScene {
         let exposure = match self.mistake {
-            Some(Mistake::Exposure) if told.is_exposure_stated() => None,
-            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle | Mistake::Sky) | None => told.exposure,
+            Some(Mistake::Exposure) if stated.is_exposure_stated() => None,
+            Some(Mistake::Exposure | Mistake::NoFold | Mistake::Angle | Mistake::Sky) | None => {
+                stated.exposure
+            }
         };
-        Told { exposure, day: self.day, ..*told }
+        StatedScene { exposure, day: self.day, ..*stated }
     }
 }

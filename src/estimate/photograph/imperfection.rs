@@ -1,6 +1,6 @@
 //! How far a photograph is from one of an ideal fold.
 
-use super::beliefs::Beliefs;
+use super::priors::Priors;
 
 /// How much there is of all that an ideal fold lacks at once.
 ///
@@ -49,8 +49,8 @@ impl Imperfection {
 
     /// Logarithm of how often it is so.
     #[must_use]
-    pub fn ln_share(&self, beliefs: &Beliefs) -> f64 {
-        if self.is_ideal() { beliefs.ideal_share.ln() } else { (1.0 - beliefs.ideal_share).ln() }
+    pub fn ln_share(&self, priors: &Priors) -> f64 {
+        if self.is_ideal() { priors.ideal_share.ln() } else { (1.0 - priors.ideal_share).ln() }
     }
 
     /// Whether the fold is an ideal one, of a sheet that is perfectly matt.

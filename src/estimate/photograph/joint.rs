@@ -69,7 +69,8 @@ impl<'a> JointModel<'a> {
             let (parts, whitening) =
                 (one.parts, one.whitening(hypothesis.imperfection.discrepancy, hypothesis.day)?);
             let emission = hypothesis.emission.and_then(|place| one.emissions().get(place));
-            let model = PhotographModel::new(parts, &one.kinds, (hypothesis, emission), gaussian, whitening);
+            let model =
+                PhotographModel::new(parts, &one.sheet_models, (hypothesis, emission), gaussian, whitening);
             let same_camera =
                 photographs[..photograph].iter().position(|other| other.parts.eye.is(&parts.eye));
             let [scene, sheet, camera, emission, end] = model.layout();

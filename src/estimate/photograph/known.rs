@@ -7,13 +7,13 @@ use super::day::Day;
 use super::family::Photographs;
 use super::hypotheses::Hypothesis;
 use super::joint::JointModel;
-use super::kinds::Kind;
 use super::model::Point;
+use super::sheet_models::SheetModel;
 use crate::estimate::family::{Family, SpectrumModel};
 use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
-use crate::solve::posterior::{Limits, Linearised, Model, Solution, first_inflation, information, maximise};
+use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering, information};
 
 /// A maximum counts as found within so many standard deviations of it: what is left out is less than one of evidence. A search ends after so many
 /// iterations.
@@ -119,16 +119,16 @@ impl Photographs<'_> {
         start: Option<&DVector<f64>>,
         ln_least: f64,
     ) -> Option<KnownSeen> {
-        let hypothesis = Hypothesis::on_dull_day(day, Kind::Family);
+        let hypothesis = Hypothesis::on_dull_day(day, SheetModel::Family);
         let photograph = self.model(hypothesis, prior.broad())?;
         let ln_whitening = photograph.ln_whitening();
         let model = KnownModel { photograph, known };
         let at_mean =
             || prior.broad().nearest(known.reflectance.as_slice()).resize_vertically(model.unknowns(), 0.0);
         let start = start.filter(|w| w.len() == model.unknowns()).cloned().unwrap_or_else(at_mean);
-        let first = first_inflation(&model, &start, 1.0);
+        let first = first_tempering(&model, &start, 1.0);
         let limits = Limits { iterations: LIMIT, cost: 2.0 * (ln_whitening - ln_least) };
-        let found = maximise(&model, start, (first, 1.0), TOLERANCE, limits);
+        let found = find_mode(&model, start, (first, 1.0), TOLERANCE, limits);
         let ln_evidence = found.ln_evidence(1.0)? + ln_whitening;
         if !(ln_evidence.is_finite() && ln_evidence >= ln_least) {
             return None;

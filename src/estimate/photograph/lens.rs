@@ -12,7 +12,7 @@ pub struct Lens {
     /// Brightness of each facet and channel for a radiance of 1: facet by channel.
     scale: DMatrix<f64>,
     /// Share of a channel's mean that is spread over all facets.
-    glare: f64,
+    veiling_glare: f64,
 }
 
 impl Lens {
@@ -32,7 +32,7 @@ impl Lens {
                 *scale = brightness * uneven(place);
             }
         }
-        Self { scale, glare: conditions.glare }
+        Self { scale, veiling_glare: conditions.veiling_glare }
     }
 
     /// Values of radiances: facet by channel.
@@ -53,7 +53,7 @@ impl Lens {
             *value *= scale;
             sum += *value;
         }
-        let spread = self.glare * sum / facets as f64;
+        let spread = self.veiling_glare * sum / facets as f64;
         radiances.iter_mut().for_each(|value| *value += spread);
     }
 }

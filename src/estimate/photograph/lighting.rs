@@ -27,16 +27,16 @@ impl Lighting {
         let shares = shares_at(conditions.elevation_deg);
         let sun_height = conditions.elevation_deg.clamp(0.0, 90.0).to_radians().sin();
         let ground_amount = conditions.ground * (sun_height * conditions.sun + sky_amount);
-        let is_sun_alone = conditions.day.has_sun() && !parts.told.by_chart;
+        let is_sun_alone = conditions.day.has_sun() && !parts.stated.by_chart;
         let white = (!is_sun_alone).then(|| {
             let sensitivities = &parts.eye.sensitivities;
-            let said = sensitivities.tr_mul(&parts.eye.sun);
+            let nominal = sensitivities.tr_mul(&parts.eye.sun);
             let of_sky = (1.0 - conditions.cloud) * clear.open_at(shares)
                 + conditions.cloud * overcast.open_at(shares);
             let light = conditions.sun * &sun
                 + (sky_amount * of_sky + conditions.even_sky) * &sky
                 + ground_amount * below.open_at(shares) * &ground;
-            sensitivities.tr_mul(&light).component_div(&said) * said[parts.eye.reference]
+            sensitivities.tr_mul(&light).component_div(&nominal) * nominal[parts.eye.reference]
         });
         Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], white }
     }
@@ -52,7 +52,7 @@ impl Lighting {
     pub fn gains(&self, parts: &Parts, conditions: &Conditions) -> DVector<f64> {
         let Parts { eye, .. } = parts;
         let mut gains = match &self.white {
-            Some(white) if parts.told.by_chart => white.map(|value| white[eye.reference] / value),
+            Some(white) if parts.stated.by_chart => white.map(|value| white[eye.reference] / value),
             _ => DVector::from_element(eye.sensitivities.ncols(), 1.0),
         };
         if let [first, _, last] = gains.as_mut_slice() {
@@ -66,8 +66,10 @@ impl Lighting {
 fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 3] {
     let eye = &parts.eye;
     let daylight = |mired: f64| Daylight::power(&eye.daylight, mired);
-    let sun = match conditions.sun_mired.zip(parts.told.daylight) {
-        Some((mired, said)) => eye.sun.component_mul(&daylight(mired).component_div(&daylight(said.mired()))),
+    let sun = match conditions.sun_mired.zip(parts.stated.daylight) {
+        Some((mired, nominal)) => {
+            eye.sun.component_mul(&daylight(mired).component_div(&daylight(nominal.mired())))
+        }
         None => eye.sun.clone(),
     };
     let sky = conditions.sky_mired.map_or_else(|| eye.sky.clone(), daylight);

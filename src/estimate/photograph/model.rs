@@ -1,5 +1,5 @@
 //! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's albedo, the unknowns
-//! of the scene, the variations of a kind of sheet, and the errors of the camera's curves.
+//! of the scene, the variations of a kind of sheet, and the errors of the camera's sensitivities.
 
 use std::borrow::Cow;
 use std::ops::AddAssign;
@@ -7,16 +7,16 @@ use std::ops::AddAssign;
 use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 
 use super::chebyshev::{chebyshev, nodes};
-use super::conditions::{Conditions, Told};
+use super::conditions::{Conditions, StatedScene};
 use super::corners;
 use super::day::Day;
 use super::error::Whitening;
 use super::hypotheses::Hypothesis;
-use super::kinds::{Kind, Kinds};
 use super::lighting::Lighting;
 use super::number::Number;
 use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
+use super::sheet_models::{SheetModel, SheetModels};
 use super::sheets::Departure;
 use super::sums::{add_product, columns};
 use crate::estimate::emission::{Emission, Fall, Sent};
@@ -27,24 +27,24 @@ use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
-/// Albedo below which light that a sheet sends out is not told from what it reflects of more light: darker sheets hardly light themselves.
+/// Albedo below which light that a sheet sends out is not distinguished from what it reflects of more light: darker sheets hardly light themselves.
 const DARKEST: f64 = 0.01;
 
 /// The model under one hypothesis and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
     parts: &'a Parts,
-    kinds: &'a Kinds<'a>,
+    sheet_models: &'a SheetModels<'a>,
     hypothesis: Hypothesis,
     /// What the sheet sends out itself; none if nothing.
     emission: Option<&'a Emission>,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
-    /// What was stated of the photograph, as far as it is believed.
-    told: Told,
+    /// What was stated about the photograph, as far as it is used.
+    stated: StatedScene,
     numbers: Vec<Number>,
     /// From values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
-    /// Errors of the camera's curves: waveband by error.
+    /// Errors of the camera's sensitivities: waveband by error.
     curve_errors: DMatrix<f64>,
 }
 
@@ -65,7 +65,7 @@ impl<'a> PhotographModel<'a> {
     #[must_use]
     pub fn new(
         parts: &'a Parts,
-        kinds: &'a Kinds,
+        sheet_models: &'a SheetModels,
         (hypothesis, emission): (Hypothesis, Option<&'a Emission>),
         gaussian: &'a Gaussian,
         whitening: &'a Whitening,
@@ -73,16 +73,16 @@ impl<'a> PhotographModel<'a> {
         let count = parts.sun.even.ncols();
         let chebyshev = chebyshev(&nodes(count), count).0;
         let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
-        let told = hypothesis.told(&parts.told);
+        let stated = hypothesis.stated(&parts.stated);
         Self {
             parts,
-            kinds,
+            sheet_models,
             hypothesis,
             emission: emission.filter(|emission| emission.unknowns() > 0),
             gaussian,
             whitening,
-            told,
-            numbers: Number::all(&told, hypothesis),
+            stated,
+            numbers: Number::all(&stated, hypothesis),
             coefficients,
             curve_errors: curve_errors(parts),
         }
@@ -100,35 +100,35 @@ impl<'a> PhotographModel<'a> {
     pub fn layout(&self) -> [usize; 5] {
         let scene = self.gaussian.basis().ncols();
         let sheet = scene + self.numbers.len();
-        let camera = sheet + self.kinds.variation_count();
+        let camera = sheet + self.sheet_models.variation_count();
         let emission = camera + self.parts.eye.errors.len();
         [scene, sheet, camera, emission, emission + self.emission.map_or(0, Emission::unknowns)]
     }
 
     /// Conditions at `w`.
     fn conditions(&self, w: &DVector<f64>) -> Conditions {
-        let (told, is_ideal) = (&self.told, self.hypothesis.imperfection.is_ideal());
-        let stated_sky = told.sky_kind.filter(|_| is_ideal);
+        let (stated, is_ideal) = (&self.stated, self.hypothesis.imperfection.is_ideal());
+        let stated_sky = stated.sky_kind.filter(|_| is_ideal);
         let mut conditions = Conditions {
-            exposure: told.exposure.unwrap_or(1.0),
+            exposure: stated.exposure.unwrap_or(1.0),
             gains: [1.0; 2],
-            angle_deg: told.angle_deg,
-            tilt_deg: told.tilt_deg,
+            angle_deg: stated.angle_deg,
+            tilt_deg: stated.tilt_deg,
             sun_mired: None,
-            day: told.day,
-            sun: if is_ideal { told.sun } else { 1.0 },
-            sky: match told.day.has_sun() {
-                true if is_ideal => told.sky_above_horizon(),
+            day: stated.day,
+            sun: if is_ideal { stated.sun } else { 1.0 },
+            sky: match stated.day.has_sun() {
+                true if is_ideal => stated.sky_above_horizon(),
                 true => 0.0,
                 false => 1.0,
             },
-            cloud: if stated_sky.map_or(told.day == Day::Overcast, |sky| sky.is_overcast) {
+            cloud: if stated_sky.map_or(stated.day == Day::Overcast, |sky| sky.is_overcast) {
                 1.0
             } else {
                 0.0
             },
-            elevation_deg: stated_sky.map_or(told.beliefs.elevation_deg, |sky| sky.elevation_deg),
-            even_sky: if is_ideal { told.even_sky() } else { 0.0 },
+            elevation_deg: stated_sky.map_or(stated.priors.elevation_deg, |sky| sky.elevation_deg),
+            even_sky: if is_ideal { stated.even_sky() } else { 0.0 },
             sky_mired: None,
             ground: 0.0,
             ground_redness: 0.0,
@@ -138,11 +138,11 @@ impl<'a> PhotographModel<'a> {
             nearness: 0.0,
             fall_off: 0.0,
             vignetting: 0.0,
-            glare: 0.0,
-            gloss: 0.0,
-            gloss_roughness: 0.42,
+            veiling_glare: 0.0,
+            specular_weight: 0.0,
+            specular_roughness: 0.42,
             body_roughness_deg: 0.0,
-            fuzz: 0.0,
+            sheen: 0.0,
         };
         let [first, ..] = self.layout();
         for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
@@ -222,7 +222,7 @@ impl<'a> PhotographModel<'a> {
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
         // of a dark sheet light bounces once. What a Lambertian one sends for each unit of its albedo is smoother than what it sends, and has
-        // no end; gloss does not vanish with albedo, and only the slope can be told
+        // no end; gloss does not vanish with albedo, and only the slope is determined
         let (values, slopes) = chebyshev(&[0.0], count);
         let once = if self.hypothesis.imperfection.is_ideal() {
             (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
@@ -260,7 +260,7 @@ impl<'a> PhotographModel<'a> {
 
     fn departure(&self, conditions: &Conditions, variations: &[f64]) -> Departure {
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
-        self.kinds.departure(kind, imperfection.scale, conditions, variations)
+        self.sheet_models.departure(kind, imperfection.scale, conditions, variations)
     }
 
     /// What the facets have more than those of a Lambertian sheet.
@@ -326,8 +326,8 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Sets derivatives of the values by the errors of the camera's curves, each of which changes one channel.
-    fn by_curves(
+    /// Sets derivatives of the values by the errors of the camera's sensitivities, each of which changes one channel.
+    fn by_sensitivities(
         &self,
         out: &mut DMatrixViewMut<f64>,
         terms: &DMatrix<f64>,
@@ -352,39 +352,43 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were told, as two of a kind differ: they
+    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were stated, as two of a kind differ: they
     /// are not found there, as facets would say too surely which they are. None where they are unknowns.
     #[must_use]
-    pub fn by_told(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
+    pub fn by_nominal(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
         self.hypothesis.imperfection.is_ideal().then_some(())?;
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let (conditions, beyond) = (self.conditions(w), self.beyond(w));
         let here = predictor.facets(&conditions, &beyond);
-        let is_told =
-            |number: &&Number| (number.effect.known)(&self.told) == Known::Told && !number.matters();
-        let numbers: Vec<&Number> = self.numbers.iter().filter(is_told).collect();
-        let mut by_told = DMatrix::zeros(here.values.len(), numbers.len() + self.parts.eye.errors.len());
-        for (mut column, number) in by_told.column_iter_mut().zip(&numbers) {
-            let [at, beside] = [0.0, STEP].map(|w| {
+        let is_nominal =
+            |number: &&Number| (number.effect.known)(&self.stated) == Known::Nominal && !number.matters();
+        let numbers: Vec<&Number> = self.numbers.iter().filter(is_nominal).collect();
+        let mut by_nominal = DMatrix::zeros(here.values.len(), numbers.len() + self.parts.eye.errors.len());
+        for (mut column, number) in by_nominal.column_iter_mut().zip(&numbers) {
+            let [at, shifted] = [0.0, STEP].map(|w| {
                 let mut conditions = conditions.clone();
                 (number.effect.set)(&mut conditions, number.at(w).0);
-                predictor.beside(&here, &conditions, &beyond, number.effect.whose)
+                predictor.shifted(&here, &conditions, &beyond, number.effect.whose)
             });
-            column.copy_from(&(in_order(&(beside - at)) / STEP));
+            column.copy_from(&(in_order(&(shifted - at)) / STEP));
         }
-        let curves = self.parts.eye.errors.len();
-        self.by_curves(&mut by_told.columns_mut(numbers.len(), curves), &terms.values, &here);
-        Some(self.whitening.of_all(&by_told))
+        let sensitivities = self.parts.eye.errors.len();
+        self.by_sensitivities(
+            &mut by_nominal.columns_mut(numbers.len(), sensitivities),
+            &terms.values,
+            &here,
+        );
+        Some(self.whitening.of_all(&by_nominal))
     }
 
     /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
         let own = match self.hypothesis.kind {
-            Kind::Measured => self.hypothesis.imperfection.scale * self.parts.sheets.instrument.own,
-            Kind::Matt | Kind::Family => return None,
+            SheetModel::Measured => self.hypothesis.imperfection.scale * self.parts.sheets.instrument.own,
+            SheetModel::Matt | SheetModel::Family => return None,
         };
         let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
         smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
@@ -428,7 +432,7 @@ impl<'a> PhotographModel<'a> {
     }
 }
 
-/// Errors of the camera's curves side by side.
+/// Errors of the camera's sensitivities side by side.
 fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
     let errors = eye.errors.iter().flat_map(|(_, error)| error.iter().copied());
     DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
@@ -471,23 +475,26 @@ impl Model for PhotographModel<'_> {
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
         let telling = |(_, number): &(usize, &Number)| number.matters() && kind.has(number.unknown);
         for (n, Number { unknown, effect, .. }) in (scene..).zip(&self.numbers).filter(telling) {
-            let mut beside = w.clone();
-            beside[n] += STEP;
-            let beyond =
-                if unknown.is_of_sheet() { Cow::Owned(self.beyond(&beside)) } else { Cow::Borrowed(&beyond) };
-            let moved = predictor.beside(&here, &self.conditions(&beside), &beyond, effect.whose);
+            let mut shifted = w.clone();
+            shifted[n] += STEP;
+            let beyond = if unknown.is_of_sheet() {
+                Cow::Owned(self.beyond(&shifted))
+            } else {
+                Cow::Borrowed(&beyond)
+            };
+            let moved = predictor.shifted(&here, &self.conditions(&shifted), &beyond, effect.whose);
             jacobian.column_mut(n).copy_from(&(in_order(&(moved - values)) / STEP));
         }
         // variations of the sheet and errors of the curves enter in proportion
         let sun = &lights[0];
-        let variations = self.kinds.by_variation(kind, imperfection.scale * conditions.sun);
+        let variations = self.sheet_models.by_variation(kind, imperfection.scale * conditions.sun);
         for (n, change) in (sheet..).zip(variations.filter(|_| !imperfection.is_ideal())) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
             add_product(&mut radiances, &change, &sun.to_channels);
             jacobian.column_mut(n).copy_from_slice(lens.seen(radiances).as_slice());
         }
         if !imperfection.is_ideal() {
-            self.by_curves(&mut jacobian.columns_mut(camera, emission - camera), &terms.values, &here);
+            self.by_sensitivities(&mut jacobian.columns_mut(camera, emission - camera), &terms.values, &here);
         }
         if let Some(by_emission) = self.terms_by_emission(w, &albedo, &terms) {
             for (n, change) in (emission..end).zip(by_emission) {

@@ -1,6 +1,6 @@
 //! An unknown of a photograph as a standard normal number.
 
-use super::conditions::Told;
+use super::conditions::StatedScene;
 use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
 use crate::estimate::unknowns::{
@@ -22,12 +22,12 @@ pub struct Number {
 impl Number {
     /// Those of a photograph.
     #[must_use]
-    pub fn all(told: &Told, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
+    pub fn all(stated: &StatedScene, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
         let number = |unknown: &&'static Unknown| {
             let effect = unknown.photograph.as_ref()?;
-            let (own, known) = ((effect.prior)(told), (effect.known)(told));
+            let (own, known) = ((effect.prior)(stated), (effect.known)(stated));
             // what does not occur on this day has a place, so that a search may go on from another day
-            let of_day = |day: &Day| (effect.prior)(&Told { day: *day, ..*told });
+            let of_day = |day: &Day| (effect.prior)(&StatedScene { day: *day, ..*stated });
             let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
             // of an ideal fold nothing is open but what is mistaken
             let matters = own.is_some()
@@ -39,9 +39,9 @@ impl Number {
                     Some(Mistake::Exposure | Mistake::NoFold) | None => false,
                 };
             let tail = match known {
-                Known::Stated | Known::Metered => told.beliefs.stated_tail,
-                Known::Imperfection => told.beliefs.amount_tail,
-                Known::Usual | Known::Shown | Known::Told | Known::OfImperfection => 0.0,
+                Known::Stated | Known::Metered => stated.priors.stated_tail,
+                Known::Imperfection => stated.priors.amount_tail,
+                Known::Usual | Known::Shown | Known::Nominal | Known::OfImperfection => 0.0,
             };
             Some(Self { unknown, effect, prior, tail, matters })
         };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conditions::{Conditions, Daylight, Told};
+use super::conditions::{Conditions, Daylight, StatedScene};
 use super::sheets::Sheets;
 pub use super::sums::Radiance;
 use super::sums::add;
@@ -114,10 +114,11 @@ impl Ambient {
         self.open.iter().zip(shares).map(|(open, share)| open * share).sum()
     }
 
-    /// Adds so much of it to the light on the facets of a fold that is open by `told_deg` if it is as it was said to be.
-    pub fn add_to(&self, sum: &mut Radiance, amount: f64, conditions: &Conditions, told_deg: f64) {
+    /// Adds so much of it to the light on the facets of a fold that is open by `stated_deg` if it is as it was said to be.
+    pub fn add_to(&self, sum: &mut Radiance, amount: f64, conditions: &Conditions, stated_deg: f64) {
         let shares = shares_at(conditions.elevation_deg);
-        let changes = [(&self.by_angle, conditions.angle_deg - told_deg), (&self.by_bow, conditions.bow_deg)];
+        let changes =
+            [(&self.by_angle, conditions.angle_deg - stated_deg), (&self.by_bow, conditions.bow_deg)];
         for (radiance, share) in self.radiance.iter().zip(shares).chain(changes) {
             if amount * share != 0.0 {
                 add(sum.as_mut_slice(), amount * share, radiance.as_slice());
@@ -161,7 +162,7 @@ impl Eye {
 #[derive(Clone, Debug)]
 pub struct Parts {
     /// What was said of the photograph.
-    pub told: Told,
+    pub stated: StatedScene,
     /// Where the facets are.
     pub places: Vec<Place>,
     /// Their values: facet by channel.
@@ -186,8 +187,8 @@ impl Parts {
     pub fn in_light(&self, power: &[f64]) -> Self {
         let sun = DVector::from_column_slice(power);
         let mut lit = self.clone();
-        lit.told.daylight = Daylight::of(&lit.eye.daylight, &sun);
-        lit.told.is_daylight_assumed = false;
+        lit.stated.daylight = Daylight::of(&lit.eye.daylight, &sun);
+        lit.stated.is_daylight_assumed = false;
         lit.eye.reference = lit.eye.sensitivities.tr_mul(&sun).imax();
         (lit.eye.sun, lit.eye.sky) = (sun.clone(), sun);
         lit
@@ -196,16 +197,16 @@ impl Parts {
     /// The same in daylight that nobody stated.
     #[must_use]
     pub fn in_any_daylight(&self) -> Self {
-        let power = Daylight::power(&self.eye.daylight, self.told.beliefs.sun_mired);
+        let power = Daylight::power(&self.eye.daylight, self.stated.priors.sun_mired);
         let mut lit = self.in_light(power.as_slice());
-        lit.told.is_daylight_assumed = true;
+        lit.stated.is_daylight_assumed = true;
         lit
     }
 
     /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the ground.
     #[must_use]
     pub fn without_sky(mut self) -> Self {
-        self.told.daylight = None;
+        self.stated.daylight = None;
         self
     }
 }

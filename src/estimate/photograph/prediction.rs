@@ -77,7 +77,7 @@ impl<'a> Predictor<'a, '_> {
 
     /// Values of the facets beside those `here`, under other conditions of what `whose` says alone: what depends on others is not computed
     /// anew.
-    pub fn beside(
+    pub fn shifted(
         &self,
         here: &Predicted<'a>,
         conditions: &Conditions,
@@ -110,17 +110,17 @@ impl<'a> Predictor<'a, '_> {
             Light { radiance, power, weights, to_channels }
         };
         let mut lights = vec![light(Cow::Owned(sunlit), lighting.sun.clone())];
-        if parts.told.daylight.is_some() {
+        if parts.stated.daylight.is_some() {
             let [(sky, sky_power), (ground, ground_power)] = &lighting.ambient;
             let Surroundings { clear, overcast, ground: below } = parts.surroundings.as_ref();
             let of_sky = ambient(
                 conditions,
                 &[(clear, 1.0 - conditions.cloud), (overcast, conditions.cloud)],
-                parts.told.angle_deg,
+                parts.stated.angle_deg,
             );
             lights.push(light(Cow::Owned(of_sky), *sky * sky_power));
             lights.push(light(
-                Cow::Owned(ambient(conditions, &[(below, 1.0)], parts.told.angle_deg)),
+                Cow::Owned(ambient(conditions, &[(below, 1.0)], parts.stated.angle_deg)),
                 *ground * ground_power,
             ));
         }
@@ -139,10 +139,10 @@ impl<'a> Predictor<'a, '_> {
 
 /// Sunlight on the facets, of which a sheet that is not Lambertian sends `beyond` more.
 fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance {
-    let (sun, told) = (&parts.sun, &parts.told);
+    let (sun, stated) = (&parts.sun, &parts.stated);
     let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
     let mut radiance = cos * &sun.even + sin * &sun.odd;
-    sun.angle_deg.add_to(&mut radiance, 1.0, conditions.angle_deg - told.angle_deg);
+    sun.angle_deg.add_to(&mut radiance, 1.0, conditions.angle_deg - stated.angle_deg);
     sun.crease_radius.add_to(&mut radiance, 1.0, conditions.crease_radius);
     sun.bow_deg.add_to(&mut radiance, 1.0, conditions.bow_deg);
     sun.bow_difference_deg.add_to(&mut radiance, 1.0, conditions.bow_difference_deg);
@@ -151,10 +151,10 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
 }
 
 /// So much of each of these lights on the facets.
-fn ambient(conditions: &Conditions, all: &[(&Ambient, f64)], told_deg: f64) -> Radiance {
+fn ambient(conditions: &Conditions, all: &[(&Ambient, f64)], stated_deg: f64) -> Radiance {
     let mut sum = Radiance::zeros(all[0].0.by_angle.nrows(), all[0].0.by_angle.ncols());
     for (light, amount) in all {
-        light.add_to(&mut sum, *amount, conditions, told_deg);
+        light.add_to(&mut sum, *amount, conditions, stated_deg);
     }
     sum
 }

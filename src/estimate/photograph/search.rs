@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conditions::Told;
+use super::conditions::StatedScene;
 use super::corners;
-use super::day::{Day, Found};
+use super::day::{Day, DayEstimate};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
 use super::hypotheses::{Hypothesis, dull_days, hypotheses, hypotheses_without_bounces, usual_hypotheses};
-use super::kinds::Kind;
 use super::parts::Parts;
+use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
 use crate::error::{Error, Result};
 use crate::estimate::emission::Origin;
@@ -56,7 +56,7 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
 /// # Errors
 /// As [`estimate`]; [`Error::Field`] where it was stated that there is no sun, which these have.
 pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
-    if parts.iter().any(|one| one.told.sun <= 0.0) {
+    if parts.iter().any(|one| one.stated.sun <= 0.0) {
         let problem = "photographs are joined and planned in the sun alone; estimate one that the sky lights alone by itself";
         return Err(Error::field("light.sun", problem));
     }
@@ -72,8 +72,8 @@ fn under(
     let (family, start) = relative_to_predictions(Photographs::of(parts), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let told = &family.0.first()?.parts.told;
-    let mut sorted = sorted(&mut search, told, (all, start), &dull_days(&family.0));
+    let stated = &family.0.first()?.parts.stated;
+    let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&family.0));
     if let [only] = family.0.as_slice() {
         add_fluorescing(&mut search, (&family, only), &mut sorted);
     }
@@ -120,20 +120,20 @@ fn relative_to_predictions<'a>(
 /// first. On each dull day the kind of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
-    told: &Told,
+    stated: &StatedScene,
     (hypotheses, start): (impl Iterator<Item = Hypothesis>, DVector<f64>),
     dull_days: &[Day],
 ) -> Vec<Tried> {
     let mut all: Vec<Tried> = Vec::new();
     for hypothesis in hypotheses {
-        sort(search, told, (hypothesis, &start), &mut all);
+        sort(search, stated, (hypothesis, &start), &mut all);
     }
-    let mut kinds: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
-    kinds.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    let kinds: Vec<Kind> = kinds.into_iter().map(|one| one.hypothesis.kind).collect();
+    let mut by_weight: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
+    by_weight.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    let by_weight: Vec<SheetModel> = by_weight.into_iter().map(|one| one.hypothesis.kind).collect();
     for day in dull_days {
-        for kind in &kinds {
-            let behind = sort(search, told, (Hypothesis::on_dull_day(*day, *kind), &start), &mut all);
+        for kind in &by_weight {
+            let behind = sort(search, stated, (Hypothesis::on_dull_day(*day, *kind), &start), &mut all);
             if behind < LN_EVIDENCE_FAR {
                 break;
             }
@@ -148,7 +148,7 @@ fn sorted(
 /// its evidence.
 fn sort(
     search: &mut Search<Photographs>,
-    told: &Told,
+    stated: &StatedScene,
     (hypothesis, first): (Hypothesis, &DVector<f64>),
     all: &mut Vec<Tried>,
 ) -> f64 {
@@ -159,7 +159,7 @@ fn sort(
     });
     let start = Some(nearest.map_or(first, |one| &one.solution.w).clone());
     let ln_best = all.iter().map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
-    let ln_share = hypothesis.ln_share(told);
+    let ln_share = hypothesis.ln_share(stated);
     let Some(found) = search.sort((hypothesis, ln_share), start, ln_best + LN_EVIDENCE_HOPELESS) else {
         return f64::NEG_INFINITY;
     };
@@ -243,9 +243,10 @@ fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
 }
 
 /// The most probable kind of day, folds being those of which most evidence comes first; none if the light is no daylight.
-fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<Found> {
-    photographs.iter().all(|one| one.parts.told.daylight.is_some()).then_some(())?;
-    let found = Day::ALL.map(|day| Found { day, probability: probability(folds, |one| one.day == day) });
+fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
+    photographs.iter().all(|one| one.parts.stated.daylight.is_some()).then_some(())?;
+    let found =
+        Day::ALL.map(|day| DayEstimate { day, probability: probability(folds, |one| one.day == day) });
     found.into_iter().max_by(|a, b| a.probability.total_cmp(&b.probability))
 }
 
@@ -262,17 +263,17 @@ fn all_findings(
     Photograph { parts, .. }: &Photograph,
     found: &Mixture<Hypothesis, ()>,
     seen: &Seen,
-    day: Option<Found>,
+    day: Option<DayEstimate>,
 ) -> Vec<super::Finding> {
     let hypothesis = found.best.start.hypothesis;
     let imperfection = hypothesis.imperfection;
     let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
-    findings.extend(of_unknowns(&seen.fitted, &hypothesis.told(&parts.told), hypothesis));
+    findings.extend(of_unknowns(&seen.fitted, &hypothesis.stated(&parts.stated), hypothesis));
     if !imperfection.is_ideal() {
         findings.extend(corners::findings(
             &seen.shifts,
             &seen.residuals,
-            imperfection.scale * parts.told.beliefs.corner,
+            imperfection.scale * parts.stated.priors.corner,
         ));
     }
     findings
@@ -280,10 +281,14 @@ fn all_findings(
 
 /// What the facets do not speak of.
 fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
-    let untold = fitted.iter().filter(|one| !one.supported).count();
+    let assumed = fitted.iter().filter(|one| !one.supported).count();
     let all = [
         ("searches under a kind of sheets and a class of spectra", searches, "the evidence is against them"),
-        ("unknowns of the scene", untold, "the facets do not tell them: they stay at what is usual"),
+        (
+            "unknowns of the scene",
+            assumed,
+            "the facets do not determine them: they stay at their prior means",
+        ),
     ];
     let of = |(what, count, why)| Skipped { what, count, why };
     all.map(of).into_iter().filter(|one| one.count > 0).collect()
@@ -297,7 +302,7 @@ fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Itera
     let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     let (reflectance, albedo) = found.values[..2 * bands].split_at(bands);
     Estimate {
-        total: (!is_ideal).then(|| within(albedo)),
+        albedo: (!is_ideal).then(|| within(albedo)),
         reflectance: within(reflectance),
         spread: found.spread.as_ref().map(|spread| spread.columns(0, bands).into_owned()),
         exposure: seen.exposure,

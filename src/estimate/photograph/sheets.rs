@@ -42,30 +42,30 @@ impl Departure {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FamilyNodes {
     /// Strengths of the surface's reflection, the first of them 0.
-    pub gloss: [f64; 3],
+    pub specular_weight: [f64; 3],
     /// Its roughnesses.
-    pub gloss_roughness: [f64; 3],
+    pub specular_roughness: [f64; 3],
     /// Roughnesses of the body, degrees.
     pub body_roughness_deg: [f64; 3],
 }
 
 /// The nodes that are used.
 pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
-    gloss: [0.0, 0.4, 1.0],
-    gloss_roughness: [0.28, 0.42, 0.65],
+    specular_weight: [0.0, 0.4, 1.0],
+    specular_roughness: [0.28, 0.42, 0.65],
     body_roughness_deg: [0.0, 12.0, 25.0],
 };
 
-/// Sizes of fuzz at which it is known, on the family in the middle of [`FAMILY_NODES`].
-pub const FUZZ: [f64; 2] = [0.4, 1.0];
+/// Sizes of sheen at which it is known, on the family in the middle of [`FAMILY_NODES`].
+pub const SHEEN: [f64; 2] = [0.4, 1.0];
 /// What is known of how sheets reflect.
 #[derive(Clone, Debug)]
 pub struct Sheets {
     /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength, roughness of the surface,
     /// roughness of the body, the last fastest.
     pub families: Vec<Departure>,
-    /// What [`FUZZ`] changes.
-    pub fuzz: [Departure; 2],
+    /// What [`SHEEN`] changes.
+    pub sheen: [Departure; 2],
     /// Sheets that were measured, each.
     pub measured: Vec<Departure>,
     /// What facets do not tell of measured sheets.

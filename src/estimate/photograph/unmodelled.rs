@@ -26,7 +26,7 @@ impl fmt::Display for Unmodelled {
             Self::UnequalPanels => "one panel is deeper than the other",
             Self::SeveralLights => "there are pictures under several lights",
             Self::OtherLight => "other lights than one sun and one sky were stated",
-            Self::NoPose => "the corners do not tell where the camera stood",
+            Self::NoPose => "the corners do not fix where the camera stood",
             Self::NoFacets => "no facet has any light",
         })
     }

@@ -8,8 +8,8 @@ use nalgebra::DMatrix;
 use super::day::Day;
 use super::error::{ModelError, Whitening};
 use super::imperfection::Discrepancy;
-use super::kinds::Kinds;
 use super::parts::Parts;
+use super::sheet_models::SheetModels;
 use crate::estimate::emission::Emission;
 
 /// A photograph with what does not depend on the class of spectra.
@@ -17,7 +17,7 @@ pub struct Photograph<'a> {
     /// What it is made of.
     pub parts: &'a Parts,
     /// The kinds of sheets as it shows them.
-    pub kinds: Rc<Kinds<'a>>,
+    pub sheet_models: Rc<SheetModels<'a>>,
     /// The values that errors are relative to.
     values: DMatrix<f64>,
     /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first asked for.
@@ -33,13 +33,13 @@ impl<'a> Photograph<'a> {
     /// Photographs of one sheet.
     #[must_use]
     pub fn all(of: &'a [Parts]) -> Vec<Self> {
-        let photograph = |(parts, kinds): (&'a Parts, Kinds<'a>)| {
+        let photograph = |(parts, sheet_models): (&'a Parts, SheetModels<'a>)| {
             let values = parts.values.clone();
-            let kinds = Rc::new(kinds);
-            Self { parts, kinds, values, whitenings: Rc::default(), emissions: OnceCell::new() }
+            let sheet_models = Rc::new(sheet_models);
+            Self { parts, sheet_models, values, whitenings: Rc::default(), emissions: OnceCell::new() }
                 .relative_to(parts.values.clone())
         };
-        of.iter().zip(Kinds::of(of)).map(photograph).collect()
+        of.iter().zip(SheetModels::of(of)).map(photograph).collect()
     }
 
     /// The same with errors relative to these values: facet by channel.
@@ -55,9 +55,9 @@ impl<'a> Photograph<'a> {
     /// The same photograph taken to be in the light of other parts, which are the same otherwise.
     #[must_use]
     pub fn in_light_of(&self, parts: &'a Parts) -> Self {
-        let Self { kinds, values, whitenings, .. } = self;
-        let (kinds, whitenings) = (Rc::clone(kinds), Rc::clone(whitenings));
-        Self { parts, kinds, values: values.clone(), whitenings, emissions: OnceCell::new() }
+        let Self { sheet_models, values, whitenings, .. } = self;
+        let (sheet_models, whitenings) = (Rc::clone(sheet_models), Rc::clone(whitenings));
+        Self { parts, sheet_models, values: values.clone(), whitenings, emissions: OnceCell::new() }
     }
 
     /// What its sheet may send out itself in the light that was stated, nothing first.
@@ -75,7 +75,7 @@ impl<'a> Photograph<'a> {
             other => other,
         };
         let whitening = || {
-            let error = ModelError::of(self.parts.told.beliefs, day).scaled(discrepancy.size());
+            let error = ModelError::of(self.parts.stated.priors, day).scaled(discrepancy.size());
             error.whitening(&self.parts.places, &self.values, &self.parts.sd)
         };
         self.whitenings[discrepancy as usize][day as usize].get_or_init(whitening).as_ref()

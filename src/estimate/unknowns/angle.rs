@@ -5,13 +5,13 @@ use super::{
     Symptom, Unknown, Whose,
 };
 use crate::error::{Error, Result};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 use crate::kernel::mesh::respond;
 
 /// Angle between the panels, degrees. It takes two more solutions of the bounces.
 pub static ANGLE: Unknown = Unknown {
     name: "angle_deg",
-    about: "Angle between the panels",
+    description: "Angle between the panels",
     unit: Some("degrees"),
     flag: &Flag { value: "angle", help: "Angle between the panels" },
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -23,10 +23,10 @@ pub static ANGLE: Unknown = Unknown {
         prior: of_photograph,
         set: |conditions, value| conditions.angle_deg = value,
         symptom: Some(Symptom {
-            ideal: |told| told.angle_deg,
+            ideal: |stated| stated.angle_deg,
             least: 0.4,
-            words: |Fitted { value, sd, .. }, told| {
-                format!("the fold is open by {value:.1} ± {sd:.1}°, not {}° as told", told.angle_deg)
+            words: |Fitted { value, sd, .. }, stated| {
+                format!("the fold is open by {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
             },
             remedy: "measure the angle again",
         }),
@@ -55,7 +55,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     let nodes = [mean - sd, mean, mean + sd];
     let state = |(at, node): (usize, &f64)| {
         let fold = scene.fold.with_angle_deg(*node)?;
-        // the fold that was told is solved already
+        // the fold that was stated is solved already
         let response = if at == 1 { scene.response.clone() } else { respond(&fold, tolerance)?.0 };
         Ok(State { fold, response, factors: vec![(ANGLE.name, Factor::Node { nodes, at })] })
     };
@@ -63,6 +63,6 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: told.angle_deg, sd: told.angle_sd_deg }.into())
+fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+    Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into())
 }

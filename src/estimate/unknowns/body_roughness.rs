@@ -1,12 +1,12 @@
 //! How rough the sheet is under its surface.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
     name: "body_roughness_deg",
-    about: "Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)",
+    description: "Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)",
     unit: Some("degrees"),
     flag: &AUTO,
     range: 0.0..=90.0,
@@ -21,11 +21,11 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 10.0,
             words: |_, _| "the sheet is rough".to_owned(),
-            remedy: "if there is no chart or card in the picture, put one in",
+            remedy: "include a colour chart or a white card",
         }),
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.amount(told.beliefs.body_roughness_deg))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.body_roughness_deg))
 }

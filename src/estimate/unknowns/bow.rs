@@ -1,12 +1,12 @@
 //! Panels that bow.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// By how much both panels turn over their depth, degrees.
 pub static BOW: Unknown = Unknown {
     name: "bow_deg",
-    about: "By how much both panels turn over their depth",
+    description: "By how much both panels turn over their depth",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -29,6 +29,6 @@ pub(super) const BOWED: Symptom = Symptom {
     remedy: "hold them flat, by stiff card behind them",
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: 0.0, sd: told.beliefs.bow_sd_deg }.into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(Normal { mean: 0.0, sd: stated.priors.bow_sd_deg }.into())
 }

@@ -2,12 +2,12 @@
 
 use super::bow::BOWED;
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// By how much panel 0 turns more than both do in the mean, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
     name: "bow_difference_deg",
-    about: "By how much panel 0 turns more than both do in the mean",
+    description: "By how much panel 0 turns more than both do in the mean",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -22,6 +22,6 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: 0.0, sd: told.beliefs.bow_difference_sd_deg }.into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(Normal { mean: 0.0, sd: stated.priors.bow_difference_sd_deg }.into())
 }

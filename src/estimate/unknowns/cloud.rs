@@ -1,12 +1,12 @@
 //! How cloudy the sky is.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Share of the sky's light that is an overcast one's; the rest is a clear one's.
 pub static CLOUD: Unknown = Unknown {
     name: "cloud",
-    about: "Share of the sky's light that is an overcast sky's",
+    description: "Share of the sky's light that is an overcast sky's",
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
@@ -21,6 +21,6 @@ pub static CLOUD: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    told.daylight.and_then(|_| told.day.cloud(told.beliefs)).map(Normal::into)
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    stated.daylight.and_then(|_| stated.day.cloud(stated.priors)).map(Normal::into)
 }

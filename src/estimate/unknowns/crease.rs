@@ -1,12 +1,12 @@
 //! A crease that is round.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Radius of the rounded crease, in depths of the panels.
 pub static CREASE: Unknown = Unknown {
     name: "crease_radius",
-    about: "Radius of the rounded crease, in depths of the panels",
+    description: "Radius of the rounded crease, in depths of the panels",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -26,6 +26,6 @@ pub static CREASE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.amount(told.beliefs.crease_radius))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.crease_radius))
 }

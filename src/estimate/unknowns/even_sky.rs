@@ -1,12 +1,12 @@
 //! A sky that is alike in all directions, as computed scenes have it.
 
 use super::{AUTO, Effect, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being 1.
 pub static EVEN_SKY: Unknown = Unknown {
     name: "even_sky",
-    about: "Irradiance of an open plane by light that is alike in all directions, relative to the sun's",
+    description: "Irradiance of an open plane by light that is alike in all directions, relative to the sun's",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -15,15 +15,15 @@ pub static EVEN_SKY: Unknown = Unknown {
     photograph: Some(Effect {
         whose: Whose::Light,
         known: |_| Known::Imperfection,
-        prior: |told| Some(told.beliefs.amount(told.beliefs.even_sky)),
+        prior: |stated| Some(stated.priors.amount(stated.priors.even_sky)),
         set: |conditions, value| conditions.even_sky = value,
         symptom: Some(Symptom {
-            ideal: Told::even_sky,
+            ideal: StatedScene::even_sky,
             least: 0.02,
-            words: |Fitted { value, .. }, told| {
+            words: |Fitted { value, .. }, stated| {
                 format!(
-                    "light from all directions is {value:.2} of the sun's, not {} as told",
-                    told.even_sky()
+                    "light from all directions is {value:.2} of the sun's, not {} as stated",
+                    stated.even_sky()
                 )
             },
             remedy: "give vkernel --sky, or photograph the sheet where little but the sun lights it",

@@ -1,12 +1,12 @@
 //! Light that falls off along the crease.
 
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// By how much one end of the crease has less light than the other, relative to its middle; negative: more.
 pub static FALL_OFF: Unknown = Unknown {
     name: "fall_off",
-    about: "By how much end 1 of the crease has less light than end 0, relative to the middle",
+    description: "By how much end 1 of the crease has less light than end 0, relative to the middle",
     unit: None,
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -31,6 +31,6 @@ pub static FALL_OFF: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.unevenness().into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.unevenness().into())
 }

@@ -1,12 +1,12 @@
 //! How much more the first channel amplifies than it should.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Gain of the first channel beside the second, relative to what was said.
 pub static FIRST_GAIN: Unknown = Unknown {
     name: "first_gain",
-    about: "Gain of the first channel beside the second, relative to what was said",
+    description: "Gain of the first channel beside the second, relative to the stated one",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -14,7 +14,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
-        known: |_| Known::Told,
+        known: |_| Known::Nominal,
         prior,
         set: |conditions, value| conditions.gains[0] = value,
         symptom: Some(UNBALANCED),
@@ -25,10 +25,10 @@ pub static FIRST_GAIN: Unknown = Unknown {
 pub(super) const UNBALANCED: Symptom = Symptom {
     ideal: |_| 1.0,
     least: 0.02,
-    words: |_, _| "the channels are not balanced as they were told".to_owned(),
+    words: |_, _| "the channels are not balanced as stated".to_owned(),
     remedy: "photograph a grey card with the sheet",
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd }.into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    (stated.channels == 3).then_some(Normal { mean: 0.0, sd: stated.priors.gain_sd }.into())
 }

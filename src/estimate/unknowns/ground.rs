@@ -1,12 +1,12 @@
 //! Light from what lies below the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Reflectance of the ground at 550 nm.
 pub static GROUND: Unknown = Unknown {
     name: "ground",
-    about: "Reflectance of the ground at 550 nm",
+    description: "Reflectance of the ground at 550 nm",
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
@@ -26,6 +26,6 @@ pub static GROUND: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    told.daylight.map(|_| told.beliefs.amount(told.beliefs.ground))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    stated.daylight.map(|_| stated.priors.amount(stated.priors.ground))
 }

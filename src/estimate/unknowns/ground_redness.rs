@@ -1,12 +1,12 @@
 //! The colour of what lies below the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
 pub static GROUND_REDNESS: Unknown = Unknown {
     name: "ground_redness",
-    about: "Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm",
+    description: "Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm",
     unit: None,
     flag: &AUTO,
     range: -1.0..=2.0,
@@ -21,7 +21,8 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    told.daylight
-        .map(|_| Normal { mean: told.beliefs.ground_redness, sd: told.beliefs.ground_redness_sd }.into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    stated
+        .daylight
+        .map(|_| Normal { mean: stated.priors.ground_redness, sd: stated.priors.ground_redness_sd }.into())
 }

@@ -2,12 +2,12 @@
 
 use super::first_gain::UNBALANCED;
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Gain of the last channel beside the second, relative to what was said.
 pub static LAST_GAIN: Unknown = Unknown {
     name: "last_gain",
-    about: "Gain of the last channel beside the second, relative to what was said",
+    description: "Gain of the last channel beside the second, relative to the stated one",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -15,13 +15,13 @@ pub static LAST_GAIN: Unknown = Unknown {
     role: Role::Photograph,
     photograph: Some(Effect {
         whose: Whose::Lens,
-        known: |_| Known::Told,
+        known: |_| Known::Nominal,
         prior,
         set: |conditions, value| conditions.gains[1] = value,
         symptom: Some(UNBALANCED),
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    (told.channels == 3).then_some(Normal { mean: 0.0, sd: told.beliefs.gain_sd }.into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    (stated.channels == 3).then_some(Normal { mean: 0.0, sd: stated.priors.gain_sd }.into())
 }

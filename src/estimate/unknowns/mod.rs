@@ -21,22 +21,22 @@ mod factor;
 mod fall_off;
 mod first_gain;
 mod fold_model;
-mod fuzz;
-mod glare;
-mod gloss;
-mod gloss_roughness;
 mod ground;
 mod ground_redness;
 mod last_gain;
 mod nearness;
 mod scene_model;
+mod sheen;
 mod sky;
 mod sky_colour;
 mod sources;
+mod specular_roughness;
+mod specular_weight;
 mod sun;
 mod sun_colour;
 mod tilt;
 mod unknown;
+mod veiling_glare;
 mod vignetting;
 
 pub use angle::ANGLE;
@@ -51,22 +51,22 @@ pub use exposure::EXPOSURE;
 pub use factor::Factor;
 use fall_off::FALL_OFF;
 use first_gain::FIRST_GAIN;
-use fuzz::FUZZ;
-use glare::GLARE;
-use gloss::GLOSS;
-use gloss_roughness::GLOSS_ROUGHNESS;
 use ground::GROUND;
 use ground_redness::GROUND_REDNESS;
 use last_gain::LAST_GAIN;
 use nearness::NEARNESS;
 pub use scene_model::{Amounts, Expected, SceneModel};
+use sheen::SHEEN;
 pub use sky::SKY;
 pub use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
+use specular_roughness::SPECULAR_ROUGHNESS;
+use specular_weight::SPECULAR_WEIGHT;
 use sun::SUN;
 pub use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
 pub use unknown::{AUTO, Effect, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
+use veiling_glare::VEILING_GLARE;
 use vignetting::VIGNETTING;
 
 pub use super::normal::{Expectation, Normal, Scale};
@@ -85,24 +85,34 @@ pub static TABLE: &[&Unknown] = &[
     &SUN,
     &CLOUD,
     &ELEVATION,
-    &GLOSS,
-    &GLOSS_ROUGHNESS,
+    &SPECULAR_WEIGHT,
+    &SPECULAR_ROUGHNESS,
     &BODY_ROUGHNESS,
-    &FUZZ,
+    &SHEEN,
     &CREASE,
     &BOW,
     &BOW_DIFFERENCE,
     &NEARNESS,
     &FALL_OFF,
     &VIGNETTING,
-    &GLARE,
+    &VEILING_GLARE,
     &FIRST_GAIN,
     &LAST_GAIN,
 ];
 
-/// The unknown of this name in records.
+/// Names of fields in records of earlier versions, with those of today.
+const EARLIER_NAMES: [(&str, &str); 4] = [
+    ("fuzz", "sheen"),
+    ("gloss", "specular_weight"),
+    ("gloss_roughness", "specular_roughness"),
+    ("glare", "veiling_glare"),
+];
+
+/// The unknown of this name in records, those of earlier versions included.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Unknown> {
+    let earlier = EARLIER_NAMES.iter().find(|(earlier, _)| *earlier == name);
+    let name = earlier.map_or(name, |(_, today)| today);
     TABLE.iter().copied().find(|unknown| unknown.name == name)
 }
 

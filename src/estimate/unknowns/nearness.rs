@@ -1,12 +1,12 @@
 //! A lamp near by in the place of the sun.
 
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Depth of a panel over the distance of the lamp that lights it: 0 of the sun.
 pub static NEARNESS: Unknown = Unknown {
     name: "nearness",
-    about: "Depth of a panel over the distance of the lamp that lights it",
+    description: "Depth of a panel over the distance of the lamp that lights it",
     unit: None,
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -31,6 +31,6 @@ pub static NEARNESS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.unevenness().into())
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.unevenness().into())
 }

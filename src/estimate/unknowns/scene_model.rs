@@ -128,7 +128,7 @@ impl SceneModel {
 
     /// The model with its unknowns known to be as they were `found`, in their units, or as expected where they were not.
     #[must_use]
-    pub fn with_found(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
+    pub fn with_fitted(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
         let value = |one: &Expected| found(one.unknown).unwrap_or_else(|| one.at(0.0).0);
         self.with_values(&self.unknowns.iter().map(value).collect::<Vec<f64>>())
     }

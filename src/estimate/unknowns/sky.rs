@@ -5,12 +5,12 @@ use super::{
     Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Unknown, Whose,
 };
 use crate::error::Result;
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
 pub static SKY: Unknown = Unknown {
     name: "sky",
-    about: "Irradiance by the sky of an open plane that faces the sun, relative to the sun's",
+    description: "Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the sun's",
     unit: None,
     flag: &Flag {
         value: "sky",
@@ -47,7 +47,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Expectation> {
-    let beside_sun = told.sky.filter(|_| told.sun > 0.0);
-    told.daylight.and_then(|_| told.day.sky(told.beliefs, beside_sun)).map(Normal::into)
+fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+    let with_sun = stated.sky.filter(|_| stated.sun > 0.0);
+    stated.daylight.and_then(|_| stated.day.sky(stated.priors, with_sun)).map(Normal::into)
 }

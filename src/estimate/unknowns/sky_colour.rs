@@ -5,13 +5,13 @@ use super::{
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 use crate::spectrum::{self, Outside};
 
 /// Correlated colour temperature of the sky, K, unless the scene has a sky illuminant; its reciprocal, in 1e-6/K, is normal.
 pub static SKY_COLOUR: Unknown = Unknown {
     name: "sky_cct_k",
-    about: "Correlated colour temperature of the sky",
+    description: "Correlated colour temperature of the sky",
     unit: Some("K"),
     flag: SKY.flag,
     range: 1e3..=1e5,
@@ -58,8 +58,8 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
 }
 
-fn of_photograph(told: &Told) -> Option<Expectation> {
-    let shown = told.shown.and_then(|shown| shown.sky[told.day as usize]);
-    let usual = || told.day.sky_mired(told.beliefs);
-    told.daylight.filter(|_| !told.has_sky_illuminant).map(|_| shown.unwrap_or_else(usual).into())
+fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+    let shown = stated.shown.and_then(|shown| shown.sky[stated.day as usize]);
+    let usual = || stated.day.sky_mired(stated.priors);
+    stated.daylight.filter(|_| !stated.has_sky_illuminant).map(|_| shown.unwrap_or_else(usual).into())
 }

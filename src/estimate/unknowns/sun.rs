@@ -1,12 +1,12 @@
 //! How much of the sun comes through clouds, or past what throws a shadow.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane is 1.
 pub static SUN: Unknown = Unknown {
     name: "sun",
-    about: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's of an open horizontal plane",
+    description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's of an open horizontal plane",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -21,6 +21,6 @@ pub static SUN: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    told.daylight.filter(|_| !told.day.has_sun()).map(|_| told.beliefs.amount(told.beliefs.hidden_sun))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    stated.daylight.filter(|_| !stated.day.has_sun()).map(|_| stated.priors.amount(stated.priors.hidden_sun))
 }

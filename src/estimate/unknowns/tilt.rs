@@ -5,12 +5,12 @@ use super::{
     Unknown, Whose,
 };
 use crate::error::Result;
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Angle of the sun off the bisecting plane, degrees.
 pub static TILT: Unknown = Unknown {
     name: "tilt_deg",
-    about: "Angle of the sun off the plane that halves the fold",
+    description: "Angle of the sun off the plane that halves the fold",
     unit: Some("degrees"),
     flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -22,9 +22,9 @@ pub static TILT: Unknown = Unknown {
         prior: of_photograph,
         set: |conditions, value| conditions.tilt_deg = value,
         symptom: Some(Symptom {
-            ideal: |told| told.tilt_deg,
+            ideal: |stated| stated.tilt_deg,
             least: 1.0,
-            words: |_, _| "the sun stood elsewhere than it was told".to_owned(),
+            words: |_, _| "the sun stood elsewhere than stated".to_owned(),
             remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
         }),
     }),
@@ -53,6 +53,6 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(told: &Told) -> Option<Expectation> {
-    Some(Normal { mean: told.tilt_deg, sd: told.beliefs.tilt_sd_deg }.into())
+fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+    Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into())
 }

@@ -6,21 +6,21 @@ use std::ops::RangeInclusive;
 use super::sources::{FoldInLight, Sources};
 use crate::error::Result;
 use crate::estimate::normal::{Expectation, Normal, Scale};
-use crate::estimate::photograph::conditions::{Conditions, Told};
+use crate::estimate::photograph::conditions::{Conditions, StatedScene};
 
 /// What asks for everything that photographs of real sheets need.
 pub static AUTO: Flag =
-    Flag { value: "auto", help: "All that sets a real sheet apart from an ideal one, bounded by priors" };
+    Flag { value: "auto", help: "All effects of real sheets, lights and lenses, each with a prior" };
 
-/// What asks that the scene is believed as it is told.
-pub static NONE: Flag = Flag { value: "none", help: "Nothing: the scene is believed as it is told" };
+/// Takes the scene as stated.
+pub static NONE: Flag = Flag { value: "none", help: "Nothing: the scene is taken as stated" };
 
 /// A number of the scene that can be fitted.
 pub struct Unknown {
     /// Name of the field in records, unit included.
     pub name: &'static str,
     /// What it is, for the schema; without the unit.
-    pub about: &'static str,
+    pub description: &'static str,
     /// The unit in full; none for a ratio.
     pub unit: Option<&'static str>,
     /// What asks for it.
@@ -40,12 +40,12 @@ pub struct Effect {
     /// What it is a number of.
     pub whose: Whose,
     /// How it is known.
-    pub known: fn(&Told) -> Known,
+    pub known: fn(&StatedScene) -> Known,
     /// What is known of it before the picture is looked at; none where it does not occur.
-    pub prior: fn(&Told) -> Option<Expectation>,
+    pub prior: fn(&StatedScene) -> Option<Expectation>,
     /// Makes it one of the conditions.
     pub set: fn(&mut Conditions, f64),
-    /// What the user is told of it; none of what every photograph has.
+    /// What the user reads about it; none of what every photograph has.
     pub symptom: Option<Symptom>,
 }
 
@@ -75,8 +75,8 @@ pub enum Known {
     Metered,
     /// A chart or a card showed it, which is no blunder.
     Shown,
-    /// Camera and light were told: they are as two of a kind differ.
-    Told,
+    /// Camera and light were stated: they are as two of a kind differ.
+    Nominal,
     /// An ideal fold does not have it: there is more of it, the less ideal a photograph is.
     Imperfection,
     /// It is a property of what an ideal fold does not have.
@@ -87,11 +87,11 @@ pub enum Known {
 #[derive(Debug)]
 pub struct Symptom {
     /// Value where nothing is wrong.
-    pub ideal: fn(&Told) -> f64,
+    pub ideal: fn(&StatedScene) -> f64,
     /// Least difference from it that is worth a word.
     pub least: f64,
     /// What is wrong.
-    pub words: fn(&Fitted, &Told) -> String,
+    pub words: fn(&Fitted, &StatedScene) -> String,
     /// What to do about it.
     pub remedy: &'static str,
 }

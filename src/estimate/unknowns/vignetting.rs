@@ -1,12 +1,12 @@
 //! A lens that darkens the corners of the picture.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
 /// Share of the light that the lens loses in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
     name: "vignetting",
-    about: "Share of the light that the lens loses in the picture's corners",
+    description: "Share of the light that the lens loses in the picture's corners",
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
@@ -26,6 +26,6 @@ pub static VIGNETTING: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.amount(told.beliefs.vignetting))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.vignetting))
 }

@@ -19,7 +19,7 @@ pub struct White {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Balance {
     pub(super) gains: [f64; 3],
-    pub(super) said: String,
+    pub(super) caption: String,
 }
 
 impl Balance {
@@ -29,19 +29,19 @@ impl Balance {
         let info = photograph.info();
         let is_developed = info.transfer_used == Transfer::Srgb && info.undone.is_none();
         if is_developed || photograph.channels() != 3 {
-            return Self { gains: [1.0; 3], said: "colours as they are stored".to_owned() };
+            return Self { gains: [1.0; 3], caption: "colours as they are stored".to_owned() };
         }
         let known = white.and_then(|White { values, by }| {
             let [r, g, b] = <[f64; 3]>::try_from(values.as_slice()).ok()?;
             let is_white = r.min(g).min(b) > 0.0;
             is_white.then(|| Self {
                 gains: [g / r, 1.0, g / b],
-                said: format!("white balanced for display: {by}"),
+                caption: format!("white balanced for display: {by}"),
             })
         });
         known.unwrap_or_else(|| Self {
             gains: OF_MOST_CAMERAS,
-            said: "white balanced for display as most cameras have daylight".to_owned(),
+            caption: "white balanced for display as most cameras have daylight".to_owned(),
         })
     }
 }

@@ -12,7 +12,7 @@ use crate::image::placing::{Grid, Point, Quadrilateral};
 /// Longest side of an overlay, px; small photographs are enlarged in whole pixels.
 const LONGEST_PX: f64 = 1600.0;
 
-/// Colours of grids, in the order in which they are given, which can be told apart by colour-blind people too.
+/// Colours of grids, in the order in which they are given, which colour-blind people can distinguish, too.
 /// Source: M. Okabe, K. Ito, *Color Universal Design* (2008).
 const GRIDS: [[f64; 3]; 4] = [[0.34, 0.71, 0.91], [0.90, 0.62, 0.0], [0.0, 0.62, 0.45], [0.94, 0.89, 0.26]];
 /// Colour of the pixels that were left out.
@@ -80,7 +80,7 @@ pub fn write_overlay(
             canvas.say(name, canvas.at(grid.outline.to_image(u, 0.0)));
         }
     }
-    canvas.note(&balance.said);
+    canvas.note(&balance.caption);
     canvas.write(path)
 }
 

@@ -83,7 +83,7 @@ impl Canvas {
 pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance: &Balance) -> Result<()> {
     let longest = photograph.width().max(photograph.height());
     let mut canvas = Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0), balance);
-    canvas.note(&format!("preview, {}", balance.said));
+    canvas.note(&format!("preview, {}", balance.caption));
     canvas.write_naming(path, Some(name))
 }
 

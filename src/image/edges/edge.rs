@@ -170,7 +170,7 @@ pub(super) fn common_blur(looks: &[Look]) -> usize {
 }
 
 impl Look {
-    /// The edge, if there is one; under a blur, if the sheet ends there, else under the likeliest.
+    /// The edge, if there is one; under a blur, if the sheet ends there, else under the most probable.
     pub fn edge(&self, blur: usize) -> Option<Edge> {
         let usable = self.blurred.iter().filter(|blurred| !self.ends_here || blurred.blur == blur);
         let with_gain = usable.map(|blurred| (greatest(&blurred.likelihoods), &blurred.likelihoods));

@@ -13,14 +13,14 @@ pub(super) const PLACES: usize = 25;
 /// How far a lens may spread an edge to either side, px, beyond what a pixel does.
 const BLURS_PX: [f64; BLURS] = [0.0, 2.0, 4.0, 9.0];
 pub(super) const BLURS: usize = 4;
-/// The sheet is looked at no nearer than this to an edge of each blur, px, beyond [`BESIDE_PX`].
+/// The sheet is looked at no nearer than this to an edge of each blur, px, beyond [`CLEARANCE_PX`].
 const CLEAR_PX: [f64; BLURS] = [0.0, 0.0, 3.0, 6.75];
 /// Residuals below this part of the light count as nothing.
 const EXACT: f64 = 1e-3;
 /// A sheet goes on up to its edge if its light varies there by no more than this, relative to further inwards.
 const UNEVEN: f64 = 2.0;
 /// Pixels nearer to an edge than that may see what is beyond it, px.
-const BESIDE_PX: f64 = 2.0;
+const CLEARANCE_PX: f64 = 2.0;
 
 /// Some pixels near a side.
 pub(super) struct Piece {
@@ -73,7 +73,7 @@ impl Piece {
         let Some((further, _)) = within(reach_px) else { return [0.0; PLACES] };
         let usual = further * UNEVEN * UNEVEN;
         std::array::from_fn(|place| {
-            within(inwards * offset(place, reach_px) + BESIDE_PX + CLEAR_PX[blur])
+            within(inwards * offset(place, reach_px) + CLEARANCE_PX + CLEAR_PX[blur])
                 .map_or(0.0, |(variance, count)| 0.5 * count * self.sum_of_ln(variance.sup(&usual), usual))
         })
     }

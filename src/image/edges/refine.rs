@@ -132,9 +132,9 @@ pub(in crate::image) fn settle(
 ) -> Result<Settled> {
     panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
-    let given: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
+    let marked: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
     let sides = sides(panels);
-    let mut corners = given.clone();
+    let mut corners = marked.clone();
     let mut reaches = vec![reach_px; sides.len()];
     let mut known_blur = blur;
     let (mut first_edges, mut edges) = (Vec::new(), Vec::new());
@@ -153,7 +153,7 @@ pub(in crate::image) fn settle(
         let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
         let blur = *known_blur.get_or_insert_with(|| common_blur(&looks));
         edges = looks.iter().map(|look| look.edge(blur)).collect();
-        corners = meeting_point(&given, &corners, &sides, &edges, reach_px);
+        corners = meeting_point(&marked, &corners, &sides, &edges, reach_px);
         for (reach, edge) in reaches.iter_mut().zip(&edges) {
             let nearer = edge.as_ref().map_or(reach_px, |edge| LEAST_SDS * edge.sd_px);
             *reach = nearer.max(NEARER * *reach).min(reach_px);
@@ -204,10 +204,10 @@ fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
     (0..count).map(place).collect()
 }
 
-/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the `given` corners count as
+/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the `marked` corners count as
 /// known to within the reach.
 fn meeting_point(
-    given: &[Point],
+    marked: &[Point],
     corners: &[Point],
     sides: &[Ends],
     edges: &[Option<Edge>],
@@ -217,8 +217,8 @@ fn meeting_point(
     let unsure = 1.0 / (reach_px * reach_px);
     let mut normal = DMatrix::from_diagonal_element(unknowns, unknowns, unsure);
     let mut right = DVector::from_fn(unknowns, |k, _| {
-        let (given, corner) = (given[k / 2], corners[k / 2]);
-        unsure * if k % 2 == 0 { given.x - corner.x } else { given.y - corner.y }
+        let (marked, corner) = (marked[k / 2], corners[k / 2]);
+        unsure * if k % 2 == 0 { marked.x - corner.x } else { marked.y - corner.y }
     });
     for (&Ends { from, to, .. }, edge) in sides.iter().zip(edges) {
         let Some(edge) = edge else { continue };

@@ -1,4 +1,4 @@
-//! The likeliest folds, their sides moved to where edges explain the pixels best, and what tells whether all corners are right.
+//! The most probable folds, their sides moved to where edges explain the pixels best, and what tells whether all corners are right.
 
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ pub(super) struct Candidate {
     pub clues: [f64; CLUES],
 }
 
-/// The folds that a reduced picture may show, of those that `may_be` it, and the likeliest of them refined.
+/// The folds that a reduced picture may show, of those that `may_be` it, and the most probable of them refined.
 pub(super) fn candidates(
     reduced: &Reduced,
     may_be: impl Fn(&Outline) -> bool,
@@ -41,14 +41,14 @@ pub(super) fn candidates(
     let Ok(picture) = reduced.photograph() else { return (hypotheses, Vec::new()) };
     let refine =
         |hypothesis: &Hypothesis, blur: Option<usize>| Refined::of(hypothesis, &views, &picture, blur);
-    let Some((likeliest, others)) = hypotheses[..TRIED.min(hypotheses.len())].split_first() else {
+    let Some((first, others)) = hypotheses[..TRIED.min(hypotheses.len())].split_first() else {
         return (hypotheses, Vec::new());
     };
-    // the picture's blur is that of its likeliest fold
-    let likeliest = refine(likeliest, None);
-    let blur = likeliest.as_ref().and_then(|likeliest| likeliest.blur);
+    // the picture's blur is that of its most probable fold
+    let first = refine(first, None);
+    let blur = first.as_ref().and_then(|first| first.blur);
     let others: Vec<Refined> = others.par_iter().filter_map(|other| refine(other, blur)).collect();
-    let refined: Vec<Refined> = likeliest.into_iter().chain(others).collect();
+    let refined: Vec<Refined> = first.into_iter().chain(others).collect();
     let candidate = |n: usize| Candidate { outline: refined[n].now.outline, clues: clues(&refined, n) };
     let candidates = (0..refined.len()).map(candidate).collect();
     (hypotheses, candidates)

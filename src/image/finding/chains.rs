@@ -78,7 +78,7 @@ impl EdgeMap {
     }
 
     /// Strengths one pixel to either side across the edge; none at the picture's edge.
-    fn beside(&self, k: usize) -> Option<[f32; 2]> {
+    fn neighbours(&self, k: usize) -> Option<[f32; 2]> {
         let (x, y) = ((k % self.width) as f32, (k / self.width) as f32);
         let [nx, ny] = self.across[k];
         let at = |x: f32, y: f32| {
@@ -102,13 +102,13 @@ impl EdgeMap {
     /// Whether a pixel is stronger than both beside it.
     fn is_crest(&self, k: usize, least: f32) -> bool {
         let strength = self.strength[k];
-        strength >= least && self.beside(k).is_some_and(|[a, b]| a <= strength && b < strength)
+        strength >= least && self.neighbours(k).is_some_and(|[a, b]| a <= strength && b < strength)
     }
 
     /// Where exactly the edge crosses a pixel.
     fn crossing(&self, k: usize) -> Place {
         let centre = Place::new((k % self.width) as f64 + 0.5, (k / self.width) as f64 + 0.5);
-        let Some([a, b]) = self.beside(k) else { return centre };
+        let Some([a, b]) = self.neighbours(k) else { return centre };
         let bend = a - 2.0 * self.strength[k] + b;
         let offset =
             if bend < 0.0 { (0.5 * (a - b) / bend).clamp(-MOST_SUBPIXEL, MOST_SUBPIXEL) } else { 0.0 };

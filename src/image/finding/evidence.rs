@@ -171,9 +171,9 @@ mod tests {
             evidence.support(fold.side(side), 24, &[-1.0, 0.0, 1.0])
         };
         for side in 1..7 {
-            let (at, beside) = (support(outline(), side), support(off(25.0), side));
+            let (at, neighbours) = (support(outline(), side), support(off(25.0), side));
             assert!(at.step > 0.7 && at.weakest > 0.8, "{side}: {at:?}");
-            assert!(beside.step < at.step - 0.2, "{side}: {beside:?}");
+            assert!(neighbours.step < at.step - 0.2, "{side}: {neighbours:?}");
         }
         assert!(support(outline(), 0).ridge > 0.7, "{:?}", support(outline(), 0));
     }

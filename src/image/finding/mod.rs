@@ -7,10 +7,10 @@
 //! 1. [`reduced`], [`plane`], [`evidence`]: a small copy, and steps and ridges of light in all its channels;
 //! 2. [`chains`], [`segments`]: straight edges and ridges;
 //! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants of where their crease is;
-//! 4. [`light`], [`score`], [`search`]: the likeliest of these against "no fold", a logit over what is seen of each;
+//! 4. [`light`], [`score`], [`search`]: the most probable of these against "no fold", a logit over what is seen of each;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is likeliest to be right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
+//! The fold that is most probably right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
 
 mod candidates;
 mod chains;
@@ -37,14 +37,14 @@ use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
 use super::placing::{Lens, Point};
 use candidates::{Candidate, candidates};
-pub use chart::{FoundChart, find_chart, weighed_chart};
+pub use chart::{DetectedChart, find_chart, weighed_chart};
 use outline::{Outline, Place};
 use reduced::Reduced;
 use trust::confidence;
 
 /// A fold in a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FoundFold {
+pub struct DetectedFold {
     /// Corners of panels 0 and 1, px of the upright picture, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). Of an
     /// upright crease end 0 is below and panel 0 on the left; of a level one panel 0 is the lower.
     pub panels: [[Point; 4]; 2],
@@ -52,7 +52,7 @@ pub struct FoundFold {
     pub confidence: f64,
 }
 
-impl FoundFold {
+impl DetectedFold {
     /// From this confidence on a fold is measured without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
     pub const SURE: f64 = 0.97;
 
@@ -108,8 +108,8 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// assert_eq!(find_fold(&empty, &Lens::STRAIGHT), Err(NoFold::Nothing));
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<FoundFold, NoFold> {
-    likeliest(photograph, lens, LEAST_CONFIDENCE, |_| true)
+pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, NoFold> {
+    most_probable(photograph, lens, LEAST_CONFIDENCE, |_| true)
 }
 
 /// The fold of which two places, px, are on the two panels, in either order; somebody looks at it, however unsure it is.
@@ -129,24 +129,24 @@ pub fn find_fold_around(
     photograph: &Photograph,
     lens: &Lens,
     panels: [Point; 2],
-) -> Result<FoundFold, NoFold> {
-    likeliest(photograph, lens, 0.0, |outline| outline.has_panels_at(panels))
+) -> Result<DetectedFold, NoFold> {
+    most_probable(photograph, lens, 0.0, |outline| outline.has_panels_at(panels))
 }
 
-/// The likeliest fold among some.
-fn likeliest(
+/// The most probable fold among some.
+fn most_probable(
     photograph: &Photograph,
     lens: &Lens,
     least_confidence: f64,
     may_be: impl Fn(&Outline) -> bool,
-) -> Result<FoundFold, NoFold> {
+) -> Result<DetectedFold, NoFold> {
     let reduced = Reduced::of(photograph);
     let (_, candidates) = candidates(&reduced, |outline| may_be(&outline.scaled(reduced.scale as f64)));
     let trusted = candidates.iter().map(|candidate| (confidence(&candidate.clues), candidate));
     let best = trusted.max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(NoFold::Nothing)?;
     let (confidence, Candidate { outline, .. }) = best;
     let nearest = nearest_to_frame(outline, &reduced);
-    if nearest < -BEYOND_PX || (confidence < FoundFold::SURE && nearest < AT_EDGE_PX) {
+    if nearest < -BEYOND_PX || (confidence < DetectedFold::SURE && nearest < AT_EDGE_PX) {
         return Err(NoFold::Cut);
     }
     if confidence < least_confidence {
@@ -158,7 +158,7 @@ fn likeliest(
     let refined = refine_in_sight(photograph, &outline.marked(), lens, reach_px, MOST_OF_PIECE).ok();
     let exact = refined.map(|refined| Outline::of_panels([refined.panels[0], refined.panels[1]]));
     let exact = exact.filter(Outline::may_be_fold).unwrap_or(outline);
-    Ok(FoundFold { panels: exact.points(), confidence })
+    Ok(DetectedFold { panels: exact.points(), confidence })
 }
 
 /// The least distance of a corner from the edge of the reduced picture, px, negative beyond it.
@@ -171,13 +171,13 @@ fn nearest_to_frame(outline: &Outline, reduced: &Reduced) -> f64 {
 /// A fold that the search weighed, and what it weighed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WeighedFold {
-    /// Corners of both panels, px, as [`FoundFold::panels`].
+    /// Corners of both panels, px, as [`DetectedFold::panels`].
     pub panels: [[Point; 4]; 2],
     /// What speaks for it and against it.
     pub weighed: Vec<f64>,
 }
 
-/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the likeliest of them refined.
+/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the most probable of them refined.
 #[must_use]
 pub fn weighed_folds(photograph: &Photograph) -> [Vec<WeighedFold>; 2] {
     let reduced = Reduced::of(photograph);
@@ -199,7 +199,7 @@ mod tests {
     use super::synthetic::{HEIGHT, WIDTH, outline, picture};
     use super::*;
 
-    fn found(fold: &Outline, scale: usize) -> FoundFold {
+    fn found(fold: &Outline, scale: usize) -> DetectedFold {
         find_fold(&picture(fold, scale), &Lens::STRAIGHT).unwrap()
     }
 

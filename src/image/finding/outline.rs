@@ -142,7 +142,7 @@ impl Outline {
     }
 }
 
-/// The likeliest folds, at most `most`, of those less than `apart_px` from a likelier one only that; `folds` with their scores.
+/// The most probable folds, at most `most`, of those less than `apart_px` from a more probable one only that; `folds` with their scores.
 pub(super) fn distinct(mut folds: Vec<(f64, Outline)>, apart_px: f64, most: usize) -> Vec<(f64, Outline)> {
     folds.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut kept: Vec<(f64, Outline)> = Vec::new();

@@ -15,7 +15,7 @@ const DEEPER: f64 = 4.5;
 /// Places across a quadrilateral where it may be cut, along it, and to either side of a ridge.
 const CUTS: usize = 40;
 const ALONG: usize = 10;
-const BESIDE: usize = 5;
+const AWAY: usize = 5;
 /// The least ridge of the logarithm of light at which a quadrilateral is cut.
 const LEAST_RIDGE: f64 = 0.01;
 
@@ -76,8 +76,8 @@ fn half(quad: &Quad, light: &LogLight) -> Option<Outline> {
         seen.get(seen.len() / 2).copied()
     };
     let profile: Vec<f64> = (0..CUTS).map(brightness).collect::<Option<_>>()?;
-    let ridge = |n: usize| 2.0 * profile[n] - profile[n - BESIDE] - profile[n + BESIDE];
-    let cut = (BESIDE..CUTS - BESIDE).max_by(|a, b| ridge(*a).total_cmp(&ridge(*b)))?;
+    let ridge = |n: usize| 2.0 * profile[n] - profile[n - AWAY] - profile[n + AWAY];
+    let cut = (AWAY..CUTS - AWAY).max_by(|a, b| ridge(*a).total_cmp(&ridge(*b)))?;
     let (from, to) = ends(part(cut, CUTS));
     (ridge(cut) > LEAST_RIDGE).then(|| Outline([from, to, quad[3], quad[0], quad[2], quad[1]]))
 }

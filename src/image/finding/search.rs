@@ -1,4 +1,4 @@
-//! Folds that a picture may show, the likeliest first.
+//! Folds that a picture may show, the most probable first.
 
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ const HALVED: usize = 40;
 const PAIRS: usize = 150;
 /// Pairs are different if a corner is off by more than this, px.
 const PAIRS_APART_PX: f64 = 3.0;
-/// Of the likeliest pairs so many have their creases straightened, and slid.
+/// Of the most probable pairs so many have their creases straightened, and slid.
 const STRAIGHTENED: usize = 40;
 const SLID: usize = 60;
 /// Sides are moved by so much to an edge, px, and less where the crease was slid.
@@ -49,7 +49,7 @@ pub(super) struct Hypothesis {
     pub log_odds: f64,
 }
 
-/// The likeliest folds of a reduced picture, in its pixels.
+/// The most probable folds of a reduced picture, in its pixels.
 pub(super) fn search(reduced: &Reduced) -> (Views, Vec<Hypothesis>) {
     let channels = reduced.even();
     let sum = Plane::sum(&channels);
@@ -84,8 +84,8 @@ impl Views {
             let is_other = (0..2).any(|end| (moved.0[end] - fold.0[end]).amax() > SLID_PX);
             is_other.then(|| snapped(&moved, &self.evidence, SLID_SNAP_PX))
         };
-        let likeliest: Vec<Outline> = all.iter().take(SLID).chain(&straight).copied().collect();
-        let slid: Vec<Outline> = likeliest.par_iter().filter_map(slide).collect();
+        let most_probable: Vec<Outline> = all.iter().take(SLID).chain(&straight).copied().collect();
+        let slid: Vec<Outline> = most_probable.par_iter().filter_map(slide).collect();
         all.extend(straight);
         all.extend(slid);
         all

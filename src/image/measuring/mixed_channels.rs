@@ -19,7 +19,7 @@ const OPPOSITE: f64 = -0.15;
 const SQUARES: f64 = 6.0;
 
 /// Whether the noise of two channels goes opposite ways within the panels of a photograph: a matrix has mixed them, such as one from a camera's
-/// colours to sRGB. Where that cannot be told it is false.
+/// colours to sRGB. Where that cannot be determined it is false.
 pub(super) fn are_channels_mixed(photograph: &Photograph, panels: &[Homography]) -> bool {
     let mut layers = photograph.layers();
     let (Some(layer), None) = (layers.next(), layers.next()) else { return false };

@@ -23,7 +23,7 @@ const SURE: f64 = 3.0;
 
 /// Whether the noise of facets falls as they become brighter: their numbers are no sensor's, but have a curve such as sRGB's.
 ///
-/// `facets` have the standard errors that [`measure`](super::measure) gives, of three channels. Where that cannot be told it is false.
+/// `facets` have the standard errors that [`measure`](super::measure) gives, of three channels. Where that cannot be determined it is false.
 pub(super) fn noise_falls(facets: &[FacetMeasurement]) -> bool {
     let channels: Option<Vec<Growth>> = (0..3).map(|channel| Growth::of(facets, channel)).collect();
     let Some(channels) = channels.filter(|channels| channels.iter().all(Growth::tells)) else { return false };

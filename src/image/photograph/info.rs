@@ -18,7 +18,7 @@ pub struct PhotographInfo {
     /// The curve that was undone, [`Transfer::Linear`] or [`Transfer::Srgb`].
     pub transfer_used: Transfer,
     /// Whether that curve was asked for, and not what the file or its depth says.
-    pub transfer_given: bool,
+    pub transfer_stated: bool,
     /// The stored number taken as no light, one for all channels or one for each.
     pub black_level: Vec<f64>,
     /// The stored number taken as 1, one for all channels or one for each.
@@ -51,7 +51,7 @@ impl PhotographInfo {
     #[must_use]
     pub fn is_developed(&self) -> bool {
         let of_camera = self.camera.make.is_some() || self.camera.model.is_some();
-        self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_given)
+        self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_stated)
     }
 
     /// As [`CameraNotes::white_per_klx`], of numbers that are as the sensor counted them: cameras brighten what they develop.
@@ -70,7 +70,7 @@ impl PhotographInfo {
             height,
             format,
             transfer_used: Transfer::Linear,
-            transfer_given: false,
+            transfer_stated: false,
             black_level: vec![0.0],
             white_level: vec![1.0],
             ends_at: Vec::new(),

@@ -8,7 +8,7 @@ use crate::image::numbers::{Scale, Transfer};
 
 impl Photograph {
     /// The same with the pixels clipped at which a channel's numbers end, and with what its darkest numbers say.
-    pub(in crate::image) fn with_limits_found(mut self) -> Self {
+    pub(in crate::image) fn with_limits_detected(mut self) -> Self {
         let sampled = Sampled::of(&self.pixels, self.channels(), (self.width(), self.height()));
         let ends = ends(&sampled);
         if ends.iter().any(Option::is_some) {

@@ -24,7 +24,7 @@ const RADIUS_STEP: f64 = 1e-3;
 /// Newton's steps for the radius; it takes five where the lens is ten percent off.
 const ITERATIONS: usize = 30;
 /// The radius is found when a step is smaller than this.
-const FOUND: f64 = 1e-13;
+const CONVERGED: f64 = 1e-13;
 
 impl Lens {
     /// A lens without distortion.
@@ -118,7 +118,7 @@ impl Lens {
             let (scale, slope) = self.magnification(radius);
             let step = (radius * scale - seen) / slope;
             radius -= step;
-            if step.abs() < FOUND {
+            if step.abs() < CONVERGED {
                 return radius;
             }
         }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::belief::{as_stated, other_than_stated};
 use super::mixture::{Explanation, Mean, distinct, mean};
+use super::prior::{as_stated, other_than_stated};
 use super::{FoldAngle, FoldSeen};
 use crate::image::placing::Point;
 
@@ -21,7 +21,7 @@ pub struct StatedFold {
 /// A fold that corners are rather those of than of the stated one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherFold {
-    /// The likeliest fold that is not as it was stated.
+    /// The most probable fold that is not as it was stated.
     pub fold: FoldAngle,
     /// Whether it is of other panels, and not of another angle.
     pub has_other_panels: bool,
@@ -44,7 +44,7 @@ impl fmt::Display for OtherFold {
 /// Probability that a fold is as it was stated below which it is not.
 const LEAST: f64 = 0.05;
 /// Corners so near to those of the stated fold, as a sum of squares in standard deviations, are not looked at further: others that
-/// explain them exactly would not be as likely as that.
+/// explain them exactly would not be as probable as that.
 const NEAR: f64 = 6.0;
 /// Depths whose logarithms differ by less than this are those of one form.
 const SAME_FORM: f64 = 1e-6;
@@ -71,19 +71,19 @@ impl FoldSeen {
     #[must_use]
     pub fn other_than(&self, panels: &[[Point; 4]; 2], stated: &StatedFold) -> Option<OtherFold> {
         let outline = self.outline(panels)?;
-        let (told, depths) = (self.told(&outline), outline.in_order(stated.depths));
+        let (known_before, depths) = (self.known_before(&outline), outline.in_order(stated.depths));
         let angle = (stated.angle_deg.to_radians(), stated.angle_sd_deg.to_radians());
-        let stated = self.explained(&outline, as_stated(&told, depths, angle));
+        let stated = self.explained(&outline, as_stated(&known_before, depths, angle));
         if stated.iter().any(|one| one.fitted.squares < NEAR) {
             return None;
         }
-        let others = self.explained(&outline, other_than_stated(&told, depths, angle));
+        let others = self.explained(&outline, other_than_stated(&known_before, depths, angle));
         let [stated, others] = [stated, others].map(distinct);
         let all = || stated.iter().chain(&others).map(|one| one.fitted);
-        let misfit = all().map(|fitted| fitted.misfit()).fold(f64::INFINITY, f64::min);
-        let most = all().map(|fitted| fitted.ln_evidence_at(misfit)).fold(f64::NEG_INFINITY, f64::max);
+        let reduced_chi = all().map(|fitted| fitted.reduced_chi()).fold(f64::INFINITY, f64::min);
+        let most = all().map(|fitted| fitted.ln_evidence_at(reduced_chi)).fold(f64::NEG_INFINITY, f64::max);
         let weight = |all: &[Explanation]| {
-            all.iter().map(|one| (one.fitted.ln_evidence_at(misfit) - most).exp()).sum::<f64>()
+            all.iter().map(|one| (one.fitted.ln_evidence_at(reduced_chi) - most).exp()).sum::<f64>()
         };
         if weight(&stated) >= LEAST * (weight(&stated) + weight(&others)) {
             return None;

@@ -6,7 +6,7 @@
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
-use super::belief::{EXPECTED, Hypothesis};
+use super::prior::{EXPECTED, Hypothesis};
 use super::view::{ANGLE, Corners, LN_SIZE, MIDDLE, UNKNOWNS, Unknowns, seen};
 
 /// Two coordinates of six corners, and what is expected.
@@ -45,13 +45,13 @@ pub(super) struct Fitted {
 
 impl Fitted {
     /// How many times further off corners are than they should be.
-    pub fn misfit(&self) -> f64 {
+    pub fn reduced_chi(&self) -> f64 {
         (self.squares / (RESIDUALS - UNKNOWNS) as f64).max(1.0).sqrt()
     }
 
     /// The same probability where all corners are so many times further off than they should be.
-    pub fn ln_evidence_at(&self, misfit: f64) -> f64 {
-        self.ln_evidence + 0.5 * self.squares * (1.0 - misfit.powi(-2))
+    pub fn ln_evidence_at(&self, reduced_chi: f64) -> f64 {
+        self.ln_evidence + 0.5 * self.squares * (1.0 - reduced_chi.powi(-2))
     }
 }
 
@@ -67,18 +67,18 @@ impl Sighting {
         let guesses = FIRST_ANGLES.iter().flat_map(|angle| {
             FIRST_TURNS
                 .iter()
-                .flat_map(move |across| FIRST_TURNS.iter().map(move |about| (*angle, *across, *about)))
+                .flat_map(move |across| FIRST_TURNS.iter().map(move |yaw| (*angle, *across, *yaw)))
         });
         guesses.filter_map(|guess| self.descend(hypothesis, guess)).collect()
     }
 
     /// The minimum below one first guess: the angle, and turns across and about the crease.
-    fn descend(&self, hypothesis: &Hypothesis, (angle, across, about): (f64, f64, f64)) -> Option<Fitted> {
+    fn descend(&self, hypothesis: &Hypothesis, (angle, across, yaw): (f64, f64, f64)) -> Option<Fitted> {
         let crease = self.corners[1] - self.corners[0];
         let roll = crease.x.atan2(-crease.y);
         let turn = |axis: usize, angle: f64| Rotation3::new(Vector3::ith(axis, angle));
         // y up and the opening towards the camera, then turned as the crease is seen
-        let held = turn(2, roll) * turn(0, across) * turn(1, about) * turn(0, std::f64::consts::PI);
+        let held = turn(2, roll) * turn(0, across) * turn(1, yaw) * turn(0, std::f64::consts::PI);
         let mut unknowns = Unknowns::zeros();
         hypothesis.expected.iter().for_each(|expected| unknowns[expected.unknown] = expected.mean);
         unknowns[ANGLE] = angle;
@@ -140,7 +140,7 @@ impl Problem<'_> {
         let angle_sd = factor.inverse()[(ANGLE, ANGLE)].sqrt();
         let found = Fitted { unknowns, angle_sd, squares, ln_evidence };
         // corners that the model does not explain are further off than they should be
-        Some(Fitted { angle_sd: found.misfit() * angle_sd, ..found })
+        Some(Fitted { angle_sd: found.reduced_chi() * angle_sd, ..found })
     }
 
     /// Seen places less those of a model, then unknowns less what is expected of them, each over its standard deviation.

@@ -1,13 +1,13 @@
-//! Of several explanations of the same corners, the form of the panels that is likeliest, and how uncertain the angle is in all.
+//! Of several explanations of the same corners, the form of the panels that is most probable, and how uncertain the angle is in all.
 
-use super::belief::Form;
 use super::fit::Fitted;
+use super::prior::Form;
 use super::view::{ANGLE, LN_DEPTH, LN_DEPTH_RATIO};
 
 /// Fits whose angles, radians, and logarithms of depths differ by less than this are one.
 const SAME: f64 = 1e-4;
 /// Share of all that is likely within which deviations count.
-const BELIEVED: f64 = 0.95;
+const PROBABLE: f64 = 0.95;
 
 /// Corners explained by a fold of some form.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +18,7 @@ pub(super) struct Explanation {
 
 /// What several explanations say together.
 pub(super) struct Mean {
-    /// The angle of folds of the likeliest form, radians.
+    /// The angle of folds of the most probable form, radians.
     pub angle: f64,
     /// Its standard deviation.
     pub sd: f64,
@@ -50,12 +50,12 @@ pub(super) fn mean(explanations: Vec<Explanation>) -> Option<Mean> {
     Some(Mean { angle, sd: deviation(angle, weighed.collect()), depths })
 }
 
-/// Root mean square deviation from an angle of the nearest that make up [`BELIEVED`] of all: weights, angles and their standard deviations.
+/// Root mean square deviation from an angle of the nearest that make up [`PROBABLE`] of all: weights, angles and their standard deviations.
 ///
 /// A far form with little weight, which whoever believes the angle takes for a blunder, would widen it manifold.
 fn deviation(angle: f64, mut weighed: Vec<(f64, f64, f64)>) -> f64 {
     weighed.sort_by(|a, b| (a.1 - angle).abs().total_cmp(&(b.1 - angle).abs()));
-    let enough = BELIEVED * weighed.iter().map(|(weight, _, _)| weight).sum::<f64>();
+    let enough = PROBABLE * weighed.iter().map(|(weight, _, _)| weight).sum::<f64>();
     let (mut total, mut squares) = (0.0, 0.0);
     for (weight, other, sd) in weighed {
         if total >= enough {

@@ -2,25 +2,25 @@
 //!
 //! Six corners are twelve numbers. Where the fold is and how it is turned takes six, the angle is the seventh; the focal length, the lens'
 //! distortion and the panels' form are known more or less, and what is not is found along with the angle, each as far as it was
-//! [believed](belief) before. Panels may be of several usual forms: each is tried, and weighed by how well it explains the corners.
+//! [estimated_error](prior) before. Panels may be of several usual forms: each is tried, and weighed by how well it explains the corners.
 //!
 //! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a picture cut on one side is seen
 //! a little askew.
 
 mod agreement;
-mod belief;
 mod fit;
 mod mixture;
 mod outline;
+mod prior;
 mod view;
 
 pub use agreement::{OtherFold, StatedFold};
 
 use super::placing::{Lens, Point};
-use belief::{FILM_DIAGONAL_MM, FOCAL_MM, Hypothesis, Told, hypotheses};
 use fit::Sighting;
 use mixture::{Explanation, Mean, mean};
 use outline::Outline;
+use prior::{FILM_DIAGONAL_MM, FOCAL_MM, Hypothesis, KnownBefore, hypotheses};
 
 /// The angle between the panels of a fold as its corners tell it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,16 +49,16 @@ pub struct FoldSeen {
     pub size: [usize; 2],
     /// Who says where the corners are.
     pub corners_by: CornersBy,
-    /// The lens, if it was told.
+    /// The lens, if it was stated.
     pub lens: Option<Lens>,
     /// Focal length that shows as much on film of 36 x 24 mm, mm, if the camera wrote it.
     pub focal_35mm: Option<f64>,
-    /// Depths of both panels over their width, if they were told.
+    /// Depths of both panels over their width, if they were stated.
     pub depths: Option<[f64; 2]>,
 }
 
 /// Standard deviation of a corner that was found, as a part of a panel's side.
-const FOUND: f64 = 0.002;
+const DETECTED: f64 = 0.002;
 /// The same of one that somebody marked.
 const MARKED: f64 = 0.008;
 
@@ -88,7 +88,7 @@ impl FoldSeen {
     #[must_use]
     pub fn angle(&self, panels: &[[Point; 4]; 2]) -> Option<FoldAngle> {
         let outline = self.outline(panels)?;
-        let explained = self.explained(&outline, hypotheses(&self.told(&outline)));
+        let explained = self.explained(&outline, hypotheses(&self.known_before(&outline)));
         let Mean { angle, sd, depths } = mean(explained)?;
         Some(FoldAngle {
             angle_deg: angle.to_degrees(),
@@ -101,9 +101,9 @@ impl FoldSeen {
         Outline::of(panels, self.lens, self.size.map(|px| px as f64), self.unit_px())
     }
 
-    fn told(&self, outline: &Outline) -> Told {
+    fn known_before(&self, outline: &Outline) -> KnownBefore {
         let diagonal = (self.size[0] as f64).hypot(self.size[1] as f64) / self.unit_px();
-        Told {
+        KnownBefore {
             is_lens_known: self.lens.is_some(),
             focal: self.focal_35mm.map(|focal_mm| focal_mm / FILM_DIAGONAL_MM * diagonal),
             usual_focal: FOCAL_MM / FILM_DIAGONAL_MM * diagonal,
@@ -114,7 +114,7 @@ impl FoldSeen {
     /// All that explains the corners under some hypotheses.
     fn explained(&self, outline: &Outline, hypotheses: Vec<Hypothesis>) -> Vec<Explanation> {
         let corner = match self.corners_by {
-            CornersBy::Finding => FOUND,
+            CornersBy::Finding => DETECTED,
             CornersBy::Hand => MARKED,
         };
         let sighting = Sighting { corners: outline.corners, sd: corner * outline.side };

@@ -17,12 +17,12 @@ const SRGB_PRIMARIES: [[f64; 3]; 3] =
 /// What a profile says of a picture's numbers.
 pub(super) fn statement(profile: &[u8]) -> Statement {
     match ColorProfile::new_from_slice(profile) {
-        Ok(profile) => said(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
-        Err(_) => said(Err("something that cannot be read".to_owned())),
+        Ok(profile) => of_profile(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
+        Err(_) => of_profile(Err("something that cannot be read".to_owned())),
     }
 }
 
-fn said(says: Result<Transfer, String>) -> Statement {
+fn of_profile(says: Result<Transfer, String>) -> Statement {
     Statement { by: "ICC profile", says }
 }
 

@@ -57,15 +57,15 @@ impl Photograph {
                 Err(no_colours("a grey picture"))
             }
             Decoded::Picture(picture) => {
-                let is_given = options.transfer != Transfer::Auto;
+                let is_present = options.transfer != Transfer::Auto;
                 let options = &ReadOptions { transfer: transfer(path, &picture, options)?, ..*options };
-                Self::from_picture(*picture, options, is_given)
+                Self::from_picture(*picture, options, is_present)
             }
         };
-        Ok(photograph?.with_limits_found().of_file(stamp))
+        Ok(photograph?.with_limits_detected().of_file(stamp))
     }
 
-    fn from_picture(picture: Picture, options: &ReadOptions, transfer_given: bool) -> Result<Self> {
+    fn from_picture(picture: Picture, options: &ReadOptions, transfer_stated: bool) -> Result<Self> {
         let Picture { format, pixels, camera, .. } = picture;
         let color = pixels.color();
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
@@ -74,7 +74,7 @@ impl Photograph {
         let orientation = camera.orientation;
         let info = PhotographInfo {
             transfer_used: scale.transfer,
-            transfer_given,
+            transfer_stated,
             black_level: vec![scale.black],
             white_level: vec![scale.white],
             undone: options.development,
@@ -90,7 +90,7 @@ impl Photograph {
 fn transfer(path: &Path, picture: &Picture, options: &ReadOptions) -> Result<Transfer> {
     match options.transfer {
         Transfer::Auto => Ok(stated::curve(path, &picture.stated)?.unwrap_or_default()),
-        given => Ok(given),
+        other => Ok(other),
     }
 }
 

@@ -62,7 +62,7 @@ pub(super) fn curve_like(to_linear: impl Fn(f64) -> f64) -> Option<Transfer> {
 mod tests {
     use super::*;
 
-    fn said(says: &[std::result::Result<Transfer, &str>]) -> Result<Option<Transfer>> {
+    fn note(says: &[std::result::Result<Transfer, &str>]) -> Result<Option<Transfer>> {
         let says = says.iter().zip(["EXIF", "ICC profile", "chunk sRGB"]);
         let statement = |(says, by): (&std::result::Result<Transfer, &str>, _)| Statement {
             by,
@@ -74,11 +74,11 @@ mod tests {
     #[test]
     fn what_agrees_is_believed_and_the_rest_refused() {
         let (linear, srgb) = (Ok(Transfer::Linear), Ok(Transfer::Srgb));
-        assert_eq!(said(&[]).unwrap(), None);
-        assert_eq!(said(&[srgb, srgb]).unwrap(), Some(Transfer::Srgb));
-        let refused = said(&[srgb, linear]).unwrap_err().to_string();
+        assert_eq!(note(&[]).unwrap(), None);
+        assert_eq!(note(&[srgb, srgb]).unwrap(), Some(Transfer::Srgb));
+        let refused = note(&[srgb, linear]).unwrap_err().to_string();
         assert!(refused.starts_with("a.png: its EXIF says srgb, its ICC profile linear; "), "{refused}");
-        let refused = said(&[srgb, Err("'ProPhoto'")]).unwrap_err().to_string();
+        let refused = note(&[srgb, Err("'ProPhoto'")]).unwrap_err().to_string();
         assert!(
             refused.contains("its ICC profile says 'ProPhoto'; ") && refused.contains("--transfer"),
             "{refused}"

@@ -105,11 +105,11 @@ impl BentExchange {
         (middle, distance): (Vector2<f64>, f64),
         albedos: &[f64],
     ) -> Result<Array2<f64>> {
-        let beside = distance * towards.y;
+        let along = distance * towards.y;
         let lamp = middle + distance * Vector2::new(towards.x, towards.z);
         let lit = |place: &Vector2<f64>, normal: &Vector2<f64>| {
             let way = lamp - place;
-            let reach = way.norm_squared() + beside * beside;
+            let reach = way.norm_squared() + along * along;
             normal.dot(&way).max(0.0) * distance * distance / reach.powf(1.5)
         };
         self.radiance_in(lit, albedos)

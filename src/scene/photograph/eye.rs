@@ -4,13 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::camera::Predictor;
 use crate::error::Result;
-use crate::estimate::photograph::beliefs::Beliefs;
 use crate::estimate::photograph::parts::Eye;
+use crate::estimate::photograph::priors::Priors;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
 use crate::stream::Optics;
 
 /// The camera of a scene.
-pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs) -> Result<Eye> {
+pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, priors: &Priors) -> Result<Eye> {
     let wavelengths_nm = grid.wavelengths_nm().to_vec();
     let bands = wavelengths_nm.len();
     let widths = grid.trapezoid_weights_nm();
@@ -22,13 +22,15 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, beliefs: &Beliefs)
     let daylight = vectors(grid)?;
     let white = sensitivities.tr_mul(&sun);
     // a camera that stands in for another is off by what such cameras were measured to be
-    let curve_sd =
-        camera.stands_in.as_ref().map_or(beliefs.curve_sd, |one| one.curve_error.max(beliefs.curve_sd));
+    let sensitivity_sd = camera
+        .stands_in
+        .as_ref()
+        .map_or(priors.sensitivity_sd, |one| one.sensitivity_error.max(priors.sensitivity_sd));
     let is_predicted = camera.stands_in.as_ref().is_some_and(|one| one.is_predicted);
     let predicted =
         if is_predicted { of_predicted(&camera.sensitivities, grid, &widths)? } else { Vec::new() };
     let errors = if predicted.is_empty() {
-        errors(&camera.sensitivities, &wavelengths_nm, &widths, &Beliefs { curve_sd, ..*beliefs })
+        errors(&camera.sensitivities, &wavelengths_nm, &widths, &Priors { sensitivity_sd, ..*priors })
     } else {
         predicted
     };
@@ -51,7 +53,7 @@ pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
     Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
 }
 
-/// Errors of curves that are predicted: those of cameras whose curves are known; none in builds that do not know them.
+/// Errors of curves that are predicted: those of cameras whose sensitivities are known; none in builds that do not know them.
 fn of_predicted(
     sensitivities: &[Vec<f64>],
     grid: &WavelengthGrid,
@@ -68,11 +70,11 @@ fn errors(
     sensitivities: &[Vec<f64>],
     wavelengths_nm: &[f64],
     widths: &[f64],
-    beliefs: &Beliefs,
+    priors: &Priors,
 ) -> Vec<(usize, DVector<f64>)> {
-    let Beliefs { curve_sd, curve_step_nm, .. } = *beliefs;
+    let Priors { sensitivity_sd, sensitivity_step_nm, .. } = *priors;
     let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
-    let count = ((last - first) / curve_step_nm).round().max(1.0) as usize;
+    let count = ((last - first) / sensitivity_step_nm).round().max(1.0) as usize;
     let mut all = Vec::new();
     for (channel, curve) in sensitivities.iter().enumerate() {
         let most = curve.iter().copied().fold(0.0, f64::max);
@@ -82,9 +84,9 @@ fn errors(
         for bump in 0..=count {
             let middle = first + (last - first) * bump as f64 / count as f64;
             let of = |band: usize| {
-                let off = (wavelengths_nm[band] - middle) / curve_step_nm;
+                let off = (wavelengths_nm[band] - middle) / sensitivity_step_nm;
                 let envelope = (curve[band] / most).max(0.0).sqrt();
-                curve_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
+                sensitivity_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
             };
             all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
         }

@@ -46,8 +46,8 @@ impl Pose {
     /// The zenith, if the sun stands at this sine of its height, on the side of the one that was stated, or of what is up for the camera.
     pub fn up(&self, sun: Vector3<f64>, sun_height: f64, stated: Option<Vector3<f64>>) -> Vector3<f64> {
         let up = stated.unwrap_or(self.up);
-        let beside = (up - up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);
-        sun_height * sun + (1.0 - sun_height * sun_height).sqrt() * beside
+        let sideways = (up - up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);
+        sun_height * sun + (1.0 - sun_height * sun_height).sqrt() * sideways
     }
 }
 

@@ -7,7 +7,7 @@ use ndarray::Axis;
 
 use super::bins::Bins;
 use crate::error::Result;
-use crate::estimate::photograph::sheets::{Departure, FAMILY_NODES, FUZZ, Instrument, Sheets};
+use crate::estimate::photograph::sheets::{Departure, FAMILY_NODES, Instrument, SHEEN, Sheets};
 use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
 use crate::transport::departures;
@@ -33,11 +33,11 @@ pub fn of(
     };
     let mut known: Vec<Departure> = all.iter().zip(beyond.axis_iter(Axis(0))).map(departure).collect();
     let measured = known.split_off(FORMULAS.len());
-    let fuzzy = known.split_off(FORMULAS.len() - FUZZ.len());
+    let fuzzy = known.split_off(FORMULAS.len() - SHEEN.len());
     let place = |n: usize| n - (0..=n).filter(|one| representative(*one) != *one).count();
     let of_family = |n: usize| &known[place(representative(n))];
     Ok(Sheets {
-        fuzz: [0, 1].map(|n| fuzzy[n].less(of_family(MIDDLE))),
+        sheen: [0, 1].map(|n| fuzzy[n].less(of_family(MIDDLE))),
         families: (0..FAMILIES).map(|n| of_family(n).clone()).collect(),
         measured,
         instrument: INSTRUMENT,
@@ -50,18 +50,18 @@ const MIDDLE: usize = 13;
 /// Families at the nodes.
 const FAMILIES: usize = 27;
 
-/// Shapes that formulas give: of the families that differ, then those with fuzz.
+/// Shapes that formulas give: of the families that differ, then those with sheen.
 static FORMULAS: LazyLock<Vec<Shape>> = LazyLock::new(|| {
     let distinct = (0..FAMILIES).filter(|n| representative(*n) == *n).map(family);
-    distinct.chain(FUZZ.map(|fuzz| Family { fuzz, ..family(MIDDLE) })).map(Shape::from).collect()
+    distinct.chain(SHEEN.map(|sheen| Family { sheen, ..family(MIDDLE) })).map(Shape::from).collect()
 });
 
 /// The family at a node: strength and roughness of the surface, roughness of the body, the last fastest.
 fn family(n: usize) -> Family {
     let nodes = FAMILY_NODES;
     Family {
-        gloss: nodes.gloss[n / 9],
-        roughness: nodes.gloss_roughness[n / 3 % 3],
+        specular_weight: nodes.specular_weight[n / 9],
+        roughness: nodes.specular_roughness[n / 3 % 3],
         body_roughness_deg: nodes.body_roughness_deg[n % 3],
         ..Family::default()
     }

@@ -3,8 +3,8 @@
 use super::place::Place;
 use crate::error::Result;
 use crate::spectrum::Spectrum;
-use crate::spectrum::kinds::bad;
 use crate::spectrum::names::words;
+use crate::spectrum::quantities::bad;
 
 /// The units in which wavelengths are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -151,7 +151,7 @@ const FRACTION_MAX: f64 = 2.0;
 /// Largest number that can be a reflectance in percent, fluorescence included.
 const PERCENT_MAX: f64 = 200.0;
 
-/// Which of the reflectances of a file are in percent: what the file says of each, else what is `given` for all, else all of them if one
+/// Which of the reflectances of a file are in percent: what the file says of each, else what is `stated` for all, else all of them if one
 /// has a value above 2.
 ///
 /// # Errors
@@ -160,18 +160,18 @@ pub(super) fn percent(
     path: &str,
     spectra: &[Spectrum],
     scales: &[Scale],
-    given: Option<bool>,
+    stated: Option<bool>,
 ) -> Result<Vec<bool>> {
     let is_open = |scale: &Scale| matches!(scale, Scale::Unstated | Scale::Unclear);
     let open = || spectra.iter().zip(scales).filter(|(_, scale)| is_open(scale));
     let peak = open().flat_map(|(spectrum, _)| spectrum.values()).copied().fold(f64::NEG_INFINITY, f64::max);
-    let is_percent = match given {
-        Some(given) => given,
+    let is_percent = match stated {
+        Some(stated) => stated,
         // where some say percent the others are fractions
         None if scales.contains(&Scale::Percent) => false,
         None => peak > FRACTION_MAX && peak <= PERCENT_MAX,
     };
-    if given.is_none() && !is_percent {
+    if stated.is_none() && !is_percent {
         if let Some((spectrum, _)) = open().find(|(_, scale)| **scale == Scale::Unclear) {
             let problem = format!("the name '{}' may say percent, or be just a name", spectrum.name());
             return Err(bad(path, problem, "give --percent, or --percent=no if the values are fractions"));

@@ -49,7 +49,7 @@ impl DirectLight {
             LightSource::Directional { .. }
             | LightSource::Point { .. }
             | LightSource::Area { .. }
-            | LightSource::Given => {
+            | LightSource::PerFacet => {
                 Self { irradiance: Self::of_lamp(source, shape, patches), standard_error: 0.0 }
             }
         }
@@ -74,7 +74,7 @@ impl DirectLight {
             LightSource::UniformSky { .. }
             | LightSource::OvercastSky { .. }
             | LightSource::StandardSky { .. }
-            | LightSource::Given => (vec![0.0; patches.len()], 0.0),
+            | LightSource::PerFacet => (vec![0.0; patches.len()], 0.0),
         };
         unit.into_iter().map(|light| amount * light).collect()
     }

@@ -244,7 +244,7 @@ impl Census {
             skip(
                 "form factors of averted pairs",
                 self.averted,
-                "they lie in one plane or show each other their backs",
+                "they lie in one plane or do not face each other",
             ),
             skip("visibility tests", self.open, "no facet can stand between two others"),
             skip(

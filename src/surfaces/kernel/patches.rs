@@ -71,7 +71,7 @@ pub fn patches_by(shape: &Shape, division: impl Fn(usize) -> Division) -> Vec<Pa
 struct Valleys {
     unit: f64,
     /// Facets beside an edge, by its rounded ends.
-    beside: HashMap<[[i64; 3]; 2], Vec<usize>>,
+    along_edge: HashMap<[[i64; 3]; 2], Vec<usize>>,
     /// Centroid and normal of every facet.
     sights: Vec<(Vec3, Vec3)>,
 }
@@ -80,10 +80,10 @@ impl Valleys {
     fn new(shape: &Shape) -> Self {
         let unit = SAME * shape.size();
         let sights = shape.facets().map(|facet| (facet.centroid(), facet.normal())).collect();
-        let mut valleys = Self { unit, beside: HashMap::new(), sights };
+        let mut valleys = Self { unit, along_edge: HashMap::new(), sights };
         for (n, facet) in shape.facets().enumerate() {
             for (from, to) in facet.edges() {
-                valleys.beside.entry(valleys.key(&from, &to)).or_default().push(n);
+                valleys.along_edge.entry(valleys.key(&from, &to)).or_default().push(n);
             }
         }
         valleys
@@ -105,7 +105,7 @@ impl Valleys {
             let least = 1e-6 * apart.norm();
             apart.dot(&normal) > least && apart.dot(&back) < -least
         };
-        self.beside.get(&self.key(from, to)).is_some_and(|facets| facets.iter().any(faces))
+        self.along_edge.get(&self.key(from, to)).is_some_and(|facets| facets.iter().any(faces))
     }
 
     fn divide(&self, facet: usize, polygon: &Polygon, division: Division) -> Vec<Polygon> {

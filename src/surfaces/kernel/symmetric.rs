@@ -63,12 +63,12 @@ impl Rows {
     /// Adds the product of these rows, and of the columns that mirror them, with `x` to `out`.
     pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
         for (row, start, entries) in self.runs() {
-            let (mut sum, given) = (0.0, x[row]);
+            let (mut sum, own) = (0.0, x[row]);
             let columns = start..start + entries.len();
             for ((entry, x), out) in entries.iter().zip(&x[columns.clone()]).zip(&mut out[columns]) {
                 let entry = f64::from(*entry);
                 sum += entry * x;
-                *out += entry * given;
+                *out += entry * own;
             }
             out[row] += sum;
         }

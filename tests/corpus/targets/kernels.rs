@@ -1,6 +1,6 @@
 //! Arrays made elsewhere.
 
-use vfold::scene::GivenKernel;
+use vfold::scene::ExternalKernel;
 use vfold::stream::{read_rows, read_square, write_matrix};
 
 use super::{assert_finite, taken, with_file};
@@ -17,7 +17,7 @@ pub fn npy(bytes: &[u8]) {
                 assert_eq!(bits(&again), bits(&matrix));
             });
         }
-        let Some(kernel) = taken(GivenKernel::read(path, None, None)) else { return };
+        let Some(kernel) = taken(ExternalKernel::read(path, None, None)) else { return };
         let Some(scene) = taken(kernel.scene()) else { return };
         for response in scene.responses().unwrap() {
             let light: Vec<_> =

@@ -1,6 +1,6 @@
 //! What is fuzzed: functions that take any bytes, and panic if a reader does anything but take them or refuse them in one plain line.
 //!
-//! `fuzz/` calls them with new inputs, `tests/corpus` with those that were kept.
+//! `sheen/` calls them with new inputs, `tests/corpus` with those that were kept.
 
 mod drawn;
 mod flags;

@@ -40,7 +40,7 @@ vforward --kernel K.npy --reflectance 0.5 -o elsewhere.ndjson
 vforward scene.ndjson --reflectance cc24:orange --exposure 0.5 --render fold.exr -o rendered.ndjson 2>corners
 eval "set -- $(grep -o -- '--panel0.*"' corners)"
 oiiotool fold.exr --fill:color=0.45,0.45,0.45 60x40+10+10 --attrib Make vfold -d uint16 -o card.tif
-vforward scene.ndjson --reflectance cc24:orange --gloss 0.8 --gloss-roughness 0.4 --render glossy.exr -o glossy.ndjson 2>said
+vforward scene.ndjson --reflectance cc24:orange --specular-weight 0.8 --specular-roughness 0.4 --render glossy.exr -o glossy.ndjson 2>said
 vextract glossy.exr --regions glossy.ndjson --scene scene.ndjson --camera canon-5d-mark-ii -q -o one.ndjson
 vestimate one.ndjson -q -o found.ndjson
 cp glossy.exr again.exr

@@ -58,13 +58,13 @@ fn below(changes: &Plane, bound: f32) -> Vec<Blob> {
         while let Some(k) = waiting.pop() {
             let x = k % width;
             sums.add(x as f64 + 0.5, (k / width) as f64 + 0.5);
-            let beside = [
+            let neighbours = [
                 (x > 0).then(|| k - 1),
                 (x + 1 < width).then_some(k + 1),
                 k.checked_sub(width),
                 Some(k + width).filter(|k| *k < count),
             ];
-            for k in beside.into_iter().flatten() {
+            for k in neighbours.into_iter().flatten() {
                 if std::mem::take(&mut free[k]) {
                     waiting.push(k);
                 }

@@ -72,14 +72,14 @@ mod tests {
     /// The chart through a built-in camera, each channel of white 1.
     fn seen(by: &str, light: &str) -> Colours {
         let grid = WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap();
-        let curves: Vec<_> = camera(by)
+        let sensitivities: Vec<_> = camera(by)
             .unwrap()
             .channels
             .iter()
             .map(|curve| curve.on(&grid, Outside::Zero).unwrap())
             .collect();
         let power = illuminant(light).unwrap().on(&grid, Outside::Refuse).unwrap();
-        let response = CameraResponse::new(&grid, &curves, &power).unwrap();
+        let response = CameraResponse::new(&grid, &sensitivities, &power).unwrap();
         let white = response.white();
         let patches = reflectances("cc24").unwrap();
         std::array::from_fn(|k| {

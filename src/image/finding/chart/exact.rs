@@ -69,8 +69,8 @@ fn edge(flat: &Flat, k: usize, (right, down): (isize, isize), white: f64) -> Opt
         let out = out as isize;
         let place = |way: isize| if way < 0 { -1 - out } else { out };
         let points = (-ALONG..ALONG).map(|along| match right {
-            0 => flat.beside(k, along, place(down)),
-            _ => flat.beside(k, place(right), along),
+            0 => flat.offset(k, along, place(down)),
+            _ => flat.offset(k, place(right), along),
         });
         let sum = points.fold([0.0; 3], |sum, point| [0, 1, 2].map(|n| sum[n] + point[n]));
         sum.map(|sum| sum / (2.0 * ALONG as f64))

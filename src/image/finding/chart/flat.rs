@@ -53,13 +53,13 @@ impl Flat {
         std::array::from_fn(|k| {
             let middle = MIDDLE as isize;
             let points = (-middle..middle).flat_map(|y| (-middle..middle).map(move |x| (x, y)));
-            let sum = points.map(|(x, y)| self.beside(k, x, y)).fold([0.0; 3], added);
+            let sum = points.map(|(x, y)| self.offset(k, x, y)).fold([0.0; 3], added);
             sum.map(|sum| sum / (4 * middle * middle) as f64)
         })
     }
 
     /// The point so many points to the right of and below a patch's centre, that of point 0 being half a point beyond it.
-    pub fn beside(&self, k: usize, x: isize, y: isize) -> [f64; 3] {
+    pub fn offset(&self, k: usize, x: isize, y: isize) -> [f64; 3] {
         let centre = patch(k) * PER_CELL as f64;
         let at = |centre: f64, off: isize, size: usize| {
             (centre as isize + MARGIN as isize + off).clamp(0, size as isize - 1) as usize

@@ -25,7 +25,7 @@ const CELL: [f64; 2] = [0.9, 8.0];
 const OFF: f64 = 0.22;
 /// In each round blobs so many nodes away are taken in; a chart has six in a row.
 const ROUNDS: [i32; 5] = [1, 2, 4, 6, 6];
-/// From this many blobs on perspective can be told.
+/// From this many blobs on perspective can be determined.
 const ENOUGH: usize = 8;
 /// Lattices of so many blobs are not grown from each of them again.
 const WHOLE: usize = 12;
@@ -80,8 +80,8 @@ fn neighbours(blobs: &[Blob], k: usize) -> Vec<usize> {
 /// Ways to the next columns and rows that a blob's neighbours may show, those to the nearest first; the four turns of a lattice are one.
 fn pairs(blobs: &[Blob], seed: usize, neighbours: &[usize]) -> Vec<(Place, Place)> {
     let this = &blobs[seed];
-    let ways: Vec<Place> = neighbours.iter().map(|k| blobs[*k].centre - this.centre).collect();
-    let all = ways.iter().flat_map(|right| ways.iter().map(move |down| (*right, *down)));
+    let steps: Vec<Place> = neighbours.iter().map(|k| blobs[*k].centre - this.centre).collect();
+    let all = steps.iter().flat_map(|right| steps.iter().map(move |down| (*right, *down)));
     let may_be_cell = |(right, down): &(Place, Place)| {
         let area = cross(*right, *down);
         let is_first_turn = right.x > 0.0 && right.y.abs() <= 1.3 * right.x;

@@ -35,7 +35,7 @@ use search::searched;
 
 /// A chart of four rows of six patches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FoundChart {
+pub struct DetectedChart {
     /// Outer corners of the block of patches, px of the upright picture, in the order of [`CHART_CORNERS`](crate::image::CHART_CORNERS).
     pub corners: [Point; 4],
     /// Probability that all of them are within a third of a patch of where they should be.
@@ -52,7 +52,7 @@ const WEIGHTS: [f64; CLUES] = [-1.516, -8.188];
 /// Half of a patch's side in cells, if its edges do not say: that of a Classic.
 const HALF: f64 = 0.44;
 
-impl FoundChart {
+impl DetectedChart {
     /// Rows and columns of its patches.
     pub const GRID: [usize; 2] = [ROWS, COLUMNS];
     /// From this confidence on a chart is used without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
@@ -81,13 +81,13 @@ impl FoundChart {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]
-pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<FoundChart> {
+pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<DetectedChart> {
     weighed_chart(photograph, lens).map(|(found, _)| found)
 }
 
 /// The same, and what its confidence is made of, to fit that: logarithms of how far off its patches' colours are, in the mean and at most.
 #[must_use]
-pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(FoundChart, [f64; CLUES])> {
+pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedChart, [f64; CLUES])> {
     let reduced = Reduced::of(photograph);
     let (scale, to_picture) = searched(&reduced)?;
     let mut map = ideal(lens, &to_picture, scale)?;
@@ -104,7 +104,7 @@ pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(FoundChart
     let departure = departure(&Flat::of(photograph, lens, &map).colours())?;
     let clues = [departure.rms.ln(), departure.worst.ln()];
     let log_odds = OFFSET + WEIGHTS.iter().zip(&clues).map(|(weight, clue)| weight * clue).sum::<f64>();
-    Some((FoundChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
+    Some((DetectedChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
 }
 
 /// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels are a pixel of.
@@ -136,8 +136,8 @@ mod tests {
     use super::synthetic::{HEIGHT, WIDTH, drawn, drawn_through, photograph, tilted};
     use super::*;
 
-    fn found(photograph: &Photograph) -> Option<FoundChart> {
-        find_chart(photograph, &Lens::STRAIGHT).filter(FoundChart::is_sure)
+    fn found(photograph: &Photograph) -> Option<DetectedChart> {
+        find_chart(photograph, &Lens::STRAIGHT).filter(DetectedChart::is_sure)
     }
 
     proptest! {

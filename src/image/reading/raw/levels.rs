@@ -102,7 +102,7 @@ impl Levels {
     ///
     /// # Errors
     /// [`crate::Error::Usage`] if a white level is not above the highest black level.
-    pub fn given(mut self, options: &ReadOptions) -> Result<Self> {
+    pub fn with_stated(mut self, options: &ReadOptions) -> Result<Self> {
         if let Some(black) = options.black_level {
             let samples = self.white.len();
             let black = Array3::from_elem((1, 1, samples), black);

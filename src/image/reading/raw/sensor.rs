@@ -59,7 +59,7 @@ impl Sensor {
         let levels =
             Levels::of_camera(&image).ok_or_else(|| refused("its black or white level is not known"))?;
         Self {
-            levels: levels.given(options)?,
+            levels: levels.with_stated(options)?,
             width: image.width,
             samples: image.cpp,
             kind: format!("{}-bit", image.bps),
@@ -86,7 +86,7 @@ impl Sensor {
             );
             return Err(damaged(path, problem));
         }
-        let (numbers, width, levels) = (image.data, image.width, levels.given(options)?);
+        let (numbers, width, levels) = (image.data, image.width, levels.with_stated(options)?);
         Self { numbers, width, samples, kind, area, mosaic, levels, linearization, opcodes }.checked(path)
     }
 

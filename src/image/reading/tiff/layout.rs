@@ -195,7 +195,7 @@ impl Layout {
     }
 
     /// Bytes of a strip or tile that is decoded beside the picture before its samples are picked.
-    pub fn bytes_besides(&self) -> u64 {
+    pub fn other_bytes(&self) -> u64 {
         let rows = match self.cut {
             Cut::Strips(rows) => rows.min(self.height.into()),
             Cut::Tiles(_, rows) => rows,
@@ -326,7 +326,7 @@ fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Resul
     let extra = page.numbers(EXTRA_SAMPLES);
     let is_alpha = |kind: &u64| matches!(*kind, ASSOCIATED | UNASSOCIATED);
     let alpha = match &extra {
-        Some(kinds) => kinds.iter().position(is_alpha),
+        Some(extra_samples) => extra_samples.iter().position(is_alpha),
         None => (samples == colours + 1).then_some(0),
     };
     if colours == 1 && samples - usize::from(alpha.is_some()) > 1 {

@@ -67,7 +67,7 @@ impl Tiff {
         let layout = Layout::of(path, self.pages.directory(), self.length)?;
         let bytes = layout.bytes();
         check_size(path, (layout.width, layout.height), layout.stored_bytes(), self.length)?;
-        room::ask(bytes + layout.bytes_besides(), &path.display().to_string(), TOO_LARGE)?;
+        room::ask(bytes + layout.other_bytes(), &path.display().to_string(), TOO_LARGE)?;
         DynamicImage::from_decoder(Pixels { file, layout: &layout, length: self.length })
             .map_err(|error| undecodable(path, error))
     }

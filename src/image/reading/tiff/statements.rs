@@ -30,10 +30,10 @@ fn transfer(page: &Directory) -> Option<Transfer> {
     if numbers < 2 {
         return None;
     }
-    let curves = tables
+    let tones = tables
         .chunks_exact(numbers)
         .map(|table| curve_like(|stored| table[(stored * (numbers - 1) as f64).round() as usize]));
-    let [first, others @ ..] = &curves.collect::<Option<Vec<_>>>()?[..] else { return None };
+    let [first, others @ ..] = &tones.collect::<Option<Vec<_>>>()?[..] else { return None };
     others.iter().all(|other| other == first).then_some(*first)
 }
 
@@ -71,9 +71,9 @@ mod tests {
     #[test]
     fn transfer_functions_are_ours_or_refused() {
         let says = |tables: Vec<u8>| {
-            let said = of(TRANSFER_FUNCTION, SHORT, tables.len() as u32 / 2, &tables);
-            assert_eq!(said.len(), 1);
-            said[0].says.clone()
+            let statement = of(TRANSFER_FUNCTION, SHORT, tables.len() as u32 / 2, &tables);
+            assert_eq!(statement.len(), 1);
+            statement[0].says.clone()
         };
         let srgb = |stored| Transfer::Srgb.to_linear(stored);
         let power = |stored: f64| stored.powf(2.2);

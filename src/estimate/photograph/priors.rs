@@ -1,37 +1,37 @@
-//! What is believed of photographs before one is looked at.
+//! The priors on photographs: what is known of them before one is looked at.
 
 use crate::estimate::unknowns::{Expectation, Normal};
 
 /// Declares the numbers, each once: a field, its usual value, and a row of the table of all.
-macro_rules! beliefs {
-    ($($(#[$about:meta])* $name:ident: $usual:expr,)*) => {
+macro_rules! priors {
+    ($($(#[$doc:meta])* $name:ident: $usual:expr,)*) => {
         /// Every number that the model of a photograph is made of and that is neither physics nor geometry nor numerics.
         ///
         /// Means and standard deviations of unknowns are on the [scale](crate::estimate::unknowns::Scale) of each.
         ///
         /// # Example
         /// ```
-        /// use vfold::estimate::photograph::beliefs::Beliefs;
-        /// let careful = Beliefs { angle_sd_deg: 0.3, ..Beliefs::USUAL };
-        /// assert!(careful.angle_sd_deg < Beliefs::USUAL.angle_sd_deg);
-        /// assert!(Beliefs::NUMBERS.len() <= 60);
+        /// use vfold::estimate::photograph::priors::Priors;
+        /// let careful = Priors { angle_sd_deg: 0.3, ..Priors::USUAL };
+        /// assert!(careful.angle_sd_deg < Priors::USUAL.angle_sd_deg);
+        /// assert!(Priors::NUMBERS.len() <= 60);
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Beliefs {
-            $($(#[$about])* pub $name: f64,)*
+        pub struct Priors {
+            $($(#[$doc])* pub $name: f64,)*
         }
 
-        impl Beliefs {
+        impl Priors {
             /// Those about photographs as people take them.
             pub const USUAL: Self = Self { $($name: $usual,)* };
             /// All of them by name, to be varied.
             pub const NUMBERS: &'static [(&'static str, fn(&mut Self) -> &mut f64)] =
-                &[$((stringify!($name), |beliefs: &mut Self| &mut beliefs.$name),)*];
+                &[$((stringify!($name), |priors: &mut Self| &mut priors.$name),)*];
         }
     };
 }
 
-beliefs! {
+priors! {
     /// How far an angle is off that somebody measured, degrees: a protractor, and a sheet that springs back. Of one that comes with a standard
     /// deviation of its own that counts.
     angle_sd_deg: 1.2,
@@ -57,11 +57,11 @@ beliefs! {
     /// Logarithm of the gain of the first and the last channel: cameras of one model differ by 2 %.
     gain_sd: 0.015,
     /// By how much two laboratories differ that measure the same model of a camera, relative to the highest point of a curve.
-    curve_sd: 0.02,
+    sensitivity_sd: 0.02,
     /// Over so many nanometres they are off alike.
-    curve_step_nm: 40.0,
+    sensitivity_step_nm: 40.0,
 
-    /// How widely the [amounts](Beliefs::amount) vary of what an ideal fold does not have.
+    /// How widely the [amounts](Priors::amount) vary of what an ideal fold does not have.
     amount_sd: 1.0,
     /// How heavy the tails are of these amounts: an otherwise careful photograph may have much of one.
     amount_tail: 1.0,
@@ -115,17 +115,17 @@ beliefs! {
     /// Share of light that the lens loses in the corners: 0 to 30 %.
     vignetting: 0.12,
     /// Share of light that the lens spreads over the picture: 0 to 2 %.
-    glare: 0.006,
+    veiling_glare: 0.006,
     /// Strength of the surface's reflection: matte papers and paints have up to a bare surface of it.
-    gloss: 0.16,
+    specular_weight: 0.16,
     /// Logarithm of the roughness of the surface: matte ones have 0.3 to 0.6.
-    ln_gloss_roughness: -0.85,
-    /// See `ln_gloss_roughness`.
-    ln_gloss_roughness_sd: 0.18,
+    ln_specular_roughness: -0.85,
+    /// See `ln_specular_roughness`.
+    ln_specular_roughness_sd: 0.18,
     /// Roughness of the body, degrees: paper and paint have 0 to 20.
     body_roughness_deg: 10.5,
     /// Fibres: paper and paint have next to none, cloth some, felt up to 1.
-    fuzz: 0.1,
+    sheen: 0.1,
 
     /// How many sheets are perfectly matt, or nearly so; of the others half are of the family, half like those that were measured.
     matt_share: 0.05,
@@ -168,7 +168,7 @@ beliefs! {
 /// Where [`Scale::Positive`](crate::estimate::unknowns::Scale) has the value 1: the logarithm of e - 1.
 const ONE: f64 = 0.541_324_854_612_918;
 
-impl Beliefs {
+impl Priors {
     /// Logarithm of an exposure that nobody states.
     #[must_use]
     pub const fn exposure(&self) -> Normal {

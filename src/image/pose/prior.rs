@@ -1,4 +1,4 @@
-//! What is believed of a fold and a camera before corners are looked at.
+//! The priors on a fold and a camera: what is known before corners are looked at.
 
 use std::f64::consts::SQRT_2;
 
@@ -45,8 +45,8 @@ const LN_STATED_FOCAL_SD: f64 = 0.05;
 const CROPPED_SHARE: f64 = 0.1;
 /// Distortion of a lens of which nothing is known: that of most lenses is within 2 % at the middle of the picture's longer sides.
 const K1_SD: f64 = 0.02;
-/// The same of one that was told.
-const K1_TOLD_SD: f64 = 1e-4;
+/// The same of one that was stated.
+const K1_STATED_SD: f64 = 1e-4;
 /// How far the depth of a panel is off what it should be: sheets are cut and folded by hand.
 const LN_DEPTH_SD: f64 = 0.005;
 /// Depth over width of panels of which nothing is known: two in three between a half and two.
@@ -77,7 +77,7 @@ const FORMS: [(f64, f64); 11] = [
 
 /// What is known of a fold and its camera beside the corners.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Told {
+pub(super) struct KnownBefore {
     /// Whether the lens' distortion is known, and undone.
     pub is_lens_known: bool,
     /// The focal length that the file states, in the unit of the picture.
@@ -89,28 +89,40 @@ pub(super) struct Told {
 }
 
 /// Every way in which the fold may have been made and photographed.
-pub(super) fn hypotheses(told: &Told) -> Vec<Hypothesis> {
-    forms(told.depths).into_iter().flat_map(|form| with_focals(told, form, ANY_ANGLE)).collect()
+pub(super) fn hypotheses(known_before: &KnownBefore) -> Vec<Hypothesis> {
+    forms(known_before.depths)
+        .into_iter()
+        .flat_map(|form| with_focals(known_before, form, ANY_ANGLE))
+        .collect()
 }
 
 /// The fold as it was stated: the mean and the standard deviation of its angle, radians.
-pub(super) fn as_stated(told: &Told, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
-    with_focals(told, (AS_STATED, Form::Usual(depths)), angle)
+pub(super) fn as_stated(known_before: &KnownBefore, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
+    with_focals(known_before, (AS_STATED, Form::Usual(depths)), angle)
 }
 
 /// The same if it is not as it was stated: the angle is another, or the form of the panels.
-pub(super) fn other_than_stated(told: &Told, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
+pub(super) fn other_than_stated(
+    known_before: &KnownBefore,
+    depths: [f64; 2],
+    angle: (f64, f64),
+) -> Vec<Hypothesis> {
     let share = 0.5 * (1.0 - AS_STATED);
-    let other_angle = with_focals(told, (share, Form::Usual(depths)), OTHER_ANGLE);
+    let other_angle = with_focals(known_before, (share, Form::Usual(depths)), OTHER_ANGLE);
     let is_other = |(_, form): &(f64, Form)| *form != Form::Usual(depths);
     let others = forms(None).into_iter().filter(is_other);
-    let other_form = others.flat_map(|(of_form, form)| with_focals(told, (share * of_form, form), angle));
+    let other_form =
+        others.flat_map(|(of_form, form)| with_focals(known_before, (share * of_form, form), angle));
     other_angle.into_iter().chain(other_form).collect()
 }
 
 /// A form of the panels and its share, at every focal length.
-fn with_focals(told: &Told, (share, form): (f64, Form), angle: (f64, f64)) -> Vec<Hypothesis> {
-    let k1 = Expected { unknown: K1, mean: 0.0, sd: if told.is_lens_known { K1_TOLD_SD } else { K1_SD } };
+fn with_focals(known_before: &KnownBefore, (share, form): (f64, Form), angle: (f64, f64)) -> Vec<Hypothesis> {
+    let k1 = Expected {
+        unknown: K1,
+        mean: 0.0,
+        sd: if known_before.is_lens_known { K1_STATED_SD } else { K1_SD },
+    };
     let angle = Expected { unknown: ANGLE, mean: angle.0, sd: angle.1 };
     let [depth, ratio] = of_form(form);
     let hypothesis = |(of_focal, focal): (f64, Expected)| Hypothesis {
@@ -118,12 +130,12 @@ fn with_focals(told: &Told, (share, form): (f64, Form), angle: (f64, f64)) -> Ve
         expected: [focal, k1, depth, ratio, angle],
         form,
     };
-    focals(told).into_iter().map(hypothesis).collect()
+    focals(known_before).into_iter().map(hypothesis).collect()
 }
 
 /// Forms that the panels may have, and the share of each.
-fn forms(told: Option<[f64; 2]>) -> Vec<(f64, Form)> {
-    if let Some(depths) = told {
+fn forms(known_before: Option<[f64; 2]>) -> Vec<(f64, Form)> {
+    if let Some(depths) = known_before {
         return vec![(1.0, Form::Usual(depths))];
     }
     let usual = FORMS.map(|(depth, share)| (share, Form::Usual([depth; 2])));
@@ -144,10 +156,10 @@ fn of_form(form: Form) -> [Expected; 2] {
 }
 
 /// Focal lengths that the camera may have had, and the share of each.
-fn focals(told: &Told) -> Vec<(f64, Expected)> {
+fn focals(known_before: &KnownBefore) -> Vec<(f64, Expected)> {
     let expected = |focal: f64, sd: f64| Expected { unknown: LN_FOCAL, mean: focal.ln(), sd };
-    let usual = expected(told.usual_focal, LN_FOCAL_SD);
-    match told.focal {
+    let usual = expected(known_before.usual_focal, LN_FOCAL_SD);
+    match known_before.focal {
         Some(focal) => {
             vec![(1.0 - CROPPED_SHARE, expected(focal, LN_STATED_FOCAL_SD)), (CROPPED_SHARE, usual)]
         }

@@ -1,12 +1,12 @@
 //! A lens that spreads light over the picture.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
-/// Share of the picture's light that the lens spreads over all of it.
-pub static GLARE: Unknown = Unknown {
-    name: "glare",
-    about: "Share of the picture's light that the lens spreads over all of it",
+/// Veiling glare: share of the picture's light that the lens spreads over all of it.
+pub static VEILING_GLARE: Unknown = Unknown {
+    name: "veiling_glare",
+    description: "Veiling glare: share of the picture's light that the lens spreads over all of it",
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,
@@ -16,7 +16,7 @@ pub static GLARE: Unknown = Unknown {
         whose: Whose::Lens,
         known: |_| Known::Imperfection,
         prior,
-        set: |conditions, value| conditions.glare = value,
+        set: |conditions, value| conditions.veiling_glare = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.01,
@@ -26,6 +26,6 @@ pub static GLARE: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.amount(told.beliefs.glare))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.veiling_glare))
 }

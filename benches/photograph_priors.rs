@@ -1,9 +1,9 @@
 //! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior foretells the truth.
 //!
-//! `cargo bench --bench beliefs -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance, measured sheets being
+//! `cargo bench --bench priors -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance, measured sheets being
 //! unknown where one of their names is in that of the stream;
-//! `cargo bench --bench beliefs -- --fit [NAME...] STREAM...` changes all numbers, or those named, one after the other by a quarter as long as that
-//! raises the score, and prints those that changed. `benches/beliefs.sh` makes the streams.
+//! `cargo bench --bench priors -- --fit [NAME...] STREAM...` changes all numbers, or those named, one after the other by a quarter as long as that
+//! raises the score, and prints those that changed. `benches/priors.sh` makes the streams.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
@@ -11,7 +11,7 @@
 use rayon::prelude::*;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph;
-use vfold::estimate::photograph::beliefs::Beliefs;
+use vfold::estimate::photograph::priors::Priors;
 use vfold::estimate::prior::Prior;
 use vfold::forward::FacetValues;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture};
@@ -71,10 +71,10 @@ impl Known {
         })
     }
 
-    fn quality(&self, beliefs: &'static Beliefs) -> Result<Quality> {
+    fn quality(&self, priors: &'static Priors) -> Result<Quality> {
         let measured = Measured { rgb: &self.rgb, sd: &self.sd };
         let picture = Picture::of(&self.sample, &measured, self.sample.exposure()?)?;
-        let fold = PhotographedFold::of(&self.setting).believing(beliefs);
+        let fold = PhotographedFold::of(&self.setting).believing(priors);
         let fold = self.left_out.iter().fold(fold, |fold, name| fold.leaving_out(name));
         let parts =
             fold.parts(&picture)?.map_err(|why| Error::Numeric(format!("{}: {why}", self.sample.id())))?;
@@ -94,10 +94,10 @@ impl Known {
     }
 }
 
-fn quality(all: &[Known], beliefs: Beliefs) -> Result<Quality> {
+fn quality(all: &[Known], priors: Priors) -> Result<Quality> {
     // a photograph's parts hold them as long as they like
-    let beliefs: &'static Beliefs = Box::leak(Box::new(beliefs));
-    let each: Vec<Quality> = all.par_iter().map(|one| one.quality(beliefs)).collect::<Result<_>>()?;
+    let priors: &'static Priors = Box::leak(Box::new(priors));
+    let each: Vec<Quality> = all.par_iter().map(|one| one.quality(priors)).collect::<Result<_>>()?;
     let mean = |of: fn(&Quality) -> f64| each.iter().map(of).sum::<f64>() / each.len() as f64;
     Ok(Quality {
         score: mean(|one| one.score),
@@ -107,21 +107,21 @@ fn quality(all: &[Known], beliefs: Beliefs) -> Result<Quality> {
 }
 
 /// The same with one number changed: by a factor, or, if it is a mean, by as many standard deviations as the factor is doublings, halved.
-fn changed(mut beliefs: Beliefs, number: usize, factor: f64) -> Beliefs {
-    let (name, of) = Beliefs::NUMBERS[number];
-    let sd_of_mean = Beliefs::NUMBERS.get(number + 1).filter(|(next, _)| next.replacen("_sd", "", 1) == name);
+fn changed(mut priors: Priors, number: usize, factor: f64) -> Priors {
+    let (name, of) = Priors::NUMBERS[number];
+    let sd_of_mean = Priors::NUMBERS.get(number + 1).filter(|(next, _)| next.replacen("_sd", "", 1) == name);
     match sd_of_mean {
         Some((_, sd)) => {
-            let sd = *sd(&mut beliefs);
-            *of(&mut beliefs) += 0.5 * factor.log2() * sd;
+            let sd = *sd(&mut priors);
+            *of(&mut priors) += 0.5 * factor.log2() * sd;
         }
-        None => *of(&mut beliefs) *= factor,
+        None => *of(&mut priors) *= factor,
     }
-    beliefs
+    priors
 }
 
 fn table(all: &[Known]) -> Result<()> {
-    let usual = quality(all, Beliefs::USUAL)?;
+    let usual = quality(all, Priors::USUAL)?;
     println!("| number | value | half: score | error | double: score | error |\n|---|---|---|---|---|---|");
     println!(
         "| all as they are: score {:.3}, error {:.4}, within two sd {:.0} % | | | | | |",
@@ -129,10 +129,10 @@ fn table(all: &[Known]) -> Result<()> {
         usual.rmse,
         100.0 * usual.within_two_sd
     );
-    for (number, (name, of)) in Beliefs::NUMBERS.iter().enumerate() {
-        print!("| `{name}` | {}", *of(&mut Beliefs::USUAL.clone()));
+    for (number, (name, of)) in Priors::NUMBERS.iter().enumerate() {
+        print!("| `{name}` | {}", *of(&mut Priors::USUAL.clone()));
         for factor in [0.5, 2.0] {
-            let other = quality(all, changed(Beliefs::USUAL, number, factor))?;
+            let other = quality(all, changed(Priors::USUAL, number, factor))?;
             print!(" | {:+.3} | {:.4}", other.score - usual.score, other.rmse);
         }
         println!(" |");
@@ -141,23 +141,22 @@ fn table(all: &[Known]) -> Result<()> {
 }
 
 fn fit(all: &[Known], names: &[String]) -> Result<()> {
-    let mut best = (quality(all, Beliefs::USUAL)?, Beliefs::USUAL);
+    let mut best = (quality(all, Priors::USUAL)?, Priors::USUAL);
     println!("score {:.4}, error {:.4}", best.0.score, best.0.rmse);
     let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
     loop {
         let before = best.0.score;
-        for (number, (name, of)) in
-            Beliefs::NUMBERS.iter().enumerate().filter(|(_, (name, _))| is_asked(name))
+        for (number, (name, of)) in Priors::NUMBERS.iter().enumerate().filter(|(_, (name, _))| is_asked(name))
         {
             for factor in [STEP, STEP.recip()] {
                 let start = best.0.score;
                 loop {
-                    let beliefs = changed(best.1, number, factor);
-                    let one = quality(all, beliefs)?;
+                    let priors = changed(best.1, number, factor);
+                    let one = quality(all, priors)?;
                     if one.score < best.0.score + LEAST_GAIN {
                         break;
                     }
-                    best = (one, beliefs);
+                    best = (one, priors);
                     println!("{name} {:.4}: score {:.4}, error {:.4}", *of(&mut best.1), one.score, one.rmse);
                 }
                 if best.0.score > start {
@@ -171,8 +170,8 @@ fn fit(all: &[Known], names: &[String]) -> Result<()> {
     }
     let within = 100.0 * best.0.within_two_sd;
     println!("score {:.4}, error {:.4}, within two sd {within:.0} %", best.0.score, best.0.rmse);
-    for (name, of) in Beliefs::NUMBERS {
-        let (was, is) = (*of(&mut Beliefs::USUAL.clone()), *of(&mut best.1));
+    for (name, of) in Priors::NUMBERS {
+        let (was, is) = (*of(&mut Priors::USUAL.clone()), *of(&mut best.1));
         if (was - is).abs() > 0.0 {
             println!("{name}: {was} -> {is:.4}");
         }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What it costs that nothing is typed but camera and light: photographs with fold, angle and chart told and found, as rows of a table.
 
-    find_told.py TOOLS SIDECAR...        TOOLS: folder of the tools
+    find_stated.py TOOLS SIDECAR...        TOOLS: folder of the tools
 
 Told: corners, angle and tilt as a careful user has them, and the chart. Found: what `vextract --find` prints. Photographs that are not surely found
 are left out of both.

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::named::Named;
 use crate::error::{Error, Result};
-use crate::image::{FoldAngle, FoundChart, FoundFold, NoFold, Photograph, Point};
+use crate::image::{DetectedChart, DetectedFold, FoldAngle, NoFold, Photograph, Point};
 
 /// A fold and a chart, as a file of regions has them; or that there is no fold, and why.
 #[derive(Serialize)]
-struct FoundRecord {
+struct DetectionRecord {
     /// Name of the picture's file.
     image: String,
     #[serde(flatten)]
@@ -53,7 +53,7 @@ struct Size {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum FoldRecord {
-    Found {
+    Detected {
         #[serde(flatten)]
         panels: Named<[[f64; 2]; 4]>,
         confidence: f64,
@@ -82,17 +82,17 @@ const PARTS_OF_DEPTH: f64 = 1e3;
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
-pub fn found_line(
+pub fn detection_line(
     image: &Path,
     photograph: &Photograph,
-    fold: &std::result::Result<FoundFold, NoFold>,
+    fold: &std::result::Result<DetectedFold, NoFold>,
     angle: Option<&FoldAngle>,
-    chart: Option<&FoundChart>,
+    chart: Option<&DetectedChart>,
 ) -> Result<String> {
     let fold = match fold {
         Ok(found) => {
             let panel = |(number, panel)| (format!("panel{number}"), corners(panel));
-            FoldRecord::Found {
+            FoldRecord::Detected {
                 panels: Named(found.panels.into_iter().enumerate().map(panel).collect()),
                 confidence: rounded(found.confidence, PARTS_OF_CONFIDENCE),
                 angle: angle.map(AngleRecord::from),
@@ -104,17 +104,17 @@ pub fn found_line(
         chart: corners(chart.corners),
         chart_confidence: rounded(chart.confidence, PARTS_OF_CONFIDENCE),
     });
-    let has_corners = matches!(fold, FoldRecord::Found { .. }) || chart.is_some();
+    let has_corners = matches!(fold, FoldRecord::Detected { .. }) || chart.is_some();
     let size = has_corners.then(|| Size { width: photograph.width(), height: photograph.height() });
-    line(&FoundRecord { image: name(image), size, fold, chart })
+    line(&DetectionRecord { image: name(image), size, fold, chart })
 }
 
 /// A line that says why nothing is found in a photograph that cannot be read.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
-pub fn not_found_line(image: &Path, reason: &str) -> Result<String> {
-    line(&FoundRecord { image: name(image), size: None, fold: missing(reason.to_owned()), chart: None })
+pub fn no_detection_line(image: &Path, reason: &str) -> Result<String> {
+    line(&DetectionRecord { image: name(image), size: None, fold: missing(reason.to_owned()), chart: None })
 }
 
 fn missing(reason: String) -> FoldRecord {

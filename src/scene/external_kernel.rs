@@ -12,7 +12,7 @@ use crate::surfaces::{DenseExchange, SurfaceResponse};
 const TOLERANCE: f64 = 1e-9;
 
 /// A kernel with its light.
-pub struct GivenKernel {
+pub struct ExternalKernel {
     name: String,
     /// The exchange between the facets, one patch each.
     pub exchange: DenseExchange,
@@ -20,7 +20,7 @@ pub struct GivenKernel {
     pub sources: Vec<Vec<f64>>,
 }
 
-impl GivenKernel {
+impl ExternalKernel {
     /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
     /// `irradiance` holds direct light, one number per facet, or one row per source (1 everywhere if there is none); `areas` those of the
     /// facets (by reciprocity if there is none).
@@ -48,9 +48,9 @@ impl GivenKernel {
         let solve = |source: &Vec<f64>| SurfaceResponse::solve(&self.exchange, source, TOLERANCE);
         let solved: Vec<_> = self.sources.iter().map(solve).collect::<Result<_>>()?;
         let (responses, residuals): (Vec<_>, Vec<_>) = solved.into_iter().unzip();
-        let given = vec![LightSource::Given; self.sources.len()];
+        let lights = vec![LightSource::PerFacet; self.sources.len()];
         let facets = self.sources[0].len();
-        let mut scene = Scene::of_surface(&self.name, &Surface::Kernel { facets }, &given, &responses)?;
+        let mut scene = Scene::of_surface(&self.name, &Surface::Kernel { facets }, &lights, &responses)?;
         let residual = residuals.into_iter().fold(0.0, f64::max);
         let accuracy = Accuracy { unknowns: facets, facet_mean_error: None, residual, kernel: None };
         scene.set_accuracy("facets", TOLERANCE, &accuracy)?;

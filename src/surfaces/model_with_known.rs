@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::{BesideKnown, ReducedExchange};
+use super::{ReducedExchange, WithKnown};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::forward::{FacetModel, Source, Terms, seen_bands};
@@ -13,15 +13,15 @@ impl FacetModel {
     /// `exchange`, for each of which there is a camera's response.
     ///
     /// # Errors
-    /// As [`ReducedExchange::beside_known`].
-    pub fn beside_known(
+    /// As [`ReducedExchange::with_known`].
+    pub fn with_known(
         exchange: &ReducedExchange,
         parts: &[Option<Vec<f64>>],
         cameras: &[CameraResponse],
     ) -> Result<Self> {
         let of_band = |band: &usize| {
             let reflectances: Vec<_> = parts.iter().map(|part| part.as_ref().map(|r| r[*band])).collect();
-            exchange.beside_known(&reflectances).map(|lights| (*band, lights))
+            exchange.with_known(&reflectances).map(|lights| (*band, lights))
         };
         let seen = seen_bands(cameras.iter());
         let bands: Vec<_> = seen.par_iter().map(of_band).collect::<Result<_>>()?;
@@ -29,7 +29,7 @@ impl FacetModel {
         for (band, lights) in &bands {
             poles[*band] = lights.iter().flat_map(|light| light.modes.poles.clone()).collect();
         }
-        let terms = Terms::BesideKnown(poles);
+        let terms = Terms::WithKnown(poles);
         let sources =
             cameras.iter().enumerate().map(|(n, camera)| source(&terms, &bands, n, camera)).collect();
         Ok(Self::of(terms, sources))
@@ -37,16 +37,11 @@ impl FacetModel {
 }
 
 /// One light, of whose terms every facet takes what the bands say.
-fn source(
-    terms: &Terms,
-    bands: &[(usize, Vec<BesideKnown>)],
-    light: usize,
-    camera: &CameraResponse,
-) -> Source {
+fn source(terms: &Terms, bands: &[(usize, Vec<WithKnown>)], light: usize, camera: &CameraResponse) -> Source {
     let count = bands.first().map_or(0, |(_, lights)| lights[light].known.len());
     let mut facets = DMatrix::zeros(count, terms.count());
     for (band, lights) in bands {
-        let BesideKnown { known, modes } = &lights[light];
+        let WithKnown { known, modes } = &lights[light];
         let first = terms.first(*band);
         facets.set_column(first, known);
         let before: usize = lights[..light].iter().map(|other| other.modes.poles.len()).sum();

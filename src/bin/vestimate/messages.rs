@@ -23,7 +23,7 @@ impl Deviations {
     /// Of facets `rgb` by their noise.
     pub fn of(noise: &Noise, model: &FacetModel, rgb: &FacetValues) -> Result<Self> {
         let noise_from = match noise.source {
-            NoiseSource::Given(_) => "--noise-sd",
+            NoiseSource::Stated(_) => "--noise-sd",
             NoiseSource::OfFacets(_) => "facet_sd",
             NoiseSource::Unexplained => "what no reflectance explains",
         };
@@ -62,8 +62,8 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     };
     let sd = estimate.reflectance_sd();
     let iterations = format!("{} iterations, {ended}", estimate.iterations);
-    let misfit = match &sd {
-        Some(_) => format!("misfit {:.2}", estimate.residual_rms),
+    let reduced_chi = match &sd {
+        Some(_) => format!("residual {:.2} times the noise", estimate.residual_rms),
         // of a method that weighs all facets alike
         None => format!("residuals {:.1e} of white", estimate.residual_rms),
     };
@@ -78,14 +78,14 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let light =
         light.map(|most| format!("light {} with a probability of {:.2}", most.name, most.probability));
     let fitted = estimate.fitted.iter().map(|one| {
-        let told = if one.supported { "" } else { ", not told by the facets" };
-        format!("{} {:.4} ± {:.4}{told}", one.unknown.name, one.value, one.sd)
+        let model = if one.supported { "" } else { ", not determined by the facets" };
+        format!("{} {:.4} ± {:.4}{model}", one.unknown.name, one.value, one.sd)
     });
     let sd = sd.map(|sd| {
         let (mean, most) = (sd.iter().sum::<f64>() / sd.len() as f64, sd.iter().copied().fold(0.0, f64::max));
         format!("reflectance to {mean:.4}, at worst {most:.4}")
     });
-    [iterations, misfit]
+    [iterations, reduced_chi]
         .into_iter()
         .chain(light)
         .chain(exposure)

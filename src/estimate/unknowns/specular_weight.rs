@@ -1,12 +1,12 @@
 //! What the surface of the sheet reflects before light enters it.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::Told;
+use crate::estimate::photograph::StatedScene;
 
-/// Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
-pub static GLOSS: Unknown = Unknown {
-    name: "gloss",
-    about: "Strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1",
+/// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+pub static SPECULAR_WEIGHT: Unknown = Unknown {
+    name: "specular_weight",
+    description: "Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
@@ -16,7 +16,7 @@ pub static GLOSS: Unknown = Unknown {
         whose: Whose::Sheet,
         known: |_| Known::Imperfection,
         prior,
-        set: |conditions, value| conditions.gloss = value,
+        set: |conditions, value| conditions.specular_weight = value,
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.15,
@@ -26,6 +26,6 @@ pub static GLOSS: Unknown = Unknown {
     }),
 };
 
-fn prior(told: &Told) -> Option<Expectation> {
-    Some(told.beliefs.amount(told.beliefs.gloss))
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.specular_weight))
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Photographs and folds of measured materials with their truth, each a stream of its own, for `cargo bench --bench beliefs`.
+"""Photographs and folds of measured materials with their truth, each a stream of its own, for `cargo bench --bench photograph_priors`.
 
-    beliefs.py TOOLS SHARED OUT        TOOLS: folder of the tools; SHARED: folder of `train` and `materials`; OUT: where NAME.ndjson are written
+    photograph_priors.py TOOLS SHARED OUT        TOOLS: folder of the tools; SHARED: folder of `train` and `materials`; OUT: where NAME.ndjson are written
 
 Folds of materials stand there twice, with their exposure and without.
 """

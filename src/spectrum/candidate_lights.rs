@@ -5,7 +5,7 @@ use crate::error::Result;
 
 /// A light that may have been the one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LikelyLight {
+pub struct CandidateLight {
     /// Its relative power.
     pub spectrum: Spectrum,
     /// How often it is the one, the shares of all adding up to 1.
@@ -24,13 +24,13 @@ struct Kind {
     lights: fn(usize) -> Vec<(String, Option<f64>)>,
 }
 
-/// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are told from neither by facets of one part in a thousand.
+/// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are distinguished from neither by facets of one part in a thousand.
 const STEP_MIRED: usize = 10;
 /// The same of a sheet that is known.
 const FINE_STEP_MIRED: usize = 2;
 
 /// Nothing is known of where people fold sheets but that it is by day as often as not: round shares, none of them fitted.
-const KINDS: [Kind; 5] = [
+const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.4,
         is_any_daylight: true,
@@ -86,41 +86,41 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 ///
 /// # Example
 /// ```
-/// use vfold::spectrum::likely_lights;
-/// let lights = likely_lights()?;
+/// use vfold::spectrum::candidate_lights;
+/// let lights = candidate_lights()?;
 /// assert!(lights.iter().any(|light| light.spectrum.name() == "FL11"));
 /// assert!((lights.iter().map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn likely_lights() -> Result<Vec<LikelyLight>> {
+pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
     lights_apart(STEP_MIRED)
 }
 
 /// The same nearer to each other than facets of a known sheet tell.
 ///
 /// # Errors
-/// As [`likely_lights`].
-pub fn finely_likely_lights() -> Result<Vec<LikelyLight>> {
+/// As [`candidate_lights`].
+pub fn fine_candidate_lights() -> Result<Vec<CandidateLight>> {
     lights_apart(FINE_STEP_MIRED)
 }
 
-fn lights_apart(step_mired: usize) -> Result<Vec<LikelyLight>> {
+fn lights_apart(step_mired: usize) -> Result<Vec<CandidateLight>> {
     let of_kind = |kind: &Kind| {
         let lights = (kind.lights)(step_mired);
         let share = kind.share / lights.len() as f64;
         let is_any_daylight = kind.is_any_daylight;
         let light = move |(name, cct_k): (String, Option<f64>)| {
-            Ok(LikelyLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight })
+            Ok(CandidateLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight })
         };
         lights.into_iter().map(light)
     };
-    KINDS.iter().flat_map(of_kind).collect()
+    SOURCES.iter().flat_map(of_kind).collect()
 }
 
-/// Lights of one's own, each as likely as any other.
+/// Lights of one's own, each as probable as any other.
 #[must_use]
-pub fn equally_likely(spectra: Vec<Spectrum>) -> Vec<LikelyLight> {
+pub fn equal_candidates(spectra: Vec<Spectrum>) -> Vec<CandidateLight> {
     let share = 1.0 / spectra.len().max(1) as f64;
-    let light = |spectrum| LikelyLight { spectrum, share, cct_k: None, is_any_daylight: false };
+    let light = |spectrum| CandidateLight { spectrum, share, cct_k: None, is_any_daylight: false };
     spectra.into_iter().map(light).collect()
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beliefs::Beliefs;
 use super::conditions::Conditions;
 use super::parts::{Parts, Radiance, lagrange};
-use super::sheets::{Departure, FAMILY_NODES, FUZZ, FamilyNodes, Sheets};
+use super::priors::Priors;
+use super::sheets::{Departure, FAMILY_NODES, FamilyNodes, SHEEN, Sheets};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
 
@@ -19,7 +19,7 @@ const MOST: f64 = 0.6;
 
 /// The kind that a sheet is taken to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum SheetModel {
     /// Perfectly matt, or nearly so.
     Matt,
     /// A family: its numbers are among the conditions.
@@ -29,8 +29,8 @@ pub enum Kind {
 }
 
 /// The kinds that are known, as one photograph shows them.
-pub struct Kinds<'a> {
-    beliefs: &'a Beliefs,
+pub struct SheetModels<'a> {
+    priors: &'a Priors,
     sheets: &'a Sheets,
     /// The mean of measured sheets.
     measured: Departure,
@@ -38,25 +38,25 @@ pub struct Kinds<'a> {
     variations: Vec<Departure>,
 }
 
-impl Kind {
+impl SheetModel {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Matt, Self::Family, Self::Measured];
 
     /// Logarithm of how many sheets are of the kind.
     #[must_use]
-    pub fn ln_share(self, beliefs: &Beliefs) -> f64 {
+    pub fn ln_share(self, priors: &Priors) -> f64 {
         let share = match self {
-            Self::Matt => beliefs.matt_share,
-            Self::Family | Self::Measured => 0.5 * (1.0 - beliefs.matt_share),
+            Self::Matt => priors.matt_share,
+            Self::Family | Self::Measured => 0.5 * (1.0 - priors.matt_share),
         };
         share.ln()
     }
 
     /// Standard deviation of its variations, that of measured sheets from their mean being 1.
-    fn variation(self, beliefs: &Beliefs) -> f64 {
+    fn variation(self, priors: &Priors) -> f64 {
         match self {
-            Self::Measured => beliefs.measured_variation,
-            Self::Matt | Self::Family => beliefs.formula_variation,
+            Self::Measured => priors.measured_variation,
+            Self::Matt | Self::Family => priors.formula_variation,
         }
     }
 
@@ -70,19 +70,19 @@ impl Kind {
     }
 }
 
-impl<'a> Kinds<'a> {
+impl<'a> SheetModels<'a> {
     /// Those of photographs of one sheet: measured sheets vary in the same ways in all of them.
     #[must_use]
     pub fn of(photographs: &'a [Parts]) -> Vec<Self> {
         let bounded = bounded(photographs);
-        let ways = ways(photographs, &bounded);
+        let principal_components = principal_components(photographs, &bounded);
         let of = |(parts, measured): (&'a Parts, &Vec<Departure>)| {
             let mean = vec![1.0 / measured.len() as f64; measured.len()];
             Self {
-                beliefs: parts.told.beliefs,
+                priors: parts.stated.priors,
                 sheets: &parts.sheets,
                 measured: sum(measured, &mean),
-                variations: ways.iter().map(|shares| sum(measured, shares)).collect(),
+                variations: principal_components.iter().map(|shares| sum(measured, shares)).collect(),
             }
         };
         photographs.iter().zip(&bounded).map(of).collect()
@@ -95,21 +95,21 @@ impl<'a> Kinds<'a> {
     }
 
     /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a photograph so far from an ideal one.
-    pub fn by_variation(&self, kind: Kind, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
-        self.variations.iter().map(move |own| scale * kind.variation(self.beliefs) * &own.radiance)
+    pub fn by_variation(&self, kind: SheetModel, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
+        self.variations.iter().map(move |own| scale * kind.variation(self.priors) * &own.radiance)
     }
 
     /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a photograph so far from an ideal one.
     #[must_use]
     pub fn departure(
         &self,
-        kind: Kind,
+        kind: SheetModel,
         scale: f64,
         conditions: &Conditions,
         variations: &[f64],
     ) -> Departure {
         let mut sum = match kind {
-            Kind::Measured => {
+            SheetModel::Measured => {
                 let mut mean = Departure::none(&self.measured.radiance);
                 mean.add(scale, &self.measured, [1.0, 0.0]);
                 mean.reflectance[0] +=
@@ -117,20 +117,20 @@ impl<'a> Kinds<'a> {
                 mean
             }
             // of these two the formula tells what an instrument says
-            Kind::Matt => Departure::none(&self.measured.radiance),
-            Kind::Family => self.family(conditions),
+            SheetModel::Matt => Departure::none(&self.measured.radiance),
+            SheetModel::Family => self.family(conditions),
         };
         for (own, size) in self.variations.iter().zip(variations) {
-            sum.add(scale * kind.variation(self.beliefs) * size, own, [0.0, 0.0]);
+            sum.add(scale * kind.variation(self.priors) * size, own, [0.0, 0.0]);
         }
         sum
     }
 
     fn family(&self, conditions: &Conditions) -> Departure {
-        let FamilyNodes { gloss, gloss_roughness, body_roughness_deg } = FAMILY_NODES;
+        let FamilyNodes { specular_weight, specular_roughness, body_roughness_deg } = FAMILY_NODES;
         let shares = [
-            lagrange(gloss, conditions.gloss),
-            lagrange(gloss_roughness, conditions.gloss_roughness),
+            lagrange(specular_weight, conditions.specular_weight),
+            lagrange(specular_roughness, conditions.specular_roughness),
             lagrange(body_roughness_deg, conditions.body_roughness_deg),
         ];
         let mut sum = Departure::none(&self.measured.radiance);
@@ -138,9 +138,9 @@ impl<'a> Kinds<'a> {
             let share = shares[0][n / 9] * shares[1][n / 3 % 3] * shares[2][n % 3];
             sum.add(share, departure, [1.0, 0.0]);
         }
-        let ([a, b], fuzz) = (FUZZ, conditions.fuzz);
-        sum.add(fuzz * (fuzz - b) / (a * (a - b)), &self.sheets.fuzz[0], [0.0, 0.0]);
-        sum.add(fuzz * (fuzz - a) / (b * (b - a)), &self.sheets.fuzz[1], [0.0, 0.0]);
+        let ([a, b], sheen) = (SHEEN, conditions.sheen);
+        sum.add(sheen * (sheen - b) / (a * (a - b)), &self.sheets.sheen[0], [0.0, 0.0]);
+        sum.add(sheen * (sheen - a) / (b * (b - a)), &self.sheets.sheen[1], [0.0, 0.0]);
         sum
     }
 }
@@ -183,7 +183,7 @@ fn relative(departure: &Departure, lambertian: &Radiance) -> DVector<f64> {
 ///
 /// # Source
 /// Principal components: Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer points than dimensions).
-fn ways(photographs: &[Parts], measured: &[Vec<Departure>]) -> Vec<Vec<f64>> {
+fn principal_components(photographs: &[Parts], measured: &[Vec<Departure>]) -> Vec<Vec<f64>> {
     let columns = |(parts, measured): (&Parts, &Vec<Departure>)| {
         DMatrix::from_columns(&measured.iter().map(|one| relative(one, &parts.sun.even)).collect::<Vec<_>>())
     };

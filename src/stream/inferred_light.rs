@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fields::finite;
 use super::optics::SpectrumRecord;
 use crate::error::Result;
-use crate::estimate::light::{FoundLight, Weighed};
+use crate::estimate::light::{InferredLight, Weighed};
 use crate::plot::spectra::LightCurve;
 use crate::spectrum::UNKNOWN_LIGHT;
 
@@ -15,7 +15,7 @@ const PROBABILITY_LEAST: f64 = 1e-3;
 
 /// The light as it was found along with the reflectance.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct FoundLightRecord {
+pub struct InferredLightRecord {
     /// What it may be, the most probable first; what is left out is less probable than one in a thousand.
     pub candidates: Vec<CandidateRecord>,
     /// The expected relative power, one number per wavelength, its mean 1.
@@ -45,12 +45,12 @@ impl From<&Weighed> for CandidateRecord {
     }
 }
 
-impl FoundLightRecord {
+impl InferredLightRecord {
     /// As the record has it.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
-    pub fn of(found: &FoundLight) -> Result<Self> {
+    pub fn of(found: &InferredLight) -> Result<Self> {
         finite("estimate.light", found.power.iter().chain(&found.power_sd))?;
         let probable = found.candidates.iter().filter(|one| one.probability >= PROBABILITY_LEAST);
         Ok(Self {

@@ -17,7 +17,7 @@ const ROUNDS: usize = 20;
 
 /// A channel's polynomial, between values as shares of the brightest patch's.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Curve {
+pub(super) struct Polynomial {
     terms: Vector3<f64>,
     covariance: Matrix3<f64>,
     /// The brightest patch, measured and expected.
@@ -29,7 +29,7 @@ pub(super) struct Curve {
 /// A patch in one channel: what was measured, its standard error, what was expected.
 type Datum = (f64, f64, f64);
 
-impl Curve {
+impl Polynomial {
     pub fn fit(patches: &[Patch], channel: usize) -> Result<Self> {
         let data =
             patches.iter().map(|p| (p.measured[channel], p.standard_error[channel], p.expected[channel]));
@@ -43,9 +43,13 @@ impl Curve {
         let shares: Vec<Datum> =
             data.map(|(m, sd, e)| (m / brightest.0, sd / brightest.0, e / brightest.1)).collect();
         let (terms, covariance) = posterior(&shares).ok_or_else(falls)?;
-        let curve = Self { terms, covariance, brightest, exposure: 1.0 };
+        let polynomial = Self { terms, covariance, brightest, exposure: 1.0 };
         // the slope is linear: positive at both ends, positive between
-        if [0.0, brightest.0].iter().any(|end| curve.slope(*end) <= 0.0) { Err(falls()) } else { Ok(curve) }
+        if [0.0, brightest.0].iter().any(|end| polynomial.slope(*end) <= 0.0) {
+            Err(falls())
+        } else {
+            Ok(polynomial)
+        }
     }
 
     /// Place on the curve up to the brightest patch, and how far beyond it.

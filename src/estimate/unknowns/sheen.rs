@@ -1,0 +1,31 @@
+//! Fibres that stand up from the sheet.
+
+use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::estimate::photograph::StatedScene;
+
+/// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of felt.
+pub static SHEEN: Unknown = Unknown {
+    name: "sheen",
+    description: "Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of felt",
+    unit: None,
+    flag: &AUTO,
+    range: 0.0..=f64::INFINITY,
+    scale: Scale::Positive,
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Sheet,
+        known: |_| Known::Imperfection,
+        prior,
+        set: |conditions, value| conditions.sheen = value,
+        symptom: Some(Symptom {
+            ideal: |_| 0.0,
+            least: 0.15,
+            words: |_, _| "fibres stand up from the sheet".to_owned(),
+            remedy: "include a colour chart or a white card",
+        }),
+    }),
+};
+
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(stated.priors.amount(stated.priors.sheen))
+}

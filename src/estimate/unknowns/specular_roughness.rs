@@ -1,0 +1,29 @@
+//! How sharply the surface of the sheet reflects.
+
+use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use crate::estimate::photograph::StatedScene;
+
+/// Roughness of the surface: GGX's alpha.
+pub static SPECULAR_ROUGHNESS: Unknown = Unknown {
+    name: "specular_roughness",
+    description: "Roughness of the surface: GGX's alpha",
+    unit: None,
+    flag: &AUTO,
+    range: 0.05..=1.0,
+    scale: Scale::Logarithm,
+    role: Role::Photograph,
+    photograph: Some(Effect {
+        whose: Whose::Sheet,
+        known: |_| Known::OfImperfection,
+        prior,
+        set: |conditions, value| conditions.specular_roughness = value,
+        symptom: None,
+    }),
+};
+
+fn prior(stated: &StatedScene) -> Option<Expectation> {
+    Some(
+        Normal { mean: stated.priors.ln_specular_roughness, sd: stated.priors.ln_specular_roughness_sd }
+            .into(),
+    )
+}
