@@ -2,7 +2,7 @@
 //!
 //! Six corners are twelve numbers. Where the fold is and how it is turned takes six, the angle is the seventh; the focal length, the lens'
 //! distortion and the panels' form are known more or less, and what is not is found along with the angle, each as far as it was
-//! [estimated_error](prior) before. Panels may be of several usual forms: each is tried, and weighed by how well it explains the corners.
+//! [known](prior) before. Panels may be of several usual forms: each is tried, and weighed by how well it explains the corners.
 //!
 //! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a picture cut on one side is seen
 //! a little askew.
