@@ -258,7 +258,8 @@ mod tests {
         assert_eq!(of(0.9, 0.1, Vec::new()).level, Level::Doubtful);
         let wrong = of(6.0, 0.1, vec![Doubt::new("another", "remedy")]);
         assert!(
-            wrong.level == Level::Wrong && wrong.because.starts_with("the model misfits the facets by 6.0 times"),
+            wrong.level == Level::Wrong
+                && wrong.because.starts_with("the model misfits the facets by 6.0 times"),
             "{wrong:?}"
         );
         assert!(wrong.because.ends_with("; also, another"), "{wrong:?}");

@@ -97,10 +97,10 @@ fn scenes() {
                 &["-:1", "response.residues"],
             ),
             case("sed 's/\"count\":2/\"count\":-3/' good.ndjson | vestimate", 1, &["-:1", "facets"]),
-            case("sed 's/{\"type\":\"given\"}//' good.ndjson | vestimate", 1, &["-:1", "light.sources"]),
-            case("sed 's/\"given\"/\"moon\"/' good.ndjson | vestimate", 1, &["-:1", "moon"]),
+            case("sed 's/{\"type\":\"per_facet\"}//' good.ndjson | vestimate", 1, &["-:1", "light.sources"]),
+            case("sed 's/\"per_facet\"/\"moon\"/' good.ndjson | vestimate", 1, &["-:1", "moon"]),
             case(
-                "sed 's/{\"type\":\"given\"}/&,&/' good.ndjson | vestimate",
+                "sed 's/{\"type\":\"per_facet\"}/&,&/' good.ndjson | vestimate",
                 1,
                 &["-:1", "response.sources", "2 sources"],
             ),
