@@ -1,9 +1,8 @@
 //! The section of one sample: drawings, scores, and what the tools decided.
 
 use super::html::Html;
-use super::words::{digits, with_sd, words};
-use super::{Gallery, Shown, View, overlay};
-use crate::colorimetry::Observer;
+use super::words::{digits, rounded_list, with_sd, words};
+use super::{Gallery, Shown, View, colours, overlay, photograph};
 use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
 use crate::estimate::verdict::Level;
@@ -14,12 +13,6 @@ use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 const TOLD: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const TOLD_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
-/// Fields of how sure things are that were found, and what these are.
-const FOUND: [(&str, &str); 2] = [
-    ("image.found_confidence", "corners of the panels"),
-    ("calibration.found_confidence", "corners of the colour chart"),
-];
-
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
@@ -28,10 +21,14 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     parts.extend(estimate.iter().flat_map(judged));
     let sheet = estimate.as_ref().map(|estimate| shown.sheet(estimate, view)).transpose()?;
     parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
+    if let Some(estimate) = &estimate {
+        parts.extend(colours::section(estimate, &shown.scene, view)?);
+    }
     parts.extend(overlay::figure(&sample.id(), gallery, view)?);
-    parts.extend(found(sample)?);
-    parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(findings));
+    parts.extend(photograph::unstated(sample, &shown.scene)?);
+    parts.extend(photograph::file(sample)?);
+    parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(light));
     parts.extend(estimate.as_ref().and_then(fitted));
     parts.extend(estimate.as_ref().map(|estimate| numbers(estimate, sample)).transpose()?);
@@ -44,17 +41,6 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     }
     let id = format!("sample-{number}");
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
-}
-
-/// What vextract found in the photograph and nobody told it, with how sure that is.
-fn found(sample: &Sample) -> Result<Option<Html>> {
-    let mut rows = Vec::new();
-    for (field, what) in FOUND {
-        let confidence = sample.fields.text_at(field)?.and_then(|text| text.parse::<f64>().ok());
-        rows.extend(confidence.map(|sure| vec![what.into(), format!("{:.1} %", 100.0 * sure).into()]));
-    }
-    let headings = ["what", "how sure"];
-    Ok((!rows.is_empty()).then(|| Html::table("Found in the picture, not told", &headings, rows)))
 }
 
 /// The verdict; of a record without one what speaks against it.
@@ -71,7 +57,8 @@ fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     }
 }
 
-fn folded(summary: &str, what: Html) -> Html {
+/// What opens on a click.
+pub(super) fn folded(summary: &str, what: Html) -> Html {
     Html::element("details", &[], vec![Html::element("summary", &[], summary), what])
 }
 
@@ -83,13 +70,10 @@ fn findings(estimate: &EstimateRecord) -> Option<Html> {
 }
 
 fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
-    let observer = match view.observer {
-        Observer::Cie1931_2deg => "2°",
-        Observer::Cie1964_10deg => "10°",
-    };
     let caption = format!(
-        "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {observer} observer.",
-        view.illuminant.name()
+        "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {} observer.",
+        view.illuminant.name(),
+        colours::observer(view.observer)
     );
     let words = format!("spectral reflectance of {}, and what it looks like", sheet.curve.name);
     Ok(Html::figure(Html::drawing(&sheet.spectrum_svg()?, &words), &caption))
@@ -141,7 +125,7 @@ pub(super) fn pairs(caption: &str, rows: Vec<(String, String)>) -> Html {
     Html::table(
         caption,
         &["what", "value"],
-        rows.into_iter().map(|(name, value)| vec![words(&name).into(), value.into()]),
+        rows.into_iter().map(|(name, value)| vec![words(&name).into(), rounded_list(&value).into()]),
     )
 }
 
