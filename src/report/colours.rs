@@ -27,15 +27,17 @@ pub(super) fn section(estimate: &EstimateRecord, scene: &Scene, view: &View) -> 
             let (value, sd) = (pick(&colour)[n], sd.as_ref().map(|sd| pick(sd)[n]));
             format!("{} {}", names[n], sd.map_or_else(|| digits(value, 0.0), |sd| with_sd(value, sd)))
         };
-        std::iter::once(Html::from(space)).chain([0, 1, 2].map(|n| value(n).into())).collect::<Vec<_>>()
+        std::iter::once(space.to_owned()).chain([0, 1, 2].map(value)).map(Html::from).collect::<Vec<_>>()
     };
     let rows = [
         row("CIE XYZ, white 100", XYZ, |colour| colour.xyz),
         row("CIELAB", LAB, |colour| colour.lab),
         row("sRGB, 0 to 1", SRGB, |colour| colour.srgb),
     ];
-    let caption = format!("Colour under {}, {} observer", view.illuminant.name(), observer(view.observer));
-    let numbers = Html::table(&caption, &["space", "", "", ""], rows);
+    let bars = if sd.is_some() { ", with standard deviations (upper bounds)" } else { "" };
+    let (light, observer) = (view.illuminant.name(), observer(view.observer));
+    let caption = format!("Colour under {light}, {observer} observer{bars}");
+    let numbers = Html::table(&caption, &["colour space", "", "", ""], rows);
     let style = format!("background: rgb({r}, {g}, {b})");
     let swatch = Html::element(
         "span",

@@ -38,7 +38,7 @@ summary { cursor: pointer; font-weight: 600; }
 .verdict.doubtful { border-color: #e69f00; }
 .verdict.wrong { border-color: #d55e00; }
 .doubt { border-left: 4px solid #d55e00; padding-left: .8rem; }
-@media (prefers-color-scheme: dark) and (not print) {
+@media screen and (prefers-color-scheme: dark) {
   :root { --paper: #16181a; --ink: #e8e8e8; --faint: #aaa; --line: #444; --link: #7cc4f0; --block: #23262a; }
   figure svg > rect:first-of-type { fill: var(--paper); }
   figure svg text[fill='#000000'] { fill: var(--ink); }

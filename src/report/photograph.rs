@@ -17,8 +17,12 @@ pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
     let written = text("file_modified_s")?.and_then(|seconds| seconds.parse().ok());
     add("file last written", written.map(utc));
     add("SHA-256", text("sha256")?);
-    let camera: Vec<String> = ["make", "model"].iter().filter_map(|field| text(field).ok()?).collect();
-    add("camera", Some(camera.join(" ")).filter(|camera| !camera.is_empty()));
+    let camera = match (text("make")?, text("model")?) {
+        // most models begin with their maker
+        (Some(make), Some(model)) if !model.starts_with(&make) => Some(format!("{make} {model}")),
+        (make, model) => model.or(make),
+    };
+    add("camera", camera);
     add("image.stored_as", text("stored_as")?);
     Ok(Some(pairs("The photograph", rows)))
 }

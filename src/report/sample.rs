@@ -48,12 +48,20 @@ fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     match &estimate.verdict {
         Some(verdict) => {
             let class = format!("verdict {}", Level::from(verdict.level).name());
-            vec![Html::element("p", &[("class", &class)], verdict.to_string())]
+            vec![Html::element("p", &[("class", &class)], with_level(&verdict.to_string()))]
         }
         None => {
             let doubt = |doubt| Html::element("p", &[("class", "doubt")], Html::from(doubt));
             estimate.doubts().into_iter().map(doubt).collect()
         }
+    }
+}
+
+/// A verdict whose level, its first word, stands out.
+fn with_level(verdict: &str) -> Html {
+    match verdict.split_once(':') {
+        Some((level, why)) => vec![Html::element("strong", &[], level), format!(":{why}").into()].into(),
+        None => verdict.into(),
     }
 }
 
@@ -98,11 +106,11 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     let row = |one: (&Unknown, &FittedRecord)| {
         let (unknown, FittedRecord { value, sd, supported }) = one;
         let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
-        let by = if *supported { "the facets" } else { "what is usual: the facets do not tell it" };
+        let by = if *supported { "the picture" } else { "its prior: the picture does not show it" };
         vec![format!("{}{unit}", unknown.about).into(), with_sd(*value, *sd).into(), by.into()]
     };
     let rows: Vec<_> = estimate.fits().map(row).collect();
-    let headings = ["what", "value ± standard deviation", "told by"];
+    let headings = ["what", "value ± standard deviation", "determined by"];
     (!rows.is_empty()).then(|| Html::table("Fitted along with the spectrum", &headings, rows))
 }
 

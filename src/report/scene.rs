@@ -33,14 +33,14 @@ fn section(scene: &Scene) -> Result<Html> {
         .into_iter()
         .map(|one| vec![one.what.into(), one.count.to_string().into(), one.why.into()])
         .collect();
-    let mut parts = vec![Html::element("h2", &[], format!("How scene {} was measured", scene.id()?))];
+    let mut parts = vec![Html::element("h2", &[], format!("How it was measured: scene {}", scene.id()?))];
     if !history.is_empty() {
         parts.push(Html::element(
             "p",
             &[],
             "These commands make the records again; they can be pasted into a shell:",
         ));
-        parts.push(Html::element("pre", &[], Html::element("code", &[], pipeline(&history))));
+        parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
         parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));
     }
     parts.push(folded("All numbers of the scene", pairs("What was decided", settings.collect())));

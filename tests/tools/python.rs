@@ -46,9 +46,13 @@ fn the_notebook_runs() {
     assert_eq!(run.status, 0, "{run:?}");
     let lines: Vec<&str> = run.stdout.lines().collect();
     assert_eq!(lines.len(), 53, "{run:?}");
-    for (line, beginning) in
-        lines.iter().zip(["refused: vextract: --camera", "good: ", "corners found, 99", "CIELAB [", "24 sheets, 0 "])
-    {
+    for (line, beginning) in lines.iter().zip([
+        "refused: vextract: --camera",
+        "good: ",
+        "corners found, 99",
+        "CIELAB [",
+        "24 sheets, 0 ",
+    ]) {
         assert!(line.starts_with(beginning), "{line}");
     }
     for (python, vscore) in lines[5..29].iter().zip(&lines[29..]) {
@@ -148,12 +152,11 @@ for tool, names in vfold.KNOWN.items():
 #[test]
 fn the_module_reads_records_tables_and_arrays() {
     let folder = Workdir::new();
-    let made = folder.sh(
-        "vkernel --facets 3x3 | vforward --reflectance cc24 --noise-sd 1e-3 > samples.ndjson
+    let made =
+        folder.sh("vkernel --facets 3x3 | vforward --reflectance cc24 --noise-sd 1e-3 > samples.ndjson
         sed '3s/\"facet_rgb\":/\"no_facets\":/' samples.ndjson |
             { vestimate --spectra s.csv --save estimate.reflectance=s.npy -o e.ndjson 2> said || [ $? = 3 ]; }
-        vscore e.ndjson -o scores.ndjson 2> said || [ $? = 3 ]",
-    );
+        vscore e.ndjson -o scores.ndjson 2> said || [ $? = 3 ]");
     assert_eq!((made.status, made.stderr.as_str()), (0, ""));
     python(
         &folder,
