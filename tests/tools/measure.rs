@@ -219,9 +219,6 @@ fn a_known_fold_and_corners_are_handed_on() {
     assert_eq!(run.status, 0, "{run:?}");
     let history = folder.sh("head -n 1 vfold-photo/result.ndjson").stdout;
     let scene: serde_json::Value = serde_json::from_str(&history).unwrap();
-    assert_eq!(
-        scene["history"][2]["arguments"][2..],
-        ["--known-fold", "known.ndjson=cc24:magenta"],
-        "{scene}"
-    );
+    let arguments = scene["history"][2]["arguments"].as_array().unwrap();
+    assert_eq!(arguments[2..], ["--known-fold", "known.ndjson=cc24:magenta"]);
 }
