@@ -2,31 +2,15 @@
 
 use crate::stream::HistoryRecord;
 
-/// Flags that write files beside the records: what is pasted makes records, and overwrites nothing.
-const FILES: [&str; 6] = ["--overlay", "--plot", "--report", "--spectra", "--trace", "--save"];
-
 /// One pipe of the tools, a line each.
 ///
-/// A tool that read a file reads the one before it here: files between the tools are often gone.
+/// A tool that read a file reads it again, or, from standard input, what the one before it writes.
 pub(super) fn pipeline(history: &[HistoryRecord]) -> String {
-    let calls: Vec<String> = history.iter().map(call).collect();
-    calls.join(" |\n  ")
-}
-
-fn call(line: &HistoryRecord) -> String {
-    let mut words = vec![line.tool.clone()];
-    let mut arguments = line.arguments.iter();
-    while let Some(argument) = arguments.next() {
-        let is_flag = |flag: &&str| {
-            argument.strip_prefix(*flag).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
-        };
-        match FILES.iter().find(|flag| is_flag(flag)) {
-            Some(flag) if argument == *flag => drop(arguments.next()),
-            Some(_) => {}
-            None => words.push(quoted(argument)),
-        }
-    }
-    words.join(" ")
+    let call = |line: &HistoryRecord| {
+        let words = std::iter::once(line.tool.clone()).chain(line.arguments.iter().map(|word| quoted(word)));
+        words.collect::<Vec<_>>().join(" ")
+    };
+    history.iter().map(call).collect::<Vec<_>>().join(" |\n  ")
 }
 
 /// A word as a POSIX shell reads it.
@@ -52,12 +36,12 @@ mod tests {
     fn a_shell_reads_what_was_called() {
         let history = [
             line("vkernel", &["--angle-deg", "50"]),
-            line("vextract", &["it's a photo.tif", "--overlay", "o.png", "--panel0", "1,2 3,4 5,6 7,8"]),
+            line("vextract", &["it's a photo.tif", "--panel0", "1,2 3,4 5,6 7,8", "--overlay", "o.png"]),
             line("vestimate", &["--spectra=s.csv", "--fit", "auto"]),
         ];
         let expected = "vkernel --angle-deg 50 |\n  \
-                        vextract 'it'\\''s a photo.tif' --panel0 '1,2 3,4 5,6 7,8' |\n  \
-                        vestimate --fit auto";
+                        vextract 'it'\\''s a photo.tif' --panel0 '1,2 3,4 5,6 7,8' --overlay o.png |\n  \
+                        vestimate --spectra=s.csv --fit auto";
         assert_eq!(pipeline(&history), expected);
     }
 }

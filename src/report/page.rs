@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::estimate::verdict::Level;
 
 /// System fonts, one column, light or dark as the reader's system is; on paper always light, and a sample begins on a page of its own. Drawings,
-/// which are black on white, are drawn in the colours of the page, and stay legible on narrow screens, where they scroll.
+/// which are black on white, are drawn in the colours of the page. On narrow screens their letters grow, or they scroll.
 const STYLE: &str = "
 :root { color-scheme: light dark; --paper: #fff; --ink: #1a1a1a; --faint: #555; --line: #ccc; --link: #00507d; --block: #f3f3f3; }
 body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.45 system-ui, sans-serif; }
@@ -44,10 +44,15 @@ summary { cursor: pointer; font-weight: 600; }
   figure svg text[fill='#000000'] { fill: var(--ink); }
   figure svg text:not([fill='#000000']) { fill: var(--faint); }
   figure svg :not(rect)[stroke='#000000'] { stroke: var(--ink); }
+  figure svg [stroke='#0072B2'] { stroke: #4fb0ec; }
+  figure svg [fill='#0072B2'] { fill: #4fb0ec; }
 }
 @media (max-width: 30rem) {
   th, td { padding-right: .6rem; }
   .colour { display: block; }
+  section.sample > figure svg { min-width: 0; }
+  section.sample > figure svg text { font-size: 17px; }
+  section.sample > figure svg text[transform] { font-size: 13px; }
 }
 @media print {
   body { font-size: 10.5pt; }

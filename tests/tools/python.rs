@@ -123,7 +123,7 @@ refused(vfold.Error, lambda: vfold.measure('photo.exr'))",
         "vextract: no camera is called 'canon-5d-mk2'",
         "vkernel: photo.exr: there is no sheet",
         "measure() does not know cam; it takes angle_deg,",
-        "panel0 and panel1 do not give the angle",
+        "panel0 and panel1 do not give their angle",
         "panel0: four corners of two numbers are wanted, not shape (3,)",
         "vextract is not on PATH",
     ];
@@ -173,9 +173,10 @@ for sheet, column, row in zip(stream.sheets, table, array, strict=True):
     rmse = np.sqrt(np.mean((sheet.reflectance - sheet.truth) ** 2))
     assert abs(rmse - sheet.record['metrics']['rmse']) < 1e-9, sheet.name
 assert [record['kind'] for record in vfold.records('samples.ndjson')] == ['scene'] + ['sample'] * 24
-open('no.csv', 'w').write('x')
+from pathlib import Path
+Path('no.csv').write_text('x')
 refused(ValueError, lambda: vfold.read_spectra('no.csv'))
-open('no.csv', 'w').write('nm,a\\n400,x\\n')
+Path('no.csv').write_text('nm,a\\n400,x\\n')
 refused(ValueError, lambda: vfold.read_spectra('no.csv'))",
     );
 }

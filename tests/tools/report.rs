@@ -91,7 +91,11 @@ fn what_was_found_is_said_with_how_sure_it_is() {
     let found = &table(&page, "Found or assumed, not stated")[1..];
     assert_eq!(
         found[0],
-        ["corners of the panels".to_owned(), "as drawn over the photograph".to_owned(), format!("{sure:.1} %")]
+        [
+            "corners of the panels".to_owned(),
+            "as drawn over the photograph".to_owned(),
+            format!("{sure:.1} %")
+        ]
     );
     // angle, camera and light were stated
     assert!(found[1..].iter().all(|row| row[0] == "kind of day"), "{found:?}");
@@ -141,7 +145,7 @@ fn numbers_are_those_of_the_record() {
     assert_eq!(
         command,
         "vkernel --facets 4x4 |\n  vforward --reflectance cc24:red --noise-sd 1e-3 |\n  \
-         vestimate --fit exposure,tilt |\n  vscore"
+         vestimate --fit exposure,tilt |\n  vscore --report out.html"
     );
     let colours = table(&page, "Colour under D65, 10° observer, with standard deviations (upper bounds)");
     assert_eq!(colours.iter().map(|row| row.len()).collect::<Vec<_>>(), [4; 4], "{colours:?}");
