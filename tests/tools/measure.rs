@@ -66,7 +66,7 @@ fn a_camera_that_no_photograph_names_is_asked_at_a_terminal() {
     assert!(asked.stdout.contains("did you mean canon-5d-mark-ii"), "{asked:?}");
     assert!(asked.stdout.contains("vfold-photo/report.html: "), "{asked:?}");
     // elsewhere nobody would answer
-    for unasked in ["measure --yes photo.exr", "sleep 60 | timeout 30 $ROOT/share/vfold-measure photo.exr"] {
+    for unasked in ["measure --yes photo.exr", "sleep 20 | timeout 19 $ROOT/share/vfold-measure photo.exr"] {
         let (folder, told) = run(&["photo.exr"], unasked);
         assert!(told.status == 2 && told.stderr.contains("the photograph names no camera"), "{told:?}");
         assert_eq!(
