@@ -13,6 +13,7 @@ mod page;
 mod photograph;
 mod sample;
 mod scene;
+mod tables;
 mod view;
 mod words;
 

@@ -1,7 +1,7 @@
 //! Which photograph was measured, and what of it nobody stated.
 
 use super::html::Html;
-use super::sample::pairs;
+use super::tables::pairs;
 use super::words::{digits, rounded, utc, with_sd};
 use crate::error::Result;
 use crate::stream::{HistoryRecord, Sample, Scene};

@@ -1,7 +1,8 @@
 //! The section of one sample: drawings, scores, and what the tools decided.
 
 use super::html::Html;
-use super::words::{digits, rounded_list, with_sd, words};
+use super::tables::{folded, pairs};
+use super::words::{digits, with_sd};
 use super::{Gallery, Shown, View, colours, overlay, photograph};
 use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
@@ -65,11 +66,6 @@ fn with_level(verdict: &str) -> Html {
     }
 }
 
-/// What opens on a click.
-pub(super) fn folded(summary: &str, what: Html) -> Html {
-    Html::element("details", &[], vec![Html::element("summary", &[], summary), what])
-}
-
 /// What of the photograph is not ideal.
 fn findings(estimate: &EstimateRecord) -> Option<Html> {
     let rows = estimate.findings.iter().map(|one| vec![one.what.as_str().into(), one.remedy.as_str().into()]);
@@ -126,15 +122,6 @@ fn rest(sample: &Sample) -> Vec<Html> {
 
 fn table(caption: &str, rows: Vec<(String, String)>) -> Option<Html> {
     (!rows.is_empty()).then(|| pairs(caption, rows))
-}
-
-/// Names and values.
-pub(super) fn pairs(caption: &str, rows: Vec<(String, String)>) -> Html {
-    Html::table(
-        caption,
-        &["what", "value"],
-        rows.into_iter().map(|(name, value)| vec![words(&name).into(), rounded_list(&value).into()]),
-    )
 }
 
 /// The spectrum in numbers.

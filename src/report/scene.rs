@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Gallery;
 use super::command::pipeline;
 use super::html::Html;
-use super::sample::{folded, pairs};
+use super::tables::{folded, pairs};
 use crate::error::Result;
 use crate::stream::Scene;
 
