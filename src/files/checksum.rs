@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use hmac_sha256::Hash;
+use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Result};
 
@@ -35,10 +35,10 @@ pub fn sha256(path: &Path) -> Result<String> {
 }
 
 fn digest(mut file: File) -> io::Result<[u8; 32]> {
-    let (mut hash, mut piece) = (Hash::new(), vec![0; PIECE]);
+    let (mut hash, mut piece) = (Sha256::new(), vec![0; PIECE]);
     loop {
         match file.read(&mut piece) {
-            Ok(0) => return Ok(hash.finalize()),
+            Ok(0) => return Ok(hash.finalize().into()),
             Ok(read) => hash.update(&piece[..read]),
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
