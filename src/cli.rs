@@ -121,7 +121,7 @@ pub trait ToolArgs: Parser {
 /// Runs one tool and turns its outcome into an exit status.
 ///
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
-/// carry an `error`; standard error says how many, and why the first does.
+/// carry an `error`; standard error says how many, and why the first does. Nothing is said of an [empty pipe](Error::EmptyPipe).
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
         Ok(args) => without_panic(|| frame(&args, tool)),
@@ -139,6 +139,8 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
         }
         Ok(_) => ExitCode::SUCCESS,
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
+        // a pipeline ends with one line, that of the tool that failed
+        Err(Error::EmptyPipe) => ExitCode::FAILURE,
         Err(e) => {
             say(A::command().get_name(), &e.to_string());
             ExitCode::from(e.exit_status())

@@ -33,6 +33,10 @@ pub enum Error {
     Output(#[source] io::Error),
 
     // ---- the stream ----
+    /// The pipe that standard input is had nothing in it: the command before it failed, and has said why. The tools end with status 1 and
+    /// say no more.
+    #[error("nothing came from the command before this one")]
+    EmptyPipe,
     /// A line of the stream is not a record, or one of another JSON file is not what it should be.
     #[error("{path}:{line}: {problem}; {remedy}")]
     Record {

@@ -1,5 +1,6 @@
 //! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed leaves none.
 
+mod checksum;
 pub(crate) mod forms;
 
 use std::collections::BTreeSet;
@@ -8,6 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+pub use checksum::sha256;
 use tempfile::NamedTempFile;
 use unicode_normalization::UnicodeNormalization;
 

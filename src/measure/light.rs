@@ -17,7 +17,7 @@ pub enum LightTaken {
 /// What the camera wrote of the light.
 #[must_use]
 pub fn light_of(taken: &Taken) -> LightTaken {
-    let Taken { place_deg, time, other_light } = taken;
+    let Taken { place_deg, time, other_light, clock: _ } = taken;
     if let Some(light) = other_light {
         let note = format!("the photograph says {}", light.name());
         let is_daylight = light.is_daylight();

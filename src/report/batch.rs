@@ -1,6 +1,7 @@
 //! The section of all samples: how many, how good, which are worst, what failed.
 
 use super::html::Html;
+use super::words::digits;
 use super::{Gallery, SECTIONS_MAX};
 use crate::error::Result;
 use crate::score::{Statistics, Summary};
@@ -13,7 +14,7 @@ pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Htm
     let mut parts = vec![Html::element("h2", &[], "All samples"), counts(gallery, summary)];
     if summary.scored() > 0 {
         let row = |one: &Statistics| {
-            let numbers = [one.mean, one.median, one.worst].map(|value| Html::from(value.to_string()));
+            let numbers = [one.mean, one.median, one.worst].map(|value| Html::from(digits(value, 0.0)));
             std::iter::once(Html::from(one.name.as_str())).chain(numbers).collect()
         };
         let headings = ["score", "mean", "median", "worst"];
@@ -24,7 +25,7 @@ pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Htm
         let words = "histograms of the scores, and the samples of the worst first score";
         let caption = "How the scores are spread, and the worst samples by the first of them.";
         parts.push(Html::figure(Html::drawing(&batch.svg()?, words), caption));
-        let row = |(name, value): &(String, f64)| vec![name.as_str().into(), value.to_string().into()];
+        let row = |(name, value): &(String, f64)| vec![name.as_str().into(), digits(*value, 0.0).into()];
         let score = batch.scores.first().map_or("", |(name, ..)| name.as_str());
         parts.push(Html::table("Worst samples", &["sample", score], batch.worst.iter().map(row)));
     }

@@ -28,6 +28,11 @@ impl Html {
         Self(svg.replacen("<svg ", &described, 1))
     }
 
+    /// Lines of text, in an element that keeps them.
+    pub fn lines(text: &str) -> Self {
+        Self(text.lines().map(escaped).collect::<Vec<_>>().join("\n"))
+    }
+
     /// Columns under their headings; the first tells what a row is of.
     pub fn table(caption: &str, headings: &[&str], rows: impl IntoIterator<Item = Vec<Self>>) -> Self {
         let heading = |text: &&str| Self::element("th", &[("scope", "col")], *text);

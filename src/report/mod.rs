@@ -1,15 +1,19 @@
 //! A report for people: one HTML file with all that a scored stream says, in drawings and words.
 //!
 //! [`Gallery`] keeps what is to be shown of a stream of any length, [`write()`] makes the page of it: `html` holds the elements,
-//! `page` their look, `batch`, `sample` and `scene` the sections. The file needs no other, no script and no network.
+//! `page` their look, `batch`, `sample` and `scene` the sections, `colours`, `photograph` and `command` parts of these. The file needs no other, no script and no network.
 
 mod batch;
+mod colours;
+mod command;
 mod gallery;
 mod html;
 mod overlay;
 mod page;
+mod photograph;
 mod sample;
 mod scene;
+mod tables;
 mod view;
 mod words;
 
@@ -35,5 +39,5 @@ pub fn write(path: &Path, gallery: &Gallery, summary: &Summary, view: &View) -> 
         sections.push(sample::section(number, shown, gallery, view)?);
     }
     sections.extend(scene::sections(gallery)?);
-    Saved::write(path, page::page(gallery, sections).as_bytes())
+    Saved::write(path, page::page(gallery, sections)?.as_bytes())
 }

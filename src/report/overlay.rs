@@ -76,6 +76,8 @@ fn picture(path: &Path, id: &str) -> Result<Html> {
         ("alt", format!("photograph of {id} with its panels and facets")),
     ];
     let attributes = attributes.each_ref().map(|(name, value)| (*name, value.as_str()));
-    let caption = "What was measured: panels and facets, and red the pixels that were left out.";
-    Ok(Html::figure(Html::empty("img", &attributes), caption))
+    let colours = small.caption.map(|caption| format!(" Colours: {caption}.")).unwrap_or_default();
+    let caption =
+        format!("What was measured: panels and facets, and red the pixels that were left out.{colours}");
+    Ok(Html::figure(Html::empty("img", &attributes), &caption))
 }

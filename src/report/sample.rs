@@ -1,9 +1,9 @@
 //! The section of one sample: drawings, scores, and what the tools decided.
 
 use super::html::Html;
-use super::words::{digits, with_sd, words};
-use super::{Gallery, Shown, View, overlay};
-use crate::colorimetry::Observer;
+use super::tables::{folded, pairs};
+use super::words::{digits, with_sd};
+use super::{Gallery, Shown, View, colours, overlay, photograph};
 use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
 use crate::estimate::verdict::Level;
@@ -14,12 +14,6 @@ use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 const SHOWN_ELSEWHERE: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const SHOWN_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
-/// Fields of how sure things are that were found, and what these are.
-const DETECTED: [(&str, &str); 2] = [
-    ("image.detection_confidence", "corners of the panels"),
-    ("calibration.detection_confidence", "corners of the colour chart"),
-];
-
 /// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
@@ -28,10 +22,14 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     parts.extend(estimate.iter().flat_map(judged));
     let sheet = estimate.as_ref().map(|estimate| shown.sheet(estimate, view)).transpose()?;
     parts.extend(sheet.as_ref().map(|sheet| spectrum(sheet, view)).transpose()?);
+    if let Some(estimate) = &estimate {
+        parts.extend(colours::section(estimate, &shown.scene, view)?);
+    }
     parts.extend(overlay::figure(&sample.id(), gallery, view)?);
-    parts.extend(found(sample)?);
-    parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(findings));
+    parts.extend(photograph::unstated(sample, &shown.scene)?);
+    parts.extend(photograph::file(sample)?);
+    parts.extend(table("Scores", sample.fields.leaves("metrics")));
     parts.extend(estimate.as_ref().and_then(light));
     parts.extend(estimate.as_ref().and_then(fitted));
     parts.extend(estimate.as_ref().map(|estimate| numbers(estimate, sample)).transpose()?);
@@ -46,23 +44,12 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
 }
 
-/// What vextract detected in the photograph, and how certain that is.
-fn found(sample: &Sample) -> Result<Option<Html>> {
-    let mut rows = Vec::new();
-    for (field, what) in DETECTED {
-        let confidence = sample.fields.text_at(field)?.and_then(|text| text.parse::<f64>().ok());
-        rows.extend(confidence.map(|sure| vec![what.into(), format!("{:.1} %", 100.0 * sure).into()]));
-    }
-    let headings = ["what", "how sure"];
-    Ok((!rows.is_empty()).then(|| Html::table("Detected in the picture", &headings, rows)))
-}
-
 /// The verdict; of a record without one what speaks against it.
 fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     match &estimate.verdict {
         Some(verdict) => {
             let class = format!("verdict {}", Level::from(verdict.level).name());
-            vec![Html::element("p", &[("class", &class)], verdict.to_string())]
+            vec![Html::element("p", &[("class", &class)], with_level(&verdict.to_string()))]
         }
         None => {
             let doubt = |doubt| Html::element("p", &[("class", "doubt")], Html::from(doubt));
@@ -71,8 +58,12 @@ fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     }
 }
 
-fn folded(summary: &str, what: Html) -> Html {
-    Html::element("details", &[], vec![Html::element("summary", &[], summary), what])
+/// A verdict whose level, its first word, stands out.
+fn with_level(verdict: &str) -> Html {
+    match verdict.split_once(':') {
+        Some((level, why)) => vec![Html::element("strong", &[], level), format!(":{why}").into()].into(),
+        None => verdict.into(),
+    }
 }
 
 /// What of the photograph is not ideal.
@@ -83,13 +74,10 @@ fn findings(estimate: &EstimateRecord) -> Option<Html> {
 }
 
 fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
-    let observer = match view.observer {
-        Observer::Cie1931_2deg => "2°",
-        Observer::Cie1964_10deg => "10°",
-    };
     let caption = format!(
-        "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {observer} observer.",
-        view.illuminant.name()
+        "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {} observer.",
+        view.illuminant.name(),
+        colours::observer(view.observer)
     );
     let words = format!("spectral reflectance of {}, and what it looks like", sheet.curve.name);
     Ok(Html::figure(Html::drawing(&sheet.spectrum_svg()?, &words), &caption))
@@ -114,7 +102,7 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     let row = |one: (&Unknown, &FittedRecord)| {
         let (unknown, FittedRecord { value, sd, supported }) = one;
         let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
-        let by = if *supported { "the facets" } else { "the prior: the facets do not determine it" };
+        let by = if *supported { "the picture" } else { "its prior: the picture does not show it" };
         vec![format!("{}{unit}", unknown.description).into(), with_sd(*value, *sd).into(), by.into()]
     };
     let rows: Vec<_> = estimate.fits().map(row).collect();
@@ -134,15 +122,6 @@ fn rest(sample: &Sample) -> Vec<Html> {
 
 fn table(caption: &str, rows: Vec<(String, String)>) -> Option<Html> {
     (!rows.is_empty()).then(|| pairs(caption, rows))
-}
-
-/// Names and values.
-pub(super) fn pairs(caption: &str, rows: Vec<(String, String)>) -> Html {
-    Html::table(
-        caption,
-        &["what", "value"],
-        rows.into_iter().map(|(name, value)| vec![words(&name).into(), value.into()]),
-    )
 }
 
 /// The spectrum in numbers.

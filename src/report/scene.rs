@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::Gallery;
+use super::command::pipeline;
 use super::html::Html;
-use super::sample::pairs;
+use super::tables::{folded, pairs};
 use crate::error::Result;
-use crate::stream::{HistoryRecord, Scene};
+use crate::stream::Scene;
 
 /// Fields that have a table of their own, or are too large to be read.
 const SHOWN_ELSEWHERE: [&str; 4] = ["kind", "history", "response", "skipped"];
@@ -23,10 +24,8 @@ pub(super) fn sections(gallery: &Gallery) -> Result<Vec<Html>> {
 }
 
 fn section(scene: &Scene) -> Result<Html> {
-    let row = |line: HistoryRecord| {
-        vec![line.tool.into(), line.version.into(), Html::element("code", &[], line.arguments.join(" "))]
-    };
-    let history = scene.fields.history()?.into_iter().map(row);
+    let history = scene.fields.history()?;
+    let versions = history.iter().map(|line| vec![line.tool.as_str().into(), line.version.as_str().into()]);
     let settings = scene.fields.leaves("").into_iter();
     let settings =
         settings.filter(|(name, _)| !SHOWN_ELSEWHERE.contains(&name.split('.').next().unwrap_or_default()));
@@ -35,13 +34,20 @@ fn section(scene: &Scene) -> Result<Html> {
         .into_iter()
         .map(|one| vec![one.what.into(), one.count.to_string().into(), one.why.into()])
         .collect();
-    let mut parts = vec![
-        Html::element("h2", &[], format!("Scene {}", scene.id()?)),
-        Html::table("What the tools did", &["tool", "version", "arguments"], history),
-        pairs("What was decided", settings.collect()),
-    ];
+    let mut parts = vec![Html::element("h2", &[], format!("How it was measured: scene {}", scene.id()?))];
+    if !history.is_empty() {
+        parts.push(Html::element(
+            "p",
+            &[],
+            "These commands make records and page again; they can be pasted into a shell:",
+        ));
+        parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
+        parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));
+    }
+    parts.push(folded("All numbers of the scene", pairs("What was decided", settings.collect())));
     if !skipped.is_empty() {
-        parts.push(Html::table("What was not needed", &["what", "count", "why"], skipped));
+        let table = Html::table("What was not needed", &["what", "count", "why"], skipped);
+        parts.push(folded("What was not computed", table));
     }
     Ok(Html::element("section", &[], parts))
 }

@@ -31,11 +31,60 @@ pub(super) fn words(field: &str) -> String {
     known.map_or_else(|| field.to_owned(), |(_, words)| (*words).to_owned())
 }
 
-/// A number with three digits that count, or more where its error bar has a digit there.
+/// Digits that count.
+const DIGITS: i32 = 4;
+/// Most decimals.
+const DECIMALS_MAX: i32 = 9;
+/// Numbers from here on, and below its inverse, are written with an exponent.
+const LARGE: f64 = 1e7;
+
+/// A number with four digits that count, or, if its error bar is larger, as many as that has.
 pub(super) fn digits(value: f64, sd: f64) -> String {
-    let leading = |size: f64| if size > 0.0 { size.log10().floor() as i32 } else { 0 };
-    let decimals = (2 - leading(value.abs())).max(-leading(sd.abs())).clamp(0, 9) as usize;
+    let size = value.abs().max(sd.abs());
+    if size > 0.0 && !(1.0 / LARGE..LARGE).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let leading = if size > 0.0 { size.log10().floor() as i32 } else { 0 };
+    let decimals = (DIGITS - 1 - leading).clamp(0, DECIMALS_MAX) as usize;
     format!("{value:.decimals$}")
+}
+
+/// A number of a record with four digits that count; whole numbers and other texts stay as they are.
+pub(super) fn rounded(text: &str) -> String {
+    match text.parse::<f64>() {
+        Ok(value)
+            if text.contains(['.', 'e'])
+                && text.chars().filter(char::is_ascii_digit).count() > DIGITS as usize =>
+        {
+            digits(value, 0.0)
+        }
+        _ => text.to_owned(),
+    }
+}
+
+/// A list of a record, each number rounded.
+pub(super) fn rounded_list(text: &str) -> String {
+    text.split(", ").map(rounded).collect::<Vec<_>>().join(", ")
+}
+
+/// Seconds after 1970-01-01T00:00Z as a date and time of UTC.
+///
+/// # Source
+/// H. Hinnant, *chrono-compatible low-level date algorithms*, `civil_from_days`.
+pub(super) fn utc(seconds: f64) -> String {
+    const DAY_S: i64 = 86_400;
+    let seconds = seconds.floor() as i64;
+    let (days, of_day) = (seconds.div_euclid(DAY_S) + 719_468, seconds.rem_euclid(DAY_S));
+    let (era, of_era) = (days.div_euclid(146_097), days.rem_euclid(146_097));
+    let year_of_era = (of_era - of_era / 1_460 + of_era / 36_524 - of_era / 146_096) / 365;
+    // of a year that begins in March
+    let of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let march = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * march + 2) / 5 + 1;
+    let month = if march < 10 { march + 3 } else { march - 9 };
+    let year = year_of_era + 400 * era + i64::from(month <= 2);
+    let [hour, minute, second] = [of_day / 3600, of_day / 60 % 60, of_day % 60];
+    format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02} UTC")
 }
 
 /// A number with its standard deviation.
@@ -51,10 +100,28 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_count() {
-        assert_eq!(with_sd(0.412_345, 0.0091), "0.412 ± 0.009");
+        assert_eq!(with_sd(0.412_345, 0.0091), "0.4123 ± 0.0091");
         assert_eq!(with_sd(49.983, 0.065), "49.98 ± 0.07"); // an angle
         assert_eq!(with_sd(7957.0, 21.0), "7957 ± 21");
-        assert_eq!(with_sd(-0.000_513, 0.000_52), "-0.000513 ± 0.000520");
-        assert_eq!(digits(0.0, 0.0), "0.00");
+        assert_eq!(with_sd(-0.000_513, 0.000_52), "-0.0005130 ± 0.0005200");
+        assert_eq!(with_sd(0.000_001, 0.05), "0.00000 ± 0.05000");
+        assert_eq!(digits(0.0, 0.0), "0.000");
+        assert_eq!(digits(7.006_7e-9, 0.0), "7.007e-9");
+    }
+
+    #[test]
+    fn numbers_of_records_are_rounded_and_texts_are_not() {
+        assert_eq!(rounded_list("0.42269735040598927, 2, 49.1"), "0.4227, 2, 49.1");
+        for text in ["615252", "vfold/1", "0.1.0", "1.0", "canon-5d-mark-ii"] {
+            assert_eq!(rounded(text), text);
+        }
+    }
+
+    #[test]
+    fn seconds_are_dates() {
+        assert_eq!(utc(0.0), "1970-01-01 00:00:00 UTC");
+        assert_eq!(utc(951_782_399.9), "2000-02-28 23:59:59 UTC");
+        assert_eq!(utc(951_868_799.0), "2000-02-29 23:59:59 UTC");
+        assert_eq!(utc(-1.0), "1969-12-31 23:59:59 UTC");
     }
 }

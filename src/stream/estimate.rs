@@ -13,6 +13,7 @@ use super::quantities::Quantities;
 use super::sample::{Sample, checked, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
+use crate::colorimetry::ErrorBars;
 use crate::error::{Error, Result};
 use crate::estimate::emission::Origin;
 use crate::estimate::noise::Noise;
@@ -273,6 +274,16 @@ impl EstimateRecord {
         let lists = [&self.reflectance].into_iter().chain(&self.reflectance_sd).chain(totals).chain(rows);
         let mut counts = lists.map(Vec::len).chain(self.covariance.iter().map(Vec::len));
         count > 1 && counts.all(|other| other == count)
+    }
+
+    /// What is known of the errors of the reflectance; none if the method does not know them.
+    #[must_use]
+    pub fn error_bars(&self) -> Option<ErrorBars<'_>> {
+        match (&self.covariance, &self.reflectance_sd) {
+            (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
+            (None, Some(sd)) => Some(ErrorBars::Deviations(sd)),
+            (None, None) => None,
+        }
     }
 
     /// The scene in the light that was found; none if the scene says its own.

@@ -6,6 +6,7 @@ use std::io::{Read, stdin};
 
 use serde::de::DeserializeOwned;
 
+use super::piped::stdin_is_pipe;
 use crate::error::{Error, Result};
 use crate::files::forms::Text;
 
@@ -46,6 +47,9 @@ fn text(path: &str, example: &str) -> Result<String> {
         _ => Box::new(File::open(path).map_err(failed)?),
     };
     file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.is_empty() && path == "-" && stdin_is_pipe() {
+        return Err(Error::EmptyPipe);
+    }
     if bytes.len() as u64 > MAX_BYTES {
         return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }

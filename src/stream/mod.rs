@@ -30,6 +30,7 @@ mod outline;
 mod photograph;
 mod picked;
 mod pipe;
+mod piped;
 mod plan;
 mod quantities;
 mod rawtoaces;

@@ -24,6 +24,12 @@ pub struct ImageRecord {
     /// When the file was last written, seconds after 1970-01-01T00:00Z.
     #[serde(skip_serializing_if = "Option::is_none")]
     file_modified_s: Option<f64>,
+    /// SHA-256 checksum of the file, as sha256sum prints it; absent of a pipe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
+    /// When the picture was taken: date and time by the camera's clock, with the difference from UTC if it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    taken: Option<String>,
     /// Width of the upright picture, px.
     width: usize,
     /// Height of the upright picture, px.
@@ -225,6 +231,8 @@ impl ImageRecord {
             file: path.display().to_string(),
             file_bytes: info.file.map(|file| file.bytes),
             file_modified_s: info.file.map(|file| file.modified_s),
+            sha256: None,
+            taken: info.camera.taken.time.as_ref().or(info.camera.taken.clock.as_ref()).cloned(),
             width: info.width,
             height: info.height,
             stored_as: info.format.clone(),
@@ -257,6 +265,13 @@ impl ImageRecord {
             detection_confidence: None,
             notes: info.camera.notes.clone(),
         }
+    }
+
+    /// The record with the file's checksum, if it is one that stays.
+    #[must_use]
+    pub fn with_checksum(mut self, sha256: Option<String>) -> Self {
+        self.sha256 = sha256;
+        self
     }
 
     /// The record with what was done to the numbers, if that shows.

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 
 use super::fields::problem;
+use super::piped::stdin_is_pipe;
 use super::{Fields, Sample, Scene};
 use crate::error::{Error, Result};
 use crate::files::forms::{other_form, without_mark};
@@ -94,7 +95,7 @@ impl Reader {
     ///
     /// # Errors
     /// [`Error::Record`] with file and line for a stream that begins with no record, ends before its first or within one, or has a line that
-    /// is too long; [`Error::Located`] for a scene that is not this version's.
+    /// is too long; [`Error::EmptyPipe`] for a pipe with nothing in it; [`Error::Located`] for a scene that is not this version's.
     pub fn read(&mut self) -> Result<Option<Record>> {
         if let Some(scene) = self.first.take() {
             return Ok(Some(Record::Scene(scene)));
@@ -106,6 +107,9 @@ impl Reader {
         self.line += 1;
         self.line_bytes = bytes.len();
         if bytes.is_empty() {
+            if self.path == "-" && stdin_is_pipe() {
+                return Err(Error::EmptyPipe);
+            }
             return Err(
                 self.wrong("no record: the stream is empty", "give it what the tool before it writes")
             );

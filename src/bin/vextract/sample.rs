@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use vfold::calibrate::Calibration;
 use vfold::cli;
+use vfold::files::sha256;
 use vfold::geometry::Panel;
 use vfold::image::{
     CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
@@ -88,6 +89,7 @@ impl Setup<'_> {
             sample.set_calibration(record)?;
         }
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &pixels_sharing_noise)
+            .with_checksum(photograph.info().file.map(|_| sha256(path)).transpose()?)
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
             .with_other_fold(other_fold)

@@ -123,9 +123,10 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let table = args.table.then(|| Table::new(&scorer.scores));
     let (mut groups, mut measured) = (Groups::new(args.by.as_deref()), Vec::new());
     let mut gallery = gallery(args);
-    table.as_ref().map_or(Ok(()), |table| table.header(out))?;
+    let mut header = table.as_ref();
     // Scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of them.
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
+        header.take().map_or(Ok(()), |table| table.header(out))?;
         match &record {
             Record::Scene(scene) => {
                 groups.enter(scene)?;

@@ -117,15 +117,11 @@ impl<'a> Scorer<'a> {
     fn add_colour(&self, context: &Context, estimate: &EstimateRecord, sample: &mut Sample) -> Result<()> {
         let meter = &context.colorimeters[0];
         let is_total = self.args.condition == Condition::M1 && estimate.total_radiance_factor.is_some();
-        let (spectrum, covariance, sd) = if is_total {
-            (estimate.total_radiance_factor(), &None, &estimate.total_radiance_factor_sd)
+        let (spectrum, errors) = if is_total {
+            let sd = estimate.total_radiance_factor_sd.as_deref();
+            (estimate.total_radiance_factor(), sd.map(ErrorBars::Deviations))
         } else {
-            (estimate.reflectance.as_slice(), &estimate.covariance, &estimate.reflectance_sd)
-        };
-        let errors = match (covariance, sd) {
-            (Some(rows), _) => Some(ErrorBars::Covariance(rows)),
-            (None, Some(sd)) => Some(ErrorBars::Deviations(sd)),
-            (None, None) => None,
+            (estimate.reflectance.as_slice(), estimate.error_bars())
         };
         let observer = match self.args.observer {
             Observer::Cie1931_2deg => "2 degrees",
@@ -133,7 +129,8 @@ impl<'a> Scorer<'a> {
         };
         let sd = errors.map(|errors| meter.colour_sd(spectrum, errors));
         let seen = (self.illuminants[0].name(), observer);
-        sample.set_colour(seen, &meter.colour(spectrum), sd.as_ref(), covariance.is_some())
+        let has_covariance = matches!(errors, Some(ErrorBars::Covariance(_)));
+        sample.set_colour(seen, &meter.colour(spectrum), sd.as_ref(), has_covariance)
     }
 }
 

@@ -15,7 +15,7 @@ pub struct White {
     pub by: String,
 }
 
-/// Gains of the channels for display, and what is said of them on the picture.
+/// Gains of the channels for display, and what is said of them beside the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Balance {
     pub(super) gains: [f64; 3],

@@ -33,7 +33,8 @@ const END_INWARDS: f64 = 0.06;
 /// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px per side.
 ///
 /// Grids are blue, orange, green and yellow in turn; panels carry their numbers, the crease is white, with the number of either end, and a
-/// square marks the first corner of each grid. Pixels that were left out are red. Colours are balanced for the eye, which the picture says.
+/// square marks the first corner of each grid. Pixels that were left out are red. Colours are balanced for the eye, which a text
+/// beside the pixels says.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -80,7 +81,6 @@ pub fn write_overlay(
             canvas.say(name, canvas.at(grid.outline.to_image(u, 0.0)));
         }
     }
-    canvas.note(&balance.caption);
     canvas.write(path)
 }
 

@@ -14,9 +14,11 @@ use crate::image::photograph::{Photograph, Pixel};
 const LONGEST_PX: usize = 1600;
 /// Part of the pixels that are darker than the one shown as white.
 const DARKER_THAN_WHITE: f64 = 0.995;
-/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, and its file; `share/picker.html` reads them.
+/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, its file, and what is said of the picture; `share/picker.html`
+/// reads them. Words on the picture would hide corners, and a line below it would move them in programs that know its size alone.
 const SIZE_KEYWORD: &str = "vfold photograph size";
 const NAME_KEYWORD: &str = "vfold photograph name";
+pub(super) const CAPTION_KEYWORD: &str = "vfold caption";
 
 /// A picture to look at and draw on.
 #[derive(Debug, Clone)]
@@ -27,6 +29,8 @@ pub(super) struct Canvas {
     pub rgb: Array2<[f64; 3]>,
     /// Width and height of the photograph, px.
     photographed: [usize; 2],
+    /// How colours are shown, in words.
+    caption: String,
 }
 
 impl Canvas {
@@ -41,19 +45,23 @@ impl Canvas {
         let light = Array2::from_shape_fn((height, width), light);
         let white = white(&light);
         let rgb = light.mapv_into(|rgb| rgb.map(|y| encode_srgb(y / white)));
-        Self { scale, rgb, photographed }
+        Self { scale, rgb, photographed, caption: balance.said.clone() }
     }
 
-    /// Writes it as PNG that tells the photograph's size.
+    /// Writes it as PNG that tells the photograph's size, and how colours are shown.
     pub fn write(&self, path: &Path) -> Result<()> {
         self.write_naming(path, None)
     }
 
-    /// Writes it as PNG that tells the photograph's size, and its file if that is named.
+    /// As [`Self::write`], and the photograph's file if that is named.
     fn write_naming(&self, path: &Path, photograph: Option<&Path>) -> Result<()> {
         let size = self.photographed.map(|side| side.to_string()).join("x");
         let name = photograph.map(|photograph| (NAME_KEYWORD, photograph.display().to_string()));
-        let texts = Texts { plain: Some((SIZE_KEYWORD, size)), international: name };
+        let caption = (CAPTION_KEYWORD, self.caption.clone());
+        let texts = Texts {
+            plain: Some((SIZE_KEYWORD, size)),
+            international: name.into_iter().chain([caption]).collect(),
+        };
         let (height, width) = self.rgb.dim();
         let rgb: Vec<f64> = self.rgb.iter().flatten().copied().collect();
         write_srgb_png_with_texts(path, [width, height], &rgb, texts)
@@ -63,7 +71,7 @@ impl Canvas {
 /// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts white.
 ///
 /// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the photograph's pixels, and `name`, its
-/// file, in another.
+/// file, and how colours are shown in others.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -82,8 +90,7 @@ impl Canvas {
 /// ```
 pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance: &Balance) -> Result<()> {
     let longest = photograph.width().max(photograph.height());
-    let mut canvas = Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0), balance);
-    canvas.note(&format!("preview, {}", balance.caption));
+    let canvas = Canvas::new(photograph, (LONGEST_PX as f64 / longest as f64).min(1.0), balance);
     canvas.write_naming(path, Some(name))
 }
 

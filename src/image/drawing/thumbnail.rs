@@ -1,13 +1,14 @@
 //! Small copies of pictures, for reports.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::FilterType;
 use image::{DynamicImage, ImageReader};
 
+use super::preview::CAPTION_KEYWORD;
 use crate::{Error, Result};
 
 /// Quality of the JPEG, of 100: thin lines stay clean.
@@ -22,6 +23,8 @@ pub struct Thumbnail {
     pub width: u32,
     /// Height, px.
     pub height: u32,
+    /// What a PNG that vfold made says of its colours.
+    pub caption: Option<String>,
 }
 
 /// Reads a picture for the eye, PNG, JPEG or TIFF, and makes a JPEG of it with sides of at most `longest_px`.
@@ -46,6 +49,8 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
         return Err(no_file(io::Error::other("not a regular file")));
     }
     let mut file = BufReader::new(File::open(path).map_err(no_file)?);
+    let caption = caption(&mut file);
+    file.rewind().map_err(no_file)?;
     let reader = ImageReader::new(&mut file).with_guessed_format().map_err(no_file)?;
     let picture = reader.decode().map_err(unreadable)?;
     let picture = if picture.width().max(picture.height()) > longest_px {
@@ -56,5 +61,12 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     let rgb = DynamicImage::ImageRgb8(picture.to_rgb8());
     let mut jpeg = Vec::new();
     rgb.write_with_encoder(JpegEncoder::new_with_quality(&mut jpeg, QUALITY)).map_err(unreadable)?;
-    Ok(Thumbnail { jpeg, width: rgb.width(), height: rgb.height() })
+    Ok(Thumbnail { jpeg, width: rgb.width(), height: rgb.height(), caption })
+}
+
+/// The caption beside the pixels of a PNG; none of other files.
+fn caption(file: impl BufRead + Seek) -> Option<String> {
+    let png = png::Decoder::new(file).read_info().ok()?;
+    let text = png.info().utf8_text.iter().find(|text| text.keyword == CAPTION_KEYWORD)?;
+    text.get_text().ok()
 }

@@ -50,9 +50,4 @@ impl Canvas {
             });
         }
     }
-
-    /// Sets words in the bottom left corner.
-    pub(super) fn note(&mut self, words: &str) {
-        self.say(words, Point::new(0.0, self.rgb.dim().0 as f64));
-    }
 }

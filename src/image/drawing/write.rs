@@ -83,11 +83,11 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
     Ok(png)
 }
 
-/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII; a keyword and a text of any letters.
+/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII; keywords and texts of any letters.
 #[derive(Default)]
 pub(super) struct Texts<'a> {
     pub plain: Option<(&'a str, String)>,
-    pub international: Option<(&'a str, String)>,
+    pub international: Vec<(&'a str, String)>,
 }
 
 /// As [`write_srgb_png`], with texts.
@@ -120,7 +120,7 @@ fn encode_for_the_eye(
     for (keyword, text) in marks.into_iter().chain(texts.plain) {
         encoder.add_text_chunk(keyword.to_owned(), text)?;
     }
-    if let Some((keyword, text)) = texts.international {
+    for (keyword, text) in texts.international {
         encoder.add_itxt_chunk(keyword.to_owned(), text)?;
     }
     let mut writer = encoder.write_header()?;

@@ -7,6 +7,8 @@ pub struct Taken {
     pub place_deg: Option<[f64; 2]>,
     /// Date, time and its difference from UTC: `2026-06-21T14:30:00+02:00`.
     pub time: Option<String>,
+    /// Date and time by the camera's clock, wherever that was set: `2026-06-21T14:30:00`.
+    pub clock: Option<String>,
     /// The light that the camera was set to or had itself, if it is not the sun's.
     pub other_light: Option<OtherLight>,
 }

@@ -2,7 +2,7 @@
 
 use exif::{Exif, In, Rational, Tag, Value};
 
-use super::taken::{local, other_light, place_deg, universal};
+use super::taken::{by_clock, local, other_light, place_deg, universal};
 use crate::image::photograph::Taken;
 
 /// What is missing or makes no sense is left out.
@@ -20,6 +20,7 @@ pub(super) fn taken(exif: &Exif) -> Taken {
     Taken {
         place_deg: place_deg(),
         time: local().or_else(of_gps),
+        clock: text(Tag::DateTimeOriginal).and_then(|clock| by_clock(&clock)),
         other_light: other_light(
             number(Tag::Flash).is_some_and(|flash| flash & 1 == 1),
             number(Tag::LightSource),

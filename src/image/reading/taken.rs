@@ -26,16 +26,21 @@ fn degrees(([degrees, minutes, seconds], side): Angle, [above, below]: [char; 2]
 
 /// A time with its difference from UTC, of `2026:06:21 14:30:00` and `+02:00`; none if one of them is blank or cannot be.
 pub(super) fn local(date_and_time: &str, offset: &str) -> Option<String> {
-    let (date, time) = date_and_time.trim().split_once(' ')?;
-    let time: Vec<f64> = time.trim().split(':').map(|part| part.parse().ok()).collect::<Option<_>>()?;
     let offset = offset.trim();
     let is_offset = match offset.as_bytes() {
         b"Z" => true,
         [b'+' | b'-', a, b, b':', c, d] => [a, b, c, d].into_iter().all(u8::is_ascii_digit),
         _ => false,
     };
-    let at = moment(date, time.try_into().ok()?)?;
+    let at = by_clock(date_and_time)?;
     is_offset.then(|| at + offset)
+}
+
+/// A time of a clock, of `2026:06:21 14:30:00`; none if it is blank or cannot be.
+pub(super) fn by_clock(date_and_time: &str) -> Option<String> {
+    let (date, time) = date_and_time.trim().split_once(' ')?;
+    let time: Vec<f64> = time.trim().split(':').map(|part| part.parse().ok()).collect::<Option<_>>()?;
+    moment(date, time.try_into().ok()?)
 }
 
 /// A time of UTC, of its date (`2026:06:21`), hours, minutes and seconds; none if they cannot be.
@@ -104,6 +109,8 @@ mod tests {
         ] {
             assert_eq!(local(time, offset), None, "{time} {offset}");
         }
+        assert_eq!(by_clock(" 2026:06:21 14:30:05").as_deref(), Some("2026-06-21T14:30:05"));
+        assert_eq!(by_clock("    :  :     :  :  "), None);
         assert_eq!(universal("2026:06:21", [10.0, 5.0, 60.5]).as_deref(), Some("2026-06-21T10:05:59Z"));
         assert_eq!(universal("2026-06-21", [10.0, 0.0, 0.9]).as_deref(), Some("2026-06-21T10:00:00Z"));
         for date in ["", "0000:00:00", "2026:06", "today"] {

@@ -21,9 +21,9 @@ NEEDED = {
     "iteration": ["sample", "run", "iteration", "cost"],
 }
 
-# what no record here has: that of RAW files, of pictures whose tags are damaged, of days without sun, which vforward does not know, and of skies
+# what no record here has: that of RAW files, of cameras with a clock, of pictures whose tags are damaged, of days without sun, which vforward does not know, and of skies
 # for which nobody plans
-ABSENT = ("image.sensor", "image.notes", "estimate.fit.sun", "expected_sd.cloud", "expected_sd.even_sky", "expected_sd.sun")
+ABSENT = ("image.sensor", "image.taken", "image.notes", "estimate.fit.sun", "expected_sd.cloud", "expected_sd.even_sky", "expected_sd.sun")
 
 
 def close(schema):

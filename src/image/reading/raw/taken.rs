@@ -4,7 +4,7 @@ use rawler::exif::{Exif, ExifGPS};
 use rawler::formats::tiff::Rational;
 
 use crate::image::photograph::Taken;
-use crate::image::reading::taken::{local, other_light, place_deg, universal};
+use crate::image::reading::taken::{by_clock as clock, local, other_light, place_deg, universal};
 
 /// What is missing or makes no sense is left out.
 pub(super) fn taken(exif: &Exif) -> Taken {
@@ -14,6 +14,7 @@ pub(super) fn taken(exif: &Exif) -> Taken {
     Taken {
         place_deg: gps.and_then(place),
         time: by_clock().or_else(by_gps),
+        clock: exif.date_time_original.as_deref().and_then(clock),
         other_light: other_light(
             exif.flash.is_some_and(|flash| flash & 1 == 1),
             exif.light_source.map(u32::from),
