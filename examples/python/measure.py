@@ -35,7 +35,7 @@ except vfold.Error as error:
 
 sheet = vfold.measure(photograph, camera="canon-5d-mark-ii", illuminant="D65")
 print(f"{sheet.verdict}: {sheet.because}")
-confidence, angle_deg = sheet.record["image"]["found_confidence"], sheet.scene["geometry"]["angle_deg"]
+confidence, angle_deg = sheet.record["image"]["detection_confidence"], sheet.scene["geometry"]["angle_deg"]
 print(f"corners found, {confidence:.1%} sure; angle {angle_deg:.1f} degrees")
 
 

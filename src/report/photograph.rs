@@ -31,8 +31,8 @@ pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
 pub(super) fn unstated(sample: &Sample, scene: &Scene) -> Result<Option<Html>> {
     let mut rows: Vec<[String; 3]> = Vec::new();
     for (field, what) in [
-        ("image.found_confidence", "corners of the panels"),
-        ("calibration.found_confidence", "corners of the colour chart"),
+        ("image.detection_confidence", "corners of the panels"),
+        ("calibration.detection_confidence", "corners of the colour chart"),
     ] {
         let sure = sample.fields.text_at(field)?.and_then(|text| text.parse::<f64>().ok());
         rows.extend(sure.map(|sure| {
@@ -85,7 +85,7 @@ fn camera(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
             "stands in for {}: {}; its sensitivities are off by {} of their peak, root mean square",
             one.camera,
             one.why,
-            digits(one.curve_error, 0.0)
+            digits(one.sensitivity_error, 0.0)
         ),
         None => {
             let model = sample.fields.text_at("image.model")?.unwrap_or_default();

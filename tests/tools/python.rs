@@ -73,7 +73,7 @@ fn the_module_measures_what_the_tools_measure() {
         "
 sheet = vfold.measure('photo.exr', **CANON)
 assert sheet.verdict == 'good' and sheet.because and sheet.name == 'photo', sheet
-assert sheet.record['image']['found_confidence'] > 0.97 and not sheet.notes
+assert sheet.record['image']['detection_confidence'] > 0.97 and not sheet.notes
 found = vfold.find('photo.exr')
 again = vfold.measure('photo.exr', regions=found, **CANON)
 assert np.array_equal(sheet.reflectance, again.reflectance)

@@ -148,7 +148,7 @@ fn numbers_are_those_of_the_record() {
          vestimate --fit exposure,tilt |\n  vscore --report out.html"
     );
     let colours = table(&page, "Colour under D65, 10° observer, with standard deviations (upper bounds)");
-    assert_eq!(colours.iter().map(|row| row.len()).collect::<Vec<_>>(), [4; 4], "{colours:?}");
+    assert_eq!(colours.iter().map(Vec::len).collect::<Vec<_>>(), [4; 4], "{colours:?}");
     let rms = sample["estimate"]["residual_rms"].as_f64().unwrap();
     // what is drawn is left of the mean over classes of spectra, the record's number is that of the likeliest
     let drawn = page.descendants().find_map(|node| {

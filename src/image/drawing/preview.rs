@@ -45,7 +45,7 @@ impl Canvas {
         let light = Array2::from_shape_fn((height, width), light);
         let white = white(&light);
         let rgb = light.mapv_into(|rgb| rgb.map(|y| encode_srgb(y / white)));
-        Self { scale, rgb, photographed, caption: balance.said.clone() }
+        Self { scale, rgb, photographed, caption: balance.caption.clone() }
     }
 
     /// Writes it as PNG that tells the photograph's size, and how colours are shown.
