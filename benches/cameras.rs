@@ -1,6 +1,7 @@
-//! What stands in for a camera that nobody measured, each of the measured ones left out in turn: curves predicted from its published colour matrix,
-//! from the matrix that follows from its own curves, the camera of the nearest published matrix, one of its maker, one of any, and the mean of all.
-//! Errors are root mean squares of the curves over 400 to 700 nm, green's peak being 1.
+//! What stands in for a camera that nobody measured, each of the measured ones left out in turn: curves
+//! predicted from its published colour matrix, from the matrix that follows from its own curves, the camera
+//! of the nearest published matrix, one of its maker, one of any, and the mean of all. Errors are root mean
+//! squares of the curves over 400 to 700 nm, green's peak being 1.
 //!
 //! `cargo bench --bench cameras` prints the table of `benches/results/cameras.md`.
 

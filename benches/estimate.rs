@@ -1,6 +1,6 @@
-//! Time beside error of the estimates of the samples on standard input, which carry their true reflectance; one thread. Prints a
-//! row of a table: mean RMSE, mean CIEDE2000 (10°, D65), median time of an estimate and median iterations, for the default
-//! estimator and then for the paper's with the weight of smoothness given:
+//! Time beside error of the estimates of the samples on standard input, which carry their true reflectance;
+//! one thread. Prints a row of a table: mean RMSE, mean CIEDE2000 (10°, D65), median time of an estimate and
+//! median iterations, for the default estimator and then for the paper's with the weight of smoothness given:
 //!
 //! `vkernel | vforward --reflectance cc24 --noise-sd 1e-3 | cargo bench --bench estimate -- 1e-3`
 //!

@@ -1,9 +1,11 @@
-//! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior foretells the truth.
+//! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior
+//! foretells the truth.
 //!
-//! `cargo bench --bench priors -- STREAM...` prints a row of a table for every number, of photographs that carry their true reflectance, measured sheets being
-//! unknown where one of their names is in that of the stream;
-//! `cargo bench --bench priors -- --fit [NAME...] STREAM...` changes all numbers, or those named, one after the other by a quarter as long as that
-//! raises the score, and prints those that changed. `benches/priors.sh` makes the streams.
+//! `cargo bench --bench priors -- STREAM...` prints a row of a table for every number, of photographs that
+//! carry their true reflectance, measured sheets being unknown where one of their names is in that of the
+//! stream; `cargo bench --bench priors -- --fit [NAME...] STREAM...` changes all numbers, or those named, one
+//! after the other by a quarter as long as that raises the score, and prints those that changed.
+//! `benches/priors.sh` makes the streams.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
@@ -19,7 +21,8 @@ use vfold::sheet::measured_names;
 use vfold::stream::{Reader, Record, Sample};
 use vfold::{Error, Result};
 
-/// A truth further off than so many standard deviations counts as one that far: a posterior is not judged by one waveband.
+/// A truth further off than so many standard deviations counts as one that far: a posterior is not judged by
+/// one waveband.
 const FURTHEST: f64 = 7.0;
 /// What a fit changes a number by, and the least that it has to gain.
 const STEP: f64 = 1.25;
@@ -106,7 +109,8 @@ fn quality(all: &[Known], priors: Priors) -> Result<Quality> {
     })
 }
 
-/// The same with one number changed: by a factor, or, if it is a mean, by as many standard deviations as the factor is doublings, halved.
+/// The same with one number changed: by a factor, or, if it is a mean, by as many standard deviations as the
+/// factor is doublings, halved.
 fn changed(mut priors: Priors, number: usize, factor: f64) -> Priors {
     let (name, of) = Priors::NUMBERS[number];
     let sd_of_mean = Priors::NUMBERS.get(number + 1).filter(|(next, _)| next.replacen("_sd", "", 1) == name);

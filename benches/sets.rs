@@ -1,9 +1,11 @@
-//! What estimates of many sheets are worth, their exposure known and free: how near they are, how often error bars hold the truth, how many end in
-//! a false maximum, and how long the slowest takes beside the median. One thread.
+//! What estimates of many sheets are worth, their exposure known and free: how near they are, how often error
+//! bars hold the truth, how many end in a false maximum, and how long the slowest takes beside the median.
+//! One thread.
 //!
-//! `cargo bench --bench sets -- [--maxima] STREAM...` prints a row of a table for the samples of all streams together, which carry their true
-//! reflectance; with `--maxima` every sample is estimated from the truth, too. `cargo bench --bench sets -- --spectra COUNT` prints spectra
-//! that no chart has. `benches/sets.sh` makes a page of it.
+//! `cargo bench --bench sets -- [--maxima] STREAM...` prints a row of a table for the samples of all streams
+//! together, which carry their true reflectance; with `--maxima` every sample is estimated from the truth,
+//! too. `cargo bench --bench sets -- --spectra COUNT` prints spectra that no chart has. `benches/sets.sh`
+//! makes a page of it.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
@@ -26,7 +28,8 @@ use vfold::{Error, Result};
 
 /// The fastest of so many runs is the time of an estimate.
 const RUNS: usize = 3;
-/// A maximum is false if it is further from the truth than the one that the truth leads to, by so much and so many times.
+/// A maximum is false if it is further from the truth than the one that the truth leads to, by so much and so
+/// many times.
 const FURTHER: (f64, f64) = (0.01, 2.0);
 /// Parts of the spectrum, nm.
 const PARTS: [(f64, f64); 3] = [(0.0, f64::MAX), (0.0, 420.0), (680.0, f64::MAX)];

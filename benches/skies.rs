@@ -1,7 +1,9 @@
-//! How far light of skies as they are is from that of the two which photographs are predicted with: what `discrepancy_sky` stands for.
+//! How far light of skies as they are is from that of the two which photographs are predicted with: what
+//! `discrepancy_sky` stands for.
 //!
-//! `cargo bench --bench skies` lights folds by the overcast and partly cloudy ones of the fifteen standard skies, the sun hidden in any direction before
-//! them, takes away what amount, ground and elevation of the overcast sky explain, and prints what is left, relative to the facets.
+//! `cargo bench --bench skies` lights folds by the overcast and partly cloudy ones of the fifteen standard
+//! skies, the sun hidden in any direction before them, takes away what amount, ground and elevation of the
+//! overcast sky explain, and prints what is left, relative to the facets.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]

@@ -1,4 +1,5 @@
-//! Times that have a target, and those of whole runs and their parts; one thread unless said. Markdown goes to standard output and to `benches/results/timings.md`.
+//! Times that have a target, and those of whole runs and their parts; one thread unless said. Markdown goes
+//! to standard output and to `benches/results/timings.md`.
 
 #![allow(clippy::unwrap_used, reason = "a measurement stops at the first surprise")]
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
@@ -157,7 +158,8 @@ fn photograph(page: &mut String, work: &Path) {
     line(page, "vextract, 24 million pixels, 16-bit TIFF of 144 MB, medians of 5", &said, "1.4, 1.2, 216 MB");
 }
 
-/// A photograph that an ideal fold does not explain, as another camera took it than the one told: everything is fitted.
+/// A photograph that an ideal fold does not explain, as another camera took it than the one told: everything
+/// is fitted.
 fn real_sheet(page: &mut String, work: &Path) {
     const PHOTOGRAPHS: usize = 20;
     let path = work.join("sheets.ndjson");

@@ -1,4 +1,5 @@
-//! The spectrum of a folded sheet from one photograph, through the library: `cargo run --release --example spectrum`.
+//! The spectrum of a folded sheet from one photograph, through the library:
+//! `cargo run --release --example spectrum`.
 
 use std::error::Error;
 use std::io::{Write, stdout};

@@ -1,10 +1,11 @@
-//! Writes `munsell1269.npy`, `munsell1269.txt` and `munsell1269-classes.txt` of this folder from the crate `colorimetry`.
+//! Writes `munsell1269.npy`, `munsell1269.txt` and `munsell1269-classes.txt` of this folder from the crate
+//! `colorimetry`.
 //!
 //! `cargo run --release --example make-munsell`
 //!
-//! The crate interpolates each chip to 1 nm, 12 ms for all; the 5 nm data beneath are multiples of 1/50000, so that
-//! 16-bit integers hold them without loss and load in a fraction of a millisecond. The classes are those of the prior of
-//! `vestimate`, one a line in the order of the names.
+//! The crate interpolates each chip to 1 nm, 12 ms for all; the 5 nm data beneath are multiples of 1/50000,
+//! so that 16-bit integers hold them without loss and load in a fraction of a millisecond. The classes are
+//! those of the prior of `vestimate`, one a line in the order of the names.
 
 use colorimetry::colorant::MunsellCollection;
 use npyz::WriterBuilder;

@@ -1,13 +1,14 @@
 //! From patches of known colour in a photograph to its absolute values.
 //!
-//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the scene's camera makes of
-//! it. It holds the exposure, the colour of the light as far as it is not the scene's, stray light and a bent curve. A white card
-//! is a chart of one patch. Nothing here knows pixels: patches come as means.
+//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the
+//! scene's camera makes of it. It holds the exposure, the colour of the light as far as it is not the
+//! scene's, stray light and a bent curve. A white card is a chart of one patch. Nothing here knows pixels:
+//! patches come as means.
 //!
-//! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are off by a share of
-//! themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white. Here errors are relative, as
-//! large as the residuals say, and constant and curvature have priors: 2.5 %, and 0.5 % at 30 % of white
-//! (`tests/numbers/calibration.rs` measures both).
+//! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are
+//! off by a share of themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white.
+//! Here errors are relative, as large as the residuals say, and constant and curvature have priors: 2.5 %,
+//! and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
 
 mod patch;
 mod polynomial;
@@ -17,8 +18,8 @@ use polynomial::Polynomial;
 
 use crate::error::{Error, Result};
 
-/// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to 0.12, patches in the
-/// wrong order 0.45 and more.
+/// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to
+/// 0.12, patches in the wrong order 0.45 and more.
 const LARGEST_RESIDUAL: f64 = 0.25;
 
 /// What takes a photograph's values to those of the scene's camera.
@@ -37,7 +38,8 @@ impl Calibration {
     /// - `reference_channel`: the channel in which a white diffuser facing the sun is 1 at exposure 1.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the patches do not rise with what they should be, or are off by more than a quarter.
+    /// [`Error::Numeric`] if the patches do not rise with what they should be, or are off by more than a
+    /// quarter.
     ///
     /// # Source
     /// Deeb et al., section 5D, for the polynomial.
@@ -78,8 +80,8 @@ impl Calibration {
         Ok(calibration)
     }
 
-    /// Value of a perfect white diffuser facing the sun in the strongest channel: what the scene's camera, at this exposure, would
-    /// have shown the photograph's values.
+    /// Value of a perfect white diffuser facing the sun in the strongest channel: what the scene's camera, at
+    /// this exposure, would have shown the photograph's values.
     #[must_use]
     pub fn exposure(&self) -> f64 {
         self.exposure
@@ -91,8 +93,8 @@ impl Calibration {
         self.exposure_sd
     }
 
-    /// What the scene's camera would have shown at [`Calibration::exposure`] for a value of the photograph. Beyond the brightest
-    /// patch the polynomial goes on as its tangent.
+    /// What the scene's camera would have shown at [`Calibration::exposure`] for a value of the photograph.
+    /// Beyond the brightest patch the polynomial goes on as its tangent.
     #[must_use]
     pub fn value(&self, channel: usize, measured: f64) -> f64 {
         self.polynomials[channel].value(measured)
@@ -151,7 +153,8 @@ mod tests {
 
     use super::*;
 
-    /// NumPy 2, twenty rounds of `C = inv(A.T @ (A/v[:,None]) + P); t = C @ (A.T @ (y/v))` with A = [1, x, x²].
+    /// NumPy 2, twenty rounds of `C = inv(A.T @ (A/v[:,None]) + P); t = C @ (A.T @ (y/v))` with A =
+    /// [1, x, x²].
     #[test]
     fn the_polynomial_is_that_of_numpy() {
         let patch = |measured, expected| Patch {

@@ -13,10 +13,12 @@ pub use stand_in::{LeftOut, StandIn, StandIns, Why};
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
-/// What each channel of a camera makes of each waveband under one illuminant, or under several, a picture each.
+/// What each channel of a camera makes of each waveband under one illuminant, or under several, a picture
+/// each.
 ///
-/// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, the trapezoid rule over the grid included, scaled so that a perfect white
-/// diffuser facing the light gives 1 in the reference channel. The channels of several pictures follow each other.
+/// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, the trapezoid rule over the grid included, scaled so that a
+/// perfect white diffuser facing the light gives 1 in the reference channel. The channels of several pictures
+/// follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraResponse {
     weights: Vec<Vec<f64>>,
@@ -25,8 +27,8 @@ pub struct CameraResponse {
 }
 
 impl CameraResponse {
-    /// The response of `sensitivities` (channel by waveband) to `illuminant` (power a waveband) on `grid`; the reference
-    /// channel is the one that white drives most.
+    /// The response of `sensitivities` (channel by waveband) to `illuminant` (power a waveband) on `grid`;
+    /// the reference channel is the one that white drives most.
     ///
     /// # Source
     /// Deeb et al., eqs. (17) and (18).

@@ -69,8 +69,8 @@ pub struct Common {
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
-    /// Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a
-    /// value is above 2]
+    /// Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions
+    /// [default: in percent if a value is above 2]
     #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes",
         value_parser = clap::builder::BoolishValueParser::new(), hide_possible_values = true)]
     pub percent: Option<bool>,
@@ -120,8 +120,9 @@ pub trait ToolArgs: Parser {
 
 /// Runs one tool and turns its outcome into an exit status.
 ///
-/// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but some records
-/// carry an `error`; standard error says how many, and why the first does. Nothing is said of an [empty pipe](Error::EmptyPipe).
+/// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but
+/// some records carry an `error`; standard error says how many, and why the first does. Nothing is said of an
+/// [empty pipe](Error::EmptyPipe).
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
         Ok(args) => without_panic(|| frame(&args, tool)),
@@ -261,12 +262,14 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or
-    /// a file; of a photograph also unknown: vestimate finds it; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside
-    /// [default: D65; of a photograph that says where and when it was taken, the sun's]
+    /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the
+    /// sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a
+    /// picture under each, or, of a shape under several lights, one picture with these in the order of the
+    /// lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
-    /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]
+    /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant
+    /// [default: that of the sun]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub sky_illuminant: Option<String>,
     /// Wavelengths, nm
@@ -274,7 +277,8 @@ pub struct OpticsArgs {
     pub wavelengths_nm: WavelengthGrid,
 }
 
-/// Parses the SPEC of a light, of which a large number may be the temperature or the power of a flat spectrum.
+/// Parses the SPEC of a light, of which a large number may be the temperature or the power of a flat
+/// spectrum.
 ///
 /// # Errors
 /// Both readings, if the text is such a number.
@@ -286,7 +290,8 @@ pub struct OpticsArgs {
 /// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
 /// ```
 pub fn light(text: &str) -> std::result::Result<String, String> {
-    /// Nothing shines at so few kelvins, and no light is called by such a number, as D50 and D65 are by theirs.
+    /// Nothing shines at so few kelvins, and no light is called by such a number, as D50 and D65 are by
+    /// theirs.
     const POWER_MAX: f64 = 10.0;
     let number = text.trim();
     match number.parse() {
@@ -334,8 +339,8 @@ impl OpticsArgs {
         }
     }
 
-    /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera sees nothing where it
-    /// was not measured. What was converted is said as `common` asks.
+    /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera
+    /// sees nothing where it was not measured. What was converted is said as `common` asks.
     ///
     /// # Errors
     /// As [`Common::illuminant`], or if an illuminant does not cover the wavelengths.

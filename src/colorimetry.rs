@@ -1,7 +1,7 @@
 //! What a reflectance looks like: XYZ, CIELAB, CIEDE2000, and sRGB for swatches.
 //!
-//! Paper section 5B scores an estimate by CIEDE2000 for the 10° observer under D65. CIELAB, CIEDE2000 and the sRGB
-//! primaries are the crate `colorimetry`'s; only the integral over the scene's own grid is done here.
+//! Paper section 5B scores an estimate by CIEDE2000 for the 10° observer under D65. CIELAB, CIEDE2000 and the
+//! sRGB primaries are the crate `colorimetry`'s; only the integral over the scene's own grid is done here.
 
 mod uncertainty;
 
@@ -35,8 +35,9 @@ impl From<Observer> for observer::Observer {
 
 /// An observer and an illuminant on one wavelength grid.
 ///
-/// Integrals are by the trapezoid rule over the grid's range, and the perfect diffuser has Y = 100 on that same range:
-/// the paper's 400..700 nm leaves out the ends of 360..830 nm, where the observers see next to nothing.
+/// Integrals are by the trapezoid rule over the grid's range, and the perfect diffuser has Y = 100 on that
+/// same range: the paper's 400..700 nm leaves out the ends of 360..830 nm, where the observers see next to
+/// nothing.
 ///
 /// # Example
 /// ```
@@ -60,8 +61,8 @@ impl Colorimeter {
     /// The colorimeter for spectra on `grid`.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if `illuminant` does not cover the grid, [`Error::Numeric`] if it leaves one of X, Y, Z dark:
-    /// there is no white to compare with then.
+    /// [`Error::Spectrum`] if `illuminant` does not cover the grid, [`Error::Numeric`] if it leaves one of X,
+    /// Y, Z dark: there is no white to compare with then.
     pub fn new(grid: &WavelengthGrid, illuminant: &Spectrum, observer: Observer) -> Result<Self> {
         let power = illuminant.on(grid, Outside::Refuse)?;
         let weights_nm = grid.trapezoid_weights_nm();
@@ -116,14 +117,15 @@ impl Colorimeter {
         ciede2000(self.lab(a), self.lab(b))
     }
 
-    /// Special metamerism index for a change of illuminant: CIEDE2000 under `self` between two reflectances, `b` being corrected by the
-    /// factors in X, Y and Z that make the two look alike under `reference`.
+    /// Special metamerism index for a change of illuminant: CIEDE2000 under `self` between two reflectances,
+    /// `b` being corrected by the factors in X, Y and Z that make the two look alike under `reference`.
     ///
-    /// 0 for two reflectances that match under both; what is left is what no correction for one light can take away.
+    /// 0 for two reflectances that match under both; what is left is what no correction for one light can
+    /// take away.
     ///
     /// # Source
-    /// CIE 15:2018, section 9.2; the multiplicative correction is that of A. Brockes, "Vergleich der Metamerie-Indizes bei
-    /// Lichtartwechsel", *Die Farbe* 19 (1970), p. 135, and DIN 6172.
+    /// CIE 15:2018, section 9.2; the multiplicative correction is that of A. Brockes, "Vergleich der
+    /// Metamerie-Indizes bei Lichtartwechsel", *Die Farbe* 19 (1970), p. 135, and DIN 6172.
     ///
     /// # Panics
     /// If a reflectance is not as long as the grid.
@@ -142,8 +144,8 @@ impl Colorimeter {
 
     /// The reflectance as a colour on screen: sRGB (IEC 61966-2-1) with its transfer curve, each 0..1.
     ///
-    /// The perfect diffuser is the screen's white whatever the illuminant (Bradford adaptation); colours the screen
-    /// cannot show are clipped.
+    /// The perfect diffuser is the screen's white whatever the illuminant (Bradford adaptation); colours the
+    /// screen cannot show are clipped.
     ///
     /// # Panics
     /// If `reflectance` is not as long as the grid.
@@ -152,8 +154,8 @@ impl Colorimeter {
         self.screen(self.xyz(reflectance)).map(encode_srgb)
     }
 
-    /// Linear sRGB of a unit reflectance in each waveband alone: what a camera would see whose pictures need no colour
-    /// conversion. Channel by waveband; white gives 1 in each channel.
+    /// Linear sRGB of a unit reflectance in each waveband alone: what a camera would see whose pictures need
+    /// no colour conversion. Channel by waveband; white gives 1 in each channel.
     #[must_use]
     pub fn screen_weights(&self) -> Vec<Vec<f64>> {
         (0..3).map(|channel| self.wavebands.iter().map(|xyz| self.screen(*xyz)[channel]).collect()).collect()

@@ -33,8 +33,8 @@ pub enum Error {
     Output(#[source] io::Error),
 
     // ---- the stream ----
-    /// The pipe that standard input is had nothing in it: the command before it failed, and has said why. The tools end with status 1 and
-    /// say no more.
+    /// The pipe that standard input is had nothing in it: the command before it failed, and has said why. The
+    /// tools end with status 1 and say no more.
     #[error("nothing came from the command before this one")]
     EmptyPipe,
     /// A line of the stream is not a record, or one of another JSON file is not what it should be.
@@ -208,7 +208,8 @@ impl Error {
         }
     }
 
-    /// Whether this is what a check found, or what records lack for a drawing: what was written is whole, and kept.
+    /// Whether this is what a check found, or what records lack for a drawing: what was written is whole, and
+    /// kept.
     #[must_use]
     pub fn is_finding(&self) -> bool {
         matches!(self, Self::BrokenLaw(_) | Self::NothingToDraw(_))
@@ -220,7 +221,8 @@ impl Error {
         matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
     }
 
-    /// Whether the process may open no more files (`ulimit -n`), or the machine: another file would fare no better.
+    /// Whether the process may open no more files (`ulimit -n`), or the machine: another file would fare no
+    /// better.
     #[must_use]
     pub fn is_out_of_files(&self) -> bool {
         const ENFILE: i32 = 23;
@@ -270,7 +272,8 @@ impl Error {
         }
     }
 
-    /// A record's field with what is wrong with it. What it quotes of the field is cut: it may be a whole array.
+    /// A record's field with what is wrong with it. What it quotes of the field is cut: it may be a whole
+    /// array.
     pub fn field(field: impl Into<String>, problem: impl std::fmt::Display) -> Self {
         const LETTERS: usize = 400;
         Self::Field { field: field.into(), problem: cut(&problem.to_string(), LETTERS).into_owned() }
@@ -282,7 +285,8 @@ impl Error {
     }
 }
 
-/// What the operating system says, without its number, and without the temporary file that stands behind that, which nobody asked for.
+/// What the operating system says, without its number, and without the temporary file that stands behind
+/// that, which nobody asked for.
 fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error ").next().unwrap_or(&text).to_owned()

@@ -1,4 +1,5 @@
-//! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed leaves none.
+//! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed
+//! leaves none.
 
 mod checksum;
 pub(crate) mod forms;
@@ -15,7 +16,8 @@ use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
 
-/// A name as it is compared with others: systems write the same letters composed (é) or as a letter and its accent.
+/// A name as it is compared with others: systems write the same letters composed (é) or as a letter and its
+/// accent.
 ///
 /// # Example
 /// ```
@@ -27,11 +29,12 @@ pub fn composed(name: &str) -> String {
     name.nfc().collect()
 }
 
-/// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes the bytes as
-/// they come.
+/// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes
+/// the bytes as they come.
 ///
-/// Until then it has no name at all, so that whatever ends the run, SIGKILL included, leaves nothing behind. On file systems
-/// that know only files with names (NFS, FAT) it is called `.vfold-` and six letters, and stays there if a signal ends the run.
+/// Until then it has no name at all, so that whatever ends the run, SIGKILL included, leaves nothing behind.
+/// On file systems that know only files with names (NFS, FAT) it is called `.vfold-` and six letters, and
+/// stays there if a signal ends the run.
 pub struct Saved {
     target: Target,
     path: PathBuf,
@@ -50,8 +53,8 @@ impl Saved {
     /// Opens the file without its name, or the pipe or device.
     ///
     /// # Errors
-    /// [`Error::File`] if the folder cannot be written or the name is that of a link to nothing, [`Error::Usage`] if another output of this
-    /// run has the name.
+    /// [`Error::File`] if the folder cannot be written or the name is that of a link to nothing,
+    /// [`Error::Usage`] if another output of this run has the name.
     pub fn new(path: &Path) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
         let path = match path.metadata() {
@@ -145,7 +148,8 @@ pub fn named(pattern: &Path, name: &str) -> PathBuf {
     pattern.to_str().map_or_else(|| pattern.to_owned(), |text| text.replace("{}", name).into())
 }
 
-/// The right to a file's name, for as long as the file is written: of two outputs that took one name, one would be lost.
+/// The right to a file's name, for as long as the file is written: of two outputs that took one name, one
+/// would be lost.
 pub(crate) struct Claim(PathBuf);
 
 static CLAIMED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());

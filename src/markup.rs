@@ -2,8 +2,8 @@
 
 use crate::message;
 
-/// A text that shows letter by letter where XML holds it: what [`message::printable`] escapes is escaped, and what is no character at all is
-/// replaced.
+/// A text that shows letter by letter where XML holds it: what [`message::printable`] escapes is escaped, and
+/// what is no character at all is replaced.
 ///
 /// # Example
 /// ```

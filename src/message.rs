@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use crate::error::cut;
 
-/// A message as one line that a terminal shows as it is: what [`printable`] escapes, which names in files may hold, is escaped, and
-/// what is longer than any message is cut in the middle.
+/// A message as one line that a terminal shows as it is: what [`printable`] escapes, which names in files may
+/// hold, is escaped, and what is longer than any message is cut in the middle.
 ///
 /// # Example
 /// ```
@@ -17,8 +17,9 @@ pub fn one_line(message: &str) -> String {
     printable(&cut(message, 2000)).into_owned()
 }
 
-/// A text that a terminal or a spreadsheet shows letter by letter, from left to right and on one line: control characters (C0, C1, DEL),
-/// line separators and marks of writing direction (Unicode Standard Annex #9) as visible escapes.
+/// A text that a terminal or a spreadsheet shows letter by letter, from left to right and on one line:
+/// control characters (C0, C1, DEL), line separators and marks of writing direction (Unicode Standard Annex
+/// #9) as visible escapes.
 ///
 /// # Example
 /// ```

@@ -15,14 +15,15 @@ pub enum Item<I, O> {
     Place,
 }
 
-/// Does `work` on items on all threads and hands the results to `done` in the order of the items, each as soon as it and
-/// those before it are there.
+/// Does `work` on items on all threads and hands the results to `done` in the order of the items, each as
+/// soon as it and those before it are there.
 ///
-/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead` (1 or more) are in
-/// work or wait for those before them, which bounds memory.
+/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead`
+/// (1 or more) are in work or wait for those before them, which bounds memory.
 ///
 /// # Errors
-/// [`Error::Numeric`] if there is no thread to be had; that of `done`, after which no item is drawn but the one that is waited for.
+/// [`Error::Numeric`] if there is no thread to be had; that of `done`, after which no item is drawn but the
+/// one that is waited for.
 ///
 /// # Example
 /// ```

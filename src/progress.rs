@@ -23,7 +23,8 @@ static LINE: OnceLock<ProgressBar> = OnceLock::new();
 /// When progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum When {
-    /// On a terminal, by the tool at the end of a pipeline whose records go to a file: no two tools share the line.
+    /// On a terminal, by the tool at the end of a pipeline whose records go to a file: no two tools share the
+    /// line.
     Auto,
     /// Whatever standard error is: redrawn on a terminal, else a line now and then, and the total at the end.
     Always,

@@ -1,7 +1,7 @@
 //! Room in memory, asked for before it is needed.
 //!
-//! Where memory is limited (`ulimit -v`), a program that takes more than there is ends on the spot, without a word of its own. Who is about to
-//! take a great deal asks here first.
+//! Where memory is limited (`ulimit -v`), a program that takes more than there is ends on the spot, without a
+//! word of its own. Who is about to take a great deal asks here first.
 
 use std::hint::black_box;
 

@@ -1,7 +1,8 @@
-//! Runs every `tests/golden/*.sh` in a fresh folder and compares what it prints with the `.out` beside it: text exactly,
-//! numbers to 1e-10 of the larger (1e-12 near zero; outside JSON also by one unit of the last decimal), or as the script's
-//! first line `# tolerance RELATIVE ABSOLUTE` says. `GOLDEN=write cargo test --test golden` rewrites; read the diff. What a prior moves, scores of
-//! estimates above all, is no case's digits: `tests/golden/below` says in their place whether they keep a bound.
+//! Runs every `tests/golden/*.sh` in a fresh folder and compares what it prints with the `.out` beside it:
+//! text exactly, numbers to 1e-10 of the larger (1e-12 near zero; outside JSON also by one unit of the last
+//! decimal), or as the script's first line `# tolerance RELATIVE ABSOLUTE` says.
+//! `GOLDEN=write cargo test --test golden` rewrites; read the diff. What a prior moves, scores of estimates
+//! above all, is no case's digits: `tests/golden/below` says in their place whether they keep a bound.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -15,7 +16,8 @@ use common::Workdir;
 use rayon::prelude::*;
 use serde_json::Value;
 
-/// Programs that the cases call, each with a line that runs only where it is there, and what to do where it is not.
+/// Programs that the cases call, each with a line that runs only where it is there, and what to do where it
+/// is not.
 const NEEDED: [(&str, &str, &str); 2] = [
     ("oiiotool", "oiiotool --version", "apt-get install openimageio-tools"),
     (
@@ -119,7 +121,8 @@ fn unlike(got: &Value, want: &Value, path: &str, tolerance: Tolerance) -> Option
     }
 }
 
-/// Whether two words are numbers close to each other, or one unit of their last decimal apart: a table rounds.
+/// Whether two words are numbers close to each other, or one unit of their last decimal apart: a table
+/// rounds.
 fn same_printed(got: &str, want: &str, tolerance: Tolerance) -> bool {
     let (Ok(a), Ok(b)) = (got.parse::<f64>(), want.parse::<f64>()) else { return false };
     let decimals = want.split_once('.').map_or(0, |(_, decimals)| decimals.len());

@@ -1,6 +1,7 @@
 //! Spectra that no chart has, as many as wanted: greys from 0.02 to 0.98, whites, dyes and edges.
 
-/// A table of them, a column each, from 400 to 700 nm by 5; of every 199, 49 are greys, 30 whites and 60 dyes.
+/// A table of them, a column each, from 400 to 700 nm by 5; of every 199, 49 are greys, 30 whites and 60
+/// dyes.
 pub fn many_spectra(count: usize) -> String {
     let share = |n: usize, step: f64| (n as f64 * step).fract();
     let step_at = |nm: f64, middle: f64, width: f64| 1.0 / (1.0 + ((middle - nm) / width).exp());

@@ -13,8 +13,8 @@ const RUNS_MAX: usize = 31;
 /// After the first time three runs are enough, after the second one is.
 const LONG_ENOUGH: [Duration; 2] = [Duration::from_millis(300), Duration::from_secs(2)];
 
-/// Median time of `work` in milliseconds, and what it gave. Time is the processor's, which on one thread is that of an idle machine
-/// whatever else runs beside it.
+/// Median time of `work` in milliseconds, and what it gave. Time is the processor's, which on one thread is
+/// that of an idle machine whatever else runs beside it.
 pub fn timed<T>(mut work: impl FnMut() -> T) -> (f64, T) {
     let (begin, mut times) = (Instant::now(), Vec::new());
     loop {

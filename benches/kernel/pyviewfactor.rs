@@ -1,4 +1,5 @@
-//! What `benches/pyviewfactor_kernel.py` measured on the 10 x 10 facets of a 45° fold, beside the exact kernel.
+//! What `benches/pyviewfactor_kernel.py` measured on the 10 x 10 facets of a 45° fold, beside the exact
+//! kernel.
 
 use std::fs;
 

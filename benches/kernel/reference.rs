@@ -14,8 +14,8 @@ pub const REFLECTANCES: [f64; 3] = [0.5, 0.9, 0.99];
 /// Most patches along a side of a panel, in a fold and in one of 1°, whose bounces have hundreds of modes.
 const PATCHES_MAX: [usize; 2] = [256, 40];
 
-/// Largest difference of a form factor from those of 60 digits that this fold has: all of its entries where there is a
-/// table of it, else those of 17 pairs of facets, the nearest and the furthest among them.
+/// Largest difference of a form factor from those of 60 digits that this fold has: all of its entries where
+/// there is a table of it, else those of 17 pairs of facets, the nearest and the furthest among them.
 pub fn entry_error(fold: &Fold, kernel: &FoldKernel) -> f64 {
     let n = fold.facets().rows;
     let tables = read("facet_tables.json", "tables");
@@ -56,7 +56,8 @@ pub fn too_many(fold: &Fold, patches: usize) -> bool {
     patches > PATCHES_MAX[usize::from(fold.angle_deg() < 10.0)]
 }
 
-/// Irradiance of every facet at each of the reflectances, and the error it is believed to have; none where it takes half a minute.
+/// Irradiance of every facet at each of the reflectances, and the error it is believed to have; none where it
+/// takes half a minute.
 pub fn irradiances(fold: &Fold) -> Option<([Vec<f64>; 3], f64)> {
     if too_many(fold, fold.facets().rows) {
         return None;

@@ -1,4 +1,5 @@
-//! Error against time, both in powers of ten: a panel a problem, the front as a line, settings beside their points.
+//! Error against time, both in powers of ten: a panel a problem, the front as a line, settings beside their
+//! points.
 
 use std::fs;
 use std::ops::Range;

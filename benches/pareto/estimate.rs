@@ -38,7 +38,8 @@ pub fn measure(sets: &[&str]) {
     }
 }
 
-/// Facets of sheets of a set; further flags for vkernel, and for the scene that they are thought to be of if it is another one.
+/// Facets of sheets of a set; further flags for vkernel, and for the scene that they are thought to be of if
+/// it is another one.
 fn photograph(set: &str, noise: &str, flags: &str, believed: &str) -> Batch {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("samples.ndjson");

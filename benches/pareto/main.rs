@@ -1,8 +1,9 @@
 //! Time against error of the kernel, the response and the estimate, at every setting of what steers them.
 //!
-//! `benches/pareto.sh` runs it, adds whole pipelines and what other libraries take, and has it draw everything:
-//! `pareto kernel|response|estimate [SET.csv]` prints rows, `pareto draw STAGE` reads them and leaves a table and a drawing in
-//! `benches/results`, `pareto growth` says how the kernel grows with the facets.
+//! `benches/pareto.sh` runs it, adds whole pipelines and what other libraries take, and has it draw
+//! everything: `pareto kernel|response|estimate [SET.csv]` prints rows, `pareto draw STAGE` reads them and
+//! leaves a table and a drawing in `benches/results`, `pareto growth` says how the kernel grows with the
+//! facets.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a measurement stops at the first surprise")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a measurement for the reader of a terminal")]

@@ -20,7 +20,8 @@ pub fn rows() -> Vec<String> {
 
 type Point = [f64; 3];
 
-/// A facet in space: its corners, its centre and the unit normal of its inner side. Lengths are in facet widths.
+/// A facet in space: its corners, its centre and the unit normal of its inner side. Lengths are in facet
+/// widths.
 struct Facet {
     corners: [Point; 4],
     centre: Point,
@@ -51,7 +52,8 @@ fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Whether each of two facets is before the other's plane and none of `others` cuts the ray between their centres.
+/// Whether each of two facets is before the other's plane and none of `others` cuts the ray between their
+/// centres.
 fn see(a: &Facet, b: &Facet, others: &[Facet]) -> bool {
     let before = |of: &Facet, from: &Facet| {
         of.corners.iter().any(|corner| dot(minus(*corner, from.centre), from.normal) > ROUNDING)

@@ -1,7 +1,8 @@
 //! What is skipped, and what it saves: time with and without, in process, one thread.
 //!
-//! Each row does the work as it would be done by someone who did not know of the skip, here, and then as the library does it; the
-//! results agree to rounding. Markdown goes to standard output and to `benches/results/skips.md`.
+//! Each row does the work as it would be done by someone who did not know of the skip, here, and then as the
+//! library does it; the results agree to rounding. Markdown goes to standard output and to
+//! `benches/results/skips.md`.
 
 #![allow(clippy::unwrap_used, reason = "a measurement stops at the first surprise")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a measurement for the reader of a terminal")]
@@ -37,7 +38,8 @@ impl Skip {
         Self { what: what.into(), without: without.into(), with: with.into() }
     }
 
-    /// The row of the table: both ways timed, and how far apart their results are, relative to the largest number.
+    /// The row of the table: both ways timed, and how far apart their results are, relative to the largest
+    /// number.
     fn row(self, without: impl FnMut() -> Vec<f64>, with: impl FnMut() -> Vec<f64>) -> String {
         eprintln!("{}", self.what);
         let ((slow_ms, slow), (fast_ms, fast)) = (timed(without), timed(with));

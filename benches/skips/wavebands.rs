@@ -86,7 +86,8 @@ impl Scene {
         nonuniform::facet_rgb(&self.kernel, lighting, &reflectance).unwrap().as_slice().to_vec()
     }
 
-    /// Facet RGB of evenly lit panels by eqs. (11) to (14): bounce after bounce in every waveband, until nothing is added.
+    /// Facet RGB of evenly lit panels by eqs. (11) to (14): bounce after bounce in every waveband, until
+    /// nothing is added.
     fn by_bounces(&self) -> Vec<f64> {
         let (operator, facets) = (operator(&self.kernel), self.kernel.facets().len());
         let direct = self.lighting.light.panel_irradiance()[0];

@@ -5,11 +5,13 @@ use nalgebra::{Matrix3, Vector3};
 use super::patch::Patch;
 use crate::error::{Error, Result};
 
-/// Standard deviation of the polynomial's constant before the picture, of the brightest patch: stray light and black level.
+/// Standard deviation of the polynomial's constant before the picture, of the brightest patch: stray light
+/// and black level.
 const OFFSET_SD: f64 = 5e-3;
 /// Standard deviation of the quadratic term at the brightest patch before the picture, of that patch.
 const CURVATURE_SD: f64 = 0.05;
-/// Relative error of a patch before the picture, worth as much as so many patches: ageing, dirt, another batch.
+/// Relative error of a patch before the picture, worth as much as so many patches: ageing, dirt, another
+/// batch.
 const PATCH_SD: f64 = 0.01;
 const PATCH_SD_COUNT: f64 = 2.0;
 /// The relative error settles within a few rounds.

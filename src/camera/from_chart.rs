@@ -1,8 +1,9 @@
 //! A camera's sensitivities from one photograph of a colour chart.
 //!
-//! J. Jiang, D. Liu, J. Gu, S. Süsstrunk, "What is the space of spectral sensitivity functions for digital color cameras?", *IEEE Workshop on
-//! Applications of Computer Vision* (2013): a few principal components hold the curves of all cameras. Here all components of the measured ones
-//! are a Gaussian prior, each as wide as the cameras are apart along it, with a little smooth variation that none of them has.
+//! J. Jiang, D. Liu, J. Gu, S. Süsstrunk, "What is the space of spectral sensitivity functions for digital
+//! color cameras?", *IEEE Workshop on Applications of Computer Vision* (2013): a few principal components
+//! hold the curves of all cameras. Here all components of the measured ones are a Gaussian prior, each as
+//! wide as the cameras are apart along it, with a little smooth variation that none of them has.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,7 +11,8 @@ use super::measured::{KnownSensitivities, known_sensitivities};
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
-/// What no measured camera has: its standard deviation, of the geometric mean of a curve and its peak, and how far it reaches, nm.
+/// What no measured camera has: its standard deviation, of the geometric mean of a curve and its peak, and
+/// how far it reaches, nm.
 const OTHER_SD: f64 = 0.05;
 const OTHER_REACH_NM: f64 = 20.0;
 /// Standard deviation of a channel's scale about its first guess.
@@ -42,15 +44,18 @@ pub struct ChartCamera {
     pub sensitivities_sd: [Vec<f64>; 3],
     /// Relative error of the patches that the photograph speaks for.
     pub patch_sd: f64,
-    /// Root mean square of how far the patches are off, as shares of their values, in the channel where it is largest.
+    /// Root mean square of how far the patches are off, as shares of their values, in the channel where it is
+    /// largest.
     pub residual: f64,
 }
 
 impl ChartCamera {
-    /// The most probable sensitivities of the camera that saw `patches` in `light`, power per waveband of `grid`.
+    /// The most probable sensitivities of the camera that saw `patches` in `light`, power per waveband of
+    /// `grid`.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter from what any camera makes of them.
+    /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter from what any
+    /// camera makes of them.
     ///
     /// # Example
     /// ```

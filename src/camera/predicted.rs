@@ -1,9 +1,11 @@
 //! Curves of a camera that nobody measured, predicted from the colour matrix of its RAW files.
 //!
-//! A. E. Hoerl, R. W. Kennard, "Ridge regression: biased estimation for nonorthogonal problems", *Technometrics* 12 (1970), p. 55: from matrices to
-//! curves, over the measured cameras whose matrices are published (`share/make-camera-matrices.py`), with an offset that cameras of one maker share.
-//! It learns from matrices as they are published, not as they follow from the curves: those differ by more than cameras do. The matrix under
-//! illuminant A, where files have it, makes the curves no better. `benches/cameras.rs` leaves each camera out in turn.
+//! A. E. Hoerl, R. W. Kennard, "Ridge regression: biased estimation for nonorthogonal problems",
+//! *Technometrics* 12 (1970), p. 55: from matrices to curves, over the measured cameras whose matrices are
+//! published (`share/make-camera-matrices.py`), with an offset that cameras of one maker share. It learns
+//! from matrices as they are published, not as they follow from the curves: those differ by more than cameras
+//! do. The matrix under illuminant A, where files have it, makes the curves no better. `benches/cameras.rs`
+//! leaves each camera out in turn.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,21 +15,26 @@ use crate::error::{Error, Result};
 use crate::solve::Eigen;
 use crate::spectrum::{MeasuredCamera, WavelengthGrid, illuminant};
 
-/// Of cameras that rawler knows, under its licence, which builds that read RAW files are bound by anyway; others predict no camera.
+/// Of cameras that rawler knows, under its licence, which builds that read RAW files are bound by anyway;
+/// others predict no camera.
 #[cfg(feature = "raw")]
 const MATRICES: &str = include_str!("../../share/camera-matrices.csv");
 #[cfg(not(feature = "raw"))]
 const MATRICES: &str = "";
-/// How far curves are from a linear function of the matrix, and how far makers are apart: variances, in units of what one standard deviation of a
-/// number of the matrix does. Between a third and three times as much of either, errors are the same to a twentieth.
+/// How far curves are from a linear function of the matrix, and how far makers are apart: variances, in units
+/// of what one standard deviation of a number of the matrix does. Between a third and three times as much of
+/// either, errors are the same to a twentieth.
 const RIDGE: f64 = 1.0;
 const MAKERS_APART: f64 = 1.0;
-/// A matrix further from those of the cameras, in standard deviations of its numbers, is none of a camera: root mean square of all nine.
+/// A matrix further from those of the cameras, in standard deviations of its numbers, is none of a camera:
+/// root mean square of all nine.
 const FARTHEST: f64 = 4.0;
-/// Errors of a channel's curve that are kept, of those that explain most of them: these hold nineteen parts in twenty.
+/// Errors of a channel's curve that are kept, of those that explain most of them: these hold nineteen parts
+/// in twenty.
 const ERRORS: usize = 5;
 
-/// How far off predicted sensitivities are in the mean, root mean square where green's peak is 1: measured by leaving each camera out in turn.
+/// How far off predicted sensitivities are in the mean, root mean square where green's peak is 1: measured by
+/// leaving each camera out in turn.
 pub const PREDICTED_ERROR: f64 = 0.030;
 
 /// Rows of a matrix from XYZ to a camera's R, G and B, as the tag `ColorMatrix` of DNG has it for D65.
@@ -110,8 +117,8 @@ impl Predictor {
         Ok(Self { examples: examples.ok_or_else(damaged)?, white_xyz, bands: grid.len() })
     }
 
-    /// Curves R, G and B, green's peak being 1, of a camera by `make`, as it writes that into its pictures, with this colour matrix; none if that is no
-    /// camera's, and in builds that do not read RAW files.
+    /// Curves R, G and B, green's peak being 1, of a camera by `make`, as it writes that into its pictures,
+    /// with this colour matrix; none if that is no camera's, and in builds that do not read RAW files.
     ///
     /// # Example
     /// ```
@@ -148,7 +155,8 @@ impl Predictor {
         self.examples.iter().filter_map(left_out).collect()
     }
 
-    /// The camera of the matrix that is nearest to that of a camera: what would stand in for it without a regression. None if that is not known.
+    /// The camera of the matrix that is nearest to that of a camera: what would stand in for it without a
+    /// regression. None if that is not known.
     #[must_use]
     pub fn nearest_to(&self, camera: &str) -> Option<MeasuredCamera> {
         let one = self.examples.iter().find(|one| one.camera.name() == camera)?;
@@ -157,8 +165,9 @@ impl Predictor {
         others.min_by(|a, b| off(a).total_cmp(&off(b))).map(|other| other.camera)
     }
 
-    /// How predicted sensitivities are off, green's peak being 1: errors of a channel by waveband, each of standard deviation 1 as it is, those of cameras left
-    /// out in turn. None in builds that do not read RAW files.
+    /// How predicted sensitivities are off, green's peak being 1: errors of a channel by waveband, each of
+    /// standard deviation 1 as it is, those of cameras left out in turn. None in builds that do not read RAW
+    /// files.
     #[must_use]
     pub fn errors(&self) -> Vec<(usize, DVector<f64>)> {
         let left_out = self.left_out();

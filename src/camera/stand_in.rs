@@ -1,8 +1,8 @@
 //! Which measured camera stands in for one that nobody measured.
 //!
-//! Of the same maker's cameras the one nearest to all others of that maker; without any of the maker, the one nearest to all. `benches/cameras.rs`
-//! leaves each camera out in turn and prints how far off they are. A camera whose colour matrix is known needs none: its sensitivities are
-//! [predicted](super::Predictor).
+//! Of the same maker's cameras the one nearest to all others of that maker; without any of the maker, the one
+//! nearest to all. `benches/cameras.rs` leaves each camera out in turn and prints how far off they are. A
+//! camera whose colour matrix is known needs none: its sensitivities are [predicted](super::Predictor).
 
 use super::measured::{KnownSensitivities, known_sensitivities, sensitivity_error};
 use crate::error::Result;
@@ -29,7 +29,8 @@ pub enum Why {
 }
 
 impl Why {
-    /// How far off the curves are in the mean, root mean square where green's peak is 1: measured by leaving each camera out in turn.
+    /// How far off the curves are in the mean, root mean square where green's peak is 1: measured by leaving
+    /// each camera out in turn.
     #[must_use]
     pub fn expected_error(self) -> f64 {
         match self {

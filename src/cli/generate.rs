@@ -1,4 +1,5 @@
-//! What `--generate` prints: a tool's man page and completions, from its own flags; page and schema of the stream, from its types.
+//! What `--generate` prints: a tool's man page and completions, from its own flags; page and schema of the
+//! stream, from its types.
 
 use std::io;
 
@@ -117,7 +118,8 @@ fn synopsis(page: &mut Roff, command: &Command) {
     page.control("SH", ["SYNOPSIS"]).text(parts);
 }
 
-/// The sections of man-pages(7), in its order; what `--help` ends with is EXAMPLES up to its first empty line, then NOTES.
+/// The sections of man-pages(7), in its order; what `--help` ends with is EXAMPLES up to its first empty
+/// line, then NOTES.
 fn man_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
     let title = command.get_name().to_uppercase();
     let help_end = command.get_after_help().map(ToString::to_string).unwrap_or_default();

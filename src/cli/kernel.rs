@@ -11,7 +11,8 @@ use crate::scene::ExternalKernel;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Kernel made elsewhere")]
 pub struct KernelArgs {
-    /// Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j
+    /// Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet
+    /// i that reaches j
     #[arg(long, value_name = "K.npy")]
     pub kernel: Option<PathBuf>,
     /// Direct light: one number per facet, or one row per source [default: 1 everywhere]

@@ -11,7 +11,8 @@ use crate::stream::Material;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Materials")]
 pub struct MaterialArgs {
-    /// A group of a shape's facets has this reflectance; repeated for several groups. All other facets are the sheet
+    /// A group of a shape's facets has this reflectance; repeated for several groups. All other facets are
+    /// the sheet
     #[arg(long, value_name = "GROUP=SPEC", value_parser = group_and_spec)]
     pub material: Vec<(String, String)>,
 }
@@ -20,7 +21,8 @@ impl MaterialArgs {
     /// The materials on the wavelengths of `grid`.
     ///
     /// # Errors
-    /// As [`Common::one_reflectance`]; [`Error::Usage`] if a group has two, or [`Error::Spectrum`] if one does not cover the wavelengths.
+    /// As [`Common::one_reflectance`]; [`Error::Usage`] if a group has two, or [`Error::Spectrum`] if one
+    /// does not cover the wavelengths.
     pub fn on(&self, grid: &WavelengthGrid, common: &Common) -> Result<Vec<Material>> {
         let mut materials: Vec<Material> = Vec::new();
         for (group, spec) in &self.material {

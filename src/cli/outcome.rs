@@ -4,7 +4,8 @@ use std::panic::{self, AssertUnwindSafe};
 
 use crate::error::{Error, Result};
 
-/// What `run` returns, or an error where it panics; the trace for developers comes if `RUST_BACKTRACE` asks for it.
+/// What `run` returns, or an error where it panics; the trace for developers comes if `RUST_BACKTRACE` asks
+/// for it.
 pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
     if std::env::var_os("RUST_BACKTRACE").is_none() {
         panic::set_hook(Box::new(|_| ()));

@@ -34,7 +34,8 @@ pub enum Reply<T> {
     Refused(String),
 }
 
-/// Serves files to this machine alone, at an address that nobody can guess, until the page has sent an answer.
+/// Serves files to this machine alone, at an address that nobody can guess, until the page has sent an
+/// answer.
 ///
 /// # Arguments
 /// - `files`: the page, and what it asks for.
@@ -106,7 +107,8 @@ pub fn ask_on_page<T>(
     }
 }
 
-/// 128 bits of what the operating system seeds hash tables with, which no other page of the browser can guess.
+/// 128 bits of what the operating system seeds hash tables with, which no other page of the browser can
+/// guess.
 fn unguessable() -> String {
     let number = || RandomState::new().build_hasher().finish();
     format!("{:016x}{:016x}", number(), number())

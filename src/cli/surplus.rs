@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result};
 
-/// Refuses the first of `flags` that was given, each with whether it was: what is wrong with it, and what to do.
+/// Refuses the first of `flags` that was given, each with whether it was: what is wrong with it, and what to
+/// do.
 ///
 /// # Errors
 /// [`Error::Usage`] if one was given.

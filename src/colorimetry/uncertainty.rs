@@ -1,7 +1,7 @@
 //! Error bars of colours.
 //!
-//! Of first order: colour coordinates are taken to be linear in the reflectance within its error bars, as JCGM 100:2008 (GUM), section 5,
-//! has it.
+//! Of first order: colour coordinates are taken to be linear in the reflectance within its error bars, as
+//! JCGM 100:2008 (GUM), section 5, has it.
 
 use super::Colorimeter;
 
@@ -35,8 +35,8 @@ impl Colorimeter {
         Colour { xyz: self.xyz(reflectance), lab: self.lab(reflectance), srgb: self.srgb(reflectance) }
     }
 
-    /// Standard deviations of the colour of a reflectance: of its covariance, or the largest that its deviations allow, whatever their
-    /// correlation.
+    /// Standard deviations of the colour of a reflectance: of its covariance, or the largest that its
+    /// deviations allow, whatever their correlation.
     ///
     /// sRGB is as if it were not clipped.
     ///

@@ -1,4 +1,5 @@
-//! The same facets under each of several things that may be so: one family of models, of which each is a hypothesis.
+//! The same facets under each of several things that may be so: one family of models, of which each is a
+//! hypothesis.
 
 use super::data::FacetData;
 use super::facets::{Facets, Second};

@@ -1,4 +1,5 @@
-//! The built-in prior: kinds of spectra, of paint and cloth, leaves, skin, paper and prints, as `share/make-prior.py` made them.
+//! The built-in prior: kinds of spectra, of paint and cloth, leaves, skin, paper and prints, as
+//! `share/make-prior.py` made them.
 
 use half::f16;
 use nalgebra::{DMatrix, DVector};

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-/// What one channel's compressed data take of the terms, and the camera's weights: one of each for every source.
+/// What one channel's compressed data take of the terms, and the camera's weights: one of each for every
+/// source.
 #[derive(Clone)]
 pub struct ChannelModel {
     pub sources: Vec<DMatrix<f64>>,
@@ -65,8 +66,8 @@ impl Channels {
         along
     }
 
-    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows take of the
-    /// terms, and the camera's weights in every waveband.
+    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows
+    /// take of the terms, and the camera's weights in every waveband.
     fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
         let mut start = 0;
         for channel in &self.0 {

@@ -1,6 +1,7 @@
 //! Kinds of reflectances: a set of spectra divided into classes, each near Gaussian in logit.
 //!
-//! Reds, greens, greys: what a spectrum does at one end tells far more of the other end once its kind is known.
+//! Reds, greens, greys: what a spectrum does at one end tells far more of the other end once its kind is
+//! known.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -14,24 +15,25 @@ const SPECTRA_A_CLASS: usize = 80;
 const COORDINATES: usize = 15;
 /// Passes of expectation maximisation.
 const PASSES: usize = 40;
-/// What pulls the covariance of a small class towards that of the set: this many spectra, of a tenth of its variance.
+/// What pulls the covariance of a small class towards that of the set: this many spectra, of a tenth of its
+/// variance.
 const SHRINKAGE: f64 = 5.0;
 const SHRUNK_VARIANCE: f64 = 0.1;
 
-/// Classes of the built-in Munsell chips, in their order: what [`divide`] finds from 400 to 700 nm by 5, kept because it takes
-/// longer than many estimates. `share/make-munsell.rs` wrote them.
+/// Classes of the built-in Munsell chips, in their order: what [`divide`] finds from 400 to 700 nm by 5, kept
+/// because it takes longer than many estimates. `share/make-munsell.rs` wrote them.
 #[must_use]
 pub fn of_munsell() -> Vec<usize> {
     let digits = include_str!("../../share/munsell1269-classes.txt");
     digits.lines().filter_map(|class| class.parse().ok()).collect()
 }
 
-/// The class of every spectrum, a column of `logits` (waveband by spectrum) each. `spread` is the covariance of what spectra do
-/// beyond their class. Sets of fewer than 160 spectra are one class.
+/// The class of every spectrum, a column of `logits` (waveband by spectrum) each. `spread` is the covariance
+/// of what spectra do beyond their class. Sets of fewer than 160 spectra are one class.
 ///
 /// # Source
-/// Halved along principal axes, then a Gaussian mixture by expectation maximisation (Bishop, *Pattern Recognition and
-/// Machine Learning*, 2006, section 9.2).
+/// Halved along principal axes, then a Gaussian mixture by expectation maximisation (Bishop, *Pattern
+/// Recognition and Machine Learning*, 2006, section 9.2).
 #[must_use]
 pub fn divide(logits: &DMatrix<f64>, spread: &DMatrix<f64>) -> Vec<usize> {
     let halvings = (logits.ncols() / SPECTRA_A_CLASS).max(1).ilog2().min(HALVINGS);

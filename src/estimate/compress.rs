@@ -1,4 +1,5 @@
-//! Facets that were measured, in units of their noise, as few numbers as hold all that a reflectance can do to them.
+//! Facets that were measured, in units of their noise, as few numbers as hold all that a reflectance can do
+//! to them.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,7 +7,8 @@ use super::measured::Measured;
 use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
-/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of each light.
+/// One channel of the usable facets in units of their noise: the data, and what they take of the terms of
+/// each light.
 pub fn weighted(
     model: &FacetModel,
     measured: &Measured,
@@ -27,8 +29,8 @@ pub fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
     rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
 }
 
-/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands, so that a card's
-/// spectrum meets dark and bright ones everywhere.
+/// The terms over all reflectances: term by sample. Chebyshev points of [0, 1], shuffled over the wavebands,
+/// so that a card's spectrum meets dark and bright ones everywhere.
 pub fn sample_terms(model: &FacetModel) -> DMatrix<f64> {
     let bands = model.bands();
     // 37 shares no factor with the usual numbers of wavebands.
@@ -57,8 +59,8 @@ pub fn compress(
     let q = DMatrix::from_columns(&columns).qr().q();
     let reach = distinct.iter().map(|source| q.transpose() * *source * samples);
     let square = reach.map(|reach| &reach * reach.transpose()).sum::<DMatrix<f64>>();
-    // A principal component analysis: a direction along which no reflectance moves the facets tells nothing about it. Data are in
-    // units of their noise, so that a reach below `cutoff` drowns in it.
+    // A principal component analysis: a direction along which no reflectance moves the facets tells nothing
+    // about it. Data are in units of their noise, so that a reach below `cutoff` drowns in it.
     let directions = Eigen::of_symmetric(square);
     // Below that share of the largest, squares of singular values are rounding.
     let largest = directions.values.iter().copied().fold(0.0, f64::max);

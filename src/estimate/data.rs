@@ -1,7 +1,8 @@
 //! Facet RGB as data to fit, compressed to what the noise lets through.
 //!
-//! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers per channel
-//! (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is noise alone and is left out.
+//! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers
+//! per channel (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is
+//! noise alone and is left out.
 
 use std::borrow::Cow;
 
@@ -19,7 +20,8 @@ use crate::estimate::unknowns::{Amounts, Normal, SceneModel};
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
-/// A point of the model is a reflectance in every waveband, and a standard normal number for each unknown of the scene.
+/// A point of the model is a reflectance in every waveband, and a standard normal number for each unknown of
+/// the scene.
 #[derive(Clone)]
 pub struct FacetData<'a> {
     scene: Cow<'a, SceneModel>,
@@ -52,7 +54,8 @@ pub struct Residuals {
     pub exposure: f64,
 }
 
-/// Residuals with the derivatives of the model: one column per waveband by its reflectance, then one per unknown of the scene.
+/// Residuals with the derivatives of the model: one column per waveband by its reflectance, then one per
+/// unknown of the scene.
 pub struct LinearisedFacets {
     /// Data minus model.
     pub residuals: DVector<f64>,
@@ -74,8 +77,8 @@ pub struct FittedExposure {
     pub sd: f64,
 }
 
-/// What second derivatives at a point are made of: exposure, amounts of the sources, the model of each at exposure 1, and
-/// derivatives of the terms.
+/// What second derivatives at a point are made of: exposure, amounts of the sources, the model of each at
+/// exposure 1, and derivatives of the terms.
 pub struct SecondDerivatives {
     exposure: f64,
     amounts: Amounts,
@@ -103,8 +106,8 @@ pub struct Curvature {
     pub unknowns: DMatrix<f64>,
 }
 
-/// What directions of the model are weighed with: the exposure or, where it is to be found, no less than the brightest facet.
-/// At an exposure below 1 a few more directions are kept than the noise lets through.
+/// What directions of the model are weighed with: the exposure or, where it is to be found, no less than the
+/// brightest facet. At an exposure below 1 a few more directions are kept than the noise lets through.
 fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
     match exposure {
         Exposure::Known(exposure) => exposure.max(1.0),
@@ -112,13 +115,14 @@ fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
     }
 }
 
-/// Most steps to the exposure that fits best, and the relative change that counts: from the second on they gain two digits each.
+/// Most steps to the exposure that fits best, and the relative change that counts: from the second on they
+/// gain two digits each.
 const EXPOSURE_STEPS: usize = 20;
 const EXPOSURE_TOLERANCE: f64 = 1e-12;
 
 impl<'a> FacetData<'a> {
-    /// Weights and compresses the facets of a sample; directions in which no reflectance moves the data by more than
-    /// `cutoff` standard deviations are left out.
+    /// Weights and compresses the facets of a sample; directions in which no reflectance moves the data by
+    /// more than `cutoff` standard deviations are left out.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
@@ -166,8 +170,8 @@ impl<'a> FacetData<'a> {
         Self { may_fluoresce: false, ..self }
     }
 
-    /// The same data of a sheet that may send out light itself, the unknowns of which follow those of the scene. None where the exposure is what
-    /// makes sums alike, or a part of the surface is known.
+    /// The same data of a sheet that may send out light itself, the unknowns of which follow those of the
+    /// scene. None where the exposure is what makes sums alike, or a part of the surface is known.
     #[must_use]
     pub fn emitting(&self, emission: &Emission) -> Option<Self> {
         self.may_emit().then(|| Self { emission: Some(emission.clone()), ..self.clone() })
@@ -177,7 +181,8 @@ impl<'a> FacetData<'a> {
         self.may_fluoresce && self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
     }
 
-    /// How residuals of a sheet that sends out nothing change with each of what it may send out, at its usual size; empty where that is not asked.
+    /// How residuals of a sheet that sends out nothing change with each of what it may send out, at its usual
+    /// size; empty where that is not asked.
     #[must_use]
     pub fn changes_with(
         &self,
@@ -225,7 +230,8 @@ impl<'a> FacetData<'a> {
         Some((emission, emission.at(&unknowns[self.scene.unknowns().len()..])))
     }
 
-    /// What the sheet sends out at a point, `terms` being those of what it reflects with their derivatives; none if nothing.
+    /// What the sheet sends out at a point, `terms` being those of what it reflects with their derivatives;
+    /// none if nothing.
     fn emitted(&self, reflectance: &[f64], unknowns: &[f64], terms: [&DMatrix<f64>; 3]) -> Option<Emitted> {
         let (emission, sent) = self.sent(unknowns)?;
         let power = emission.power_of_reflectance();
@@ -280,7 +286,8 @@ impl<'a> FacetData<'a> {
         Self { scene: Cow::Owned(scene), ..self.clone() }
     }
 
-    /// The same data in another light, as the camera responds to it. What the facets take of the bounces, and so the compression, is the same.
+    /// The same data in another light, as the camera responds to it. What the facets take of the bounces, and
+    /// so the compression, is the same.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         let seen = |(n, channel): (usize, &ChannelModel)| {
@@ -331,8 +338,9 @@ impl<'a> FacetData<'a> {
     /// Residuals at a point, with the derivatives of the model.
     ///
     /// # Source
-    /// An exposure that is not known: Kaufman's approximation to the derivatives of variable projection (*BIT* 15, 1975, p. 49). What was
-    /// expected of its logarithm is one more datum, which nothing but the exposure changes.
+    /// An exposure that is not known: Kaufman's approximation to the derivatives of variable projection
+    /// (*BIT* 15, 1975, p. 49). What was expected of its logarithm is one more datum, which nothing but the
+    /// exposure changes.
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
@@ -441,7 +449,8 @@ impl<'a> FacetData<'a> {
         values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE)
     }
 
-    /// The exposure that is nearest to the facets and to what was expected of it together, by Gauss and Newton's steps of its logarithm.
+    /// The exposure that is nearest to the facets and to what was expected of it together, by Gauss and
+    /// Newton's steps of its logarithm.
     fn expected_exposure(&self, values: &DVector<f64>, Normal { mean, sd }: Normal) -> f64 {
         let (square, product) = (values.norm_squared(), values.dot(&self.values));
         let best = self.best_exposure(values);
@@ -458,7 +467,8 @@ impl<'a> FacetData<'a> {
         ln_exposure.exp()
     }
 
-    /// Data minus model, `values` being those at exposure 1, then how far the exposure is from the one that was expected, if any was.
+    /// Data minus model, `values` being those at exposure 1, then how far the exposure is from the one that
+    /// was expected, if any was.
     fn left_over(&self, exposure: f64, values: &DVector<f64>) -> DVector<f64> {
         let of_facets = &self.values - exposure * values;
         match self.exposure {

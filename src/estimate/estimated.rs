@@ -17,8 +17,8 @@ pub struct Estimate {
     pub reflectance: Vec<f64>,
     /// Bihemispherical albedo in every waveband, of a sheet that is not taken to be Lambertian.
     pub albedo: Option<Vec<f64>>,
-    /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance of the reflectance.
-    /// None from a method that has no model of its error.
+    /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance
+    /// of the reflectance. None from a method that has no model of its error.
     pub spread: Option<DMatrix<f64>>,
     /// Exposure: as known, or as found.
     pub exposure: f64,
@@ -28,7 +28,8 @@ pub struct Estimate {
     pub findings: Vec<photograph::Finding>,
     /// What was not looked at, or not determined by the facets of a photograph.
     pub skipped: Vec<Skipped>,
-    /// Reduced chi: root mean square of the residuals, in units of their expected size; near 1 for a good model.
+    /// Reduced chi: root mean square of the residuals, in units of their expected size; near 1 for a good
+    /// model.
     pub residual_rms: f64,
     /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
     pub unexplained: f64,
@@ -42,14 +43,15 @@ pub struct Estimate {
     pub without_bounces: f64,
     /// Iterations.
     pub iterations: u32,
-    /// What happened in them, by runs: under all spectra, under the most probable class to where classes are distinguished, then under each class that
-    /// was tried. Empty from a method that keeps no trace.
+    /// What happened in them, by runs: under all spectra, under the most probable class to where classes are
+    /// distinguished, then under each class that was tried. Empty from a method that keeps no trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,
 }
 
-/// What is stated of light and camera is right to that, as a part of the reflectance: no photograph tells more.
+/// What is stated of light and camera is right to that, as a part of the reflectance: no photograph tells
+/// more.
 const STATED_LIGHT_AND_CAMERA: f64 = 0.02;
 
 impl Estimate {

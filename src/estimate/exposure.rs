@@ -8,9 +8,11 @@ use super::photograph::priors::Priors;
 pub enum Exposure {
     /// Known: a perfect white diffuser facing the sun has this value in its strongest channel.
     Known(f64),
-    /// Unknown: the exposure that fits best, for every spectrum tried (variable projection, Golub and Pereyra 1973).
+    /// Unknown: the exposure that fits best, for every spectrum tried (variable projection, Golub and Pereyra
+    /// 1973).
     Free,
-    /// Unknown, and its logarithm normal before the picture is looked at: the one that is most probable, for every spectrum tried.
+    /// Unknown, and its logarithm normal before the picture is looked at: the one that is most probable, for
+    /// every spectrum tried.
     Expected(Normal),
     /// Unknown: picture and model are divided by their sums, as the paper does (section 5D).
     Sum,
@@ -35,7 +37,8 @@ impl Exposure {
         }
     }
 
-    /// The same of a photograph: of an exposure that nobody states something is known, as [people expose](Priors::exposure).
+    /// The same of a photograph: of an exposure that nobody states something is known, as
+    /// [people expose](Priors::exposure).
     #[must_use]
     pub fn of_photograph(self) -> Self {
         match self {

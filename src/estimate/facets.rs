@@ -1,4 +1,5 @@
-//! The facets as a model of standard normal numbers: those behind a spectrum, then those behind the scene's unknowns.
+//! The facets as a model of standard normal numbers: those behind a spectrum, then those behind the scene's
+//! unknowns.
 
 use std::ops::AddAssign;
 
@@ -11,8 +12,9 @@ use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
 use crate::solve::posterior::{Linearised, Model, information};
 
-/// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark sheet sends back some light of all
-/// wavelengths, whatever is beneath. With any value from 0.003 to 0.01 the shares that error bars hold differ less from set to set.
+/// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark
+/// sheet sends back some light of all wavelengths, whatever is beneath. With any value from 0.003 to 0.01 the
+/// shares that error bars hold differ less from set to set.
 const SURFACE: f64 = 0.006;
 /// Channels, those of every light counted, that tell classes apart.
 const TELLING_CHANNELS: usize = 3;
@@ -120,7 +122,8 @@ impl SpectrumModel for Facets<'_> {
         self.linearised(w).jacobian.columns(0, bands).into_owned()
     }
 
-    /// Reflectances, unknowns of the scene in their own units, exposure; where it is asked what the sheet sends out, that as a fraction of white.
+    /// Reflectances, unknowns of the scene in their own units, exposure; where it is asked what the sheet
+    /// sends out, that as a fraction of white.
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
@@ -185,7 +188,8 @@ impl SpectrumModel for Facets<'_> {
     }
 }
 
-/// All facets of a sample have one scene, and its sheet sends out light or does not: there is but one hypothesis.
+/// All facets of a sample have one scene, and its sheet sends out light or does not: there is but one
+/// hypothesis.
 impl Family for FacetData<'_> {
     type Hypothesis = ();
     type Second = Second;

@@ -19,14 +19,16 @@ pub struct Fluorescence {
     pub size: f64,
     /// Standard deviation of the size.
     pub size_sd: f64,
-    /// Total radiance factor in every waveband, what is reflected and what is sent out under the light of the scene.
+    /// Total radiance factor in every waveband, what is reflected and what is sent out under the light of the
+    /// scene.
     pub total_radiance_factor: Vec<f64>,
     /// Its standard deviation.
     pub total_radiance_factor_sd: Vec<f64>,
 }
 
 impl Fluorescence {
-    /// What it says against an estimate: light that bounces excites what visible light excites, too, which is not estimated.
+    /// What it says against an estimate: light that bounces excites what visible light excites, too, which is
+    /// not estimated.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
         let remedy = "measure it with a bispectral instrument";

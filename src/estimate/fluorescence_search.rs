@@ -1,4 +1,5 @@
-//! Whether a sheet fluoresces: which bands it may have is foreseen by a linear model, so that sheets that facets say nothing of take no searches.
+//! Whether a sheet fluoresces: which bands it may have is foreseen by a linear model, so that sheets that
+//! facets say nothing of take no searches.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,18 +12,21 @@ use super::prior::Prior;
 use super::search::{Search, Sorted};
 use crate::solve::forecast::ScoreTest;
 
-/// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual size at least: less changes nothing.
+/// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual
+/// size at least: less changes nothing.
 const LN_EVIDENCE_LEAST: f64 = -1.5;
 const LEAST_SIZE: f64 = 0.25;
-/// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question.
+/// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of
+/// the question.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
-/// Where facets are so many standard deviations further from a sheet that sends out nothing than chance has it, the model linear about that says nothing
-/// of others.
+/// Where facets are so many standard deviations further from a sheet that sends out nothing than chance has
+/// it, the model linear about that says nothing of others.
 const SURPRISE: f64 = 5.0;
 /// Probability from which on a sheet is said to fluoresce.
 const PROBABLE: f64 = 0.5;
 
-/// Whether a sheet of these logits may have a band, as far as a linear model foresees from how residuals change with it.
+/// Whether a sheet of these logits may have a band, as far as a linear model foresees from how residuals
+/// change with it.
 pub fn is_hopeful(
     test: &ScoreTest,
     change: &DVector<f64>,
@@ -35,7 +39,8 @@ pub fn is_hopeful(
 /// Facets as data of a sheet that fluoresces, and their maximum under all spectra.
 pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
 
-/// The facets with each of the bands that the sheet may have and that explain them, `plain` being their maximum without; hardly ever is there one.
+/// The facets with each of the bands that the sheet may have and that explain them, `plain` being their
+/// maximum without; hardly ever is there one.
 pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
     let [_, bands @ ..] = data.scene().emissions() else { return Vec::new() };
     let of_plain = Search::new(data, prior);
@@ -75,7 +80,8 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
 ///
 /// # Arguments
 /// - `shares`: what excites each thing that may be so, and how probable that is;
-/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what is sent out as a fraction of white;
+/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what
+///   is sent out as a fraction of white;
 /// - `nothing`: the emission of a sheet that sends out nothing, in the light of the scene.
 ///
 /// None if it probably sends out nothing.

@@ -18,11 +18,13 @@ pub struct Gaussian {
 }
 
 impl Gaussian {
-    /// A Gaussian of this mean and covariance. The coordinates are the columns of the covariance's Cholesky factor, the
-    /// waveband that the others tell least about first, until none is left with a standard deviation above 0.01.
+    /// A Gaussian of this mean and covariance. The coordinates are the columns of the covariance's Cholesky
+    /// factor, the waveband that the others tell least about first, until none is left with a standard
+    /// deviation above 0.01.
     ///
     /// # Source
-    /// Pivoted Cholesky decomposition: Higham, *Accuracy and Stability of Numerical Algorithms* (2002), section 10.3.
+    /// Pivoted Cholesky decomposition: Higham, *Accuracy and Stability of Numerical Algorithms* (2002),
+    /// section 10.3.
     #[must_use]
     pub fn new(mean: DVector<f64>, covariance: &DMatrix<f64>) -> Self {
         let mut columns: Vec<DVector<f64>> = Vec::new();
@@ -40,7 +42,8 @@ impl Gaussian {
         Self { mean, basis }
     }
 
-    /// About the logits of a reflectance that is off by these `errors` of it, independent of each other: one a row, waveband by waveband.
+    /// About the logits of a reflectance that is off by these `errors` of it, independent of each other: one
+    /// a row, waveband by waveband.
     #[must_use]
     pub fn centred_on(reflectance: &[f64], errors: &DMatrix<f64>) -> Self {
         let mean = DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r)));
@@ -110,11 +113,12 @@ pub fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// Change of reflectance with its logit, in the mean over one standard deviation `sd` to both sides of `z`. The slope at `z`
-/// itself is nothing near 0 and 1, however little is known of a logit there.
+/// Change of reflectance with its logit, in the mean over one standard deviation `sd` to both sides of `z`.
+/// The slope at `z` itself is nothing near 0 and 1, however little is known of a logit there.
 #[must_use]
 pub fn mean_slope(z: f64, sd: f64) -> f64 {
-    // Below that sd it is the slope at `z`, and digits would cancel. The slope is the same at -z, where they do not.
+    // Below that sd it is the slope at `z`, and digits would cancel. The slope is the same at -z, where they
+    // do not.
     let (z, sd) = (-z.abs(), sd.max(1e-6));
     (logistic(z + sd) - logistic(z - sd)) / (2.0 * sd)
 }

@@ -1,7 +1,8 @@
 //! Classes of spectra by their evidence, the model taken to be linear about a point.
 //!
-//! What data tell of a spectrum whatever the rest of the scene is are a few numbers of standard deviation 1; under a class of spectra these are
-//! normal, too. So the evidence of all classes at all widths takes no more than small matrices.
+//! What data tell of a spectrum whatever the rest of the scene is are a few numbers of standard deviation 1;
+//! under a class of spectra these are normal, too. So the evidence of all classes at all widths takes no more
+//! than small matrices.
 
 use std::rc::Rc;
 
@@ -13,13 +14,14 @@ use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
 use crate::solve::Eigen;
 use crate::solve::posterior::{Linearised, Model};
 
-/// Widths at which every class is weighed; at others, which takes most of the time of it, only those that come so near to the best class, as
-/// the logarithm of a share of its evidence.
+/// Widths at which every class is weighed; at others, which takes most of the time of it, only those that
+/// come so near to the best class, as the logarithm of a share of its evidence.
 const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
 const LN_EVIDENCE_NEAR: f64 = -6.0;
 /// Directions of logits that data must tell more of than is known of all spectra to tell classes apart.
 const TELLING_LEAST: usize = 3;
-/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more of it.
+/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more
+/// of it.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
 const NEARLY: f64 = 0.1;
@@ -56,7 +58,8 @@ pub struct Linear<H> {
     /// What is left at that spectrum, all others being as expected.
     residuals: DVector<f64>,
     of_others: Cholesky<f64, Dyn>,
-    /// What the data tell of logits: value by waveband, each of standard deviation 1, and how far the values are off there.
+    /// What the data tell of logits: value by waveband, each of standard deviation 1, and how far the values
+    /// are off there.
     informed: DMatrix<f64>,
     off: DVector<f64>,
     /// What no spectrum changes of the logarithm of the determinant, and of the sum of squares.
@@ -103,7 +106,8 @@ pub struct LinearMode {
 }
 
 impl<H: Copy> Linear<H> {
-    /// About `w`, the noise `tempering` times its size, under a hypothesis that is so often true; none if the model is not finite.
+    /// About `w`, the noise `tempering` times its size, under a hypothesis that is so often true; none if the
+    /// model is not finite.
     ///
     /// # Source
     /// The others marginalised: Schur complement of their information (docs/model.md).
@@ -147,11 +151,13 @@ impl<H: Copy> Linear<H> {
         .filter(|linear| (linear.ln_determinant + linear.left).is_finite())
     }
 
-    /// Leaves out of what the data tell of logits what tells no classes apart. To weigh these takes most of the time of a hypothesis, and a third of
-    /// it then; of one alone that is little, and its digits stay as they are.
+    /// Leaves out of what the data tell of logits what tells no classes apart. To weigh these takes most of
+    /// the time of a hypothesis, and a third of it then; of one alone that is little, and its digits stay as
+    /// they are.
     ///
     /// # Source
-    /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an orthogonal transformation.
+    /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an
+    /// orthogonal transformation.
     pub fn condense(&mut self) {
         let qr = self.informed.clone().col_piv_qr();
         let mut informed = qr.r();
@@ -242,7 +248,8 @@ struct LinearClass {
 struct AtWidths {
     /// Logarithm of the evidence, the widths being as frequent as they are.
     ln_evidence: f64,
-    /// Root mean square by evidence: where data do not tell the width of a class, error bars are those of all widths.
+    /// Root mean square by evidence: where data do not tell the width of a class, error bars are those of all
+    /// widths.
     scale: f64,
     /// Of most evidence, a place in [`ROUGHNESSES`].
     roughness: usize,
@@ -356,7 +363,8 @@ impl<H: Copy> Candidate<H> {
         prior.classes()[self.class].rough(self.roughness).scaled(self.scale)
     }
 
-    /// Where to look for the maximum: where the linear model has it or, if that is further off, where that model was made.
+    /// Where to look for the maximum: where the linear model has it or, if that is further off, where that
+    /// model was made.
     pub fn start<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Option<Start<H>> {
         let Linear { hypothesis, tempering, .. } = *self.linear;
         let gaussian = self.gaussian(prior);

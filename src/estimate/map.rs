@@ -1,9 +1,10 @@
 //! The default: the expected spectrum, given the facets and what is known of reflectances.
 //!
-//! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian about the model.
-//! Newton's method finds the maximum in whitened z under each class that the facets may belong to (`search`). The estimate is
-//! the mean of the maxima by their evidence, and the curvature gives error bars (Laplace's approximation), wider where classes disagree or
-//! facets are further from the model than their noise.
+//! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian
+//! about the model. Newton's method finds the maximum in whitened z under each class that the facets may
+//! belong to (`search`). The estimate is the mean of the maxima by their evidence, and the curvature gives
+//! error bars (Laplace's approximation), wider where classes disagree or facets are further from the model
+//! than their noise.
 
 use std::iter;
 
@@ -21,8 +22,8 @@ use super::{Estimate, Fitted};
 use crate::error::{Error, Result};
 use crate::solve::posterior::Iteration;
 
-/// A fitted number is one if its standard deviation is below that share of what it was before the picture; an exposure, of which
-/// nothing is known before, if it is below that share of the exposure.
+/// A fitted number is one if its standard deviation is below that share of what it was before the picture; an
+/// exposure, of which nothing is known before, if it is below that share of the exposure.
 const SUPPORTED: f64 = 0.8;
 const EXPOSURE_SUPPORTED: f64 = 0.5;
 
@@ -32,8 +33,8 @@ const PRECISE: f64 = 10.0;
 /// What happened, by runs.
 type Trace = Vec<Vec<Iteration>>;
 
-/// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from instead of the
-/// prior's mean; at a maximum of more evidence than all others it makes no difference.
+/// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from
+/// instead of the prior's mean; at a maximum of more evidence than all others it makes no difference.
 ///
 /// # Source
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
@@ -68,7 +69,8 @@ pub fn estimate_in_stated_light(
     Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), rival))
 }
 
-/// Facets under all spectra as one: as those of a sheet that sends out nothing, then with whatever it may send out.
+/// Facets under all spectra as one: as those of a sheet that sends out nothing, then with whatever it may
+/// send out.
 struct Sortings<'a> {
     plain: Sorted<(), Second>,
     fluorescing: Vec<Fluorescing<'a>>,
@@ -87,7 +89,8 @@ impl<'a> Sortings<'a> {
         let mut search = Search::new(data, prior);
         let start = start.map(|start| all.set_out_from(start));
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
-        // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that does
+        // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that
+        // does
         let is_asked = search.tempering() <= PRECISE;
         let fluorescing =
             if is_asked { fluorescence_search::may_be(data, &plain, prior) } else { Vec::new() };
@@ -101,7 +104,8 @@ impl<'a> Sortings<'a> {
         let (found, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
         let trace = [trace, more].concat();
         let (rms, tempering) = (found.mixture.best.rms, Search::new(data, prior).tempering());
-        // precise facets that are as far off as a noise at which more is asked may be those of a sheet that fluoresces
+        // precise facets that are as far off as a noise at which more is asked may be those of a sheet that
+        // fluoresces
         let is_open = tempering > PRECISE && rms > tempering;
         if rms < EXPLAINED || !(asked || is_open) {
             return Some((found, trace));

@@ -14,7 +14,8 @@ pub struct Measured<'a> {
     pub sd: &'a FacetValues,
 }
 
-/// Whether there are values of as many facets as the scene has, in as many channels where a facet was measured.
+/// Whether there are values of as many facets as the scene has, in as many channels where a facet was
+/// measured.
 ///
 /// # Errors
 /// [`Error::Field`] under that name if not.

@@ -1,8 +1,8 @@
-//! The estimate of a sheet under a prior, as `vestimate` makes it: which method its facets ask for, and how far what comes of it can be
-//! assumed.
+//! The estimate of a sheet under a prior, as `vestimate` makes it: which method its facets ask for, and how
+//! far what comes of it can be assumed.
 //!
-//! Computed facets are those of an ideal fold. A photograph is taken for one of a real sheet, unless somebody said what is to be fitted, or the
-//! scene is one in which real sheets are not modelled.
+//! Computed facets are those of an ideal fold. A photograph is taken for one of a real sheet, unless somebody
+//! said what is to be fitted, or the scene is one in which real sheets are not modelled.
 
 use std::slice;
 
@@ -28,8 +28,9 @@ use crate::image::Making;
 /// Least change of facets that counts, in standard deviations.
 pub const CUTOFF: f64 = 1e-2;
 
-/// How much more probable facets must be as those of several sheets than as those of one, as a logarithm, for one to be refused: ten thousand times. Who
-/// joins photographs seldom errs, and lights that are off from what was stated make one sheet look like two.
+/// How much more probable facets must be as those of several sheets than as those of one, as a logarithm, for
+/// one to be refused: ten thousand times. Who joins photographs seldom errs, and lights that are off from
+/// what was stated make one sheet look like two.
 const LN_SEVERAL: f64 = 9.2;
 
 /// A scene, and what is known of the sheets in it.
@@ -66,7 +67,8 @@ pub struct Photographed {
     pub by_chart: bool,
     /// Shadows on its panels, facets in which are not measured.
     pub shadows: Vec<Shadow>,
-    /// What its facets are made of, or why real sheets are not modelled there; none if it is taken for one of an ideal fold.
+    /// What its facets are made of, or why real sheets are not modelled there; none if it is taken for one of
+    /// an ideal fold.
     pub parts: Option<std::result::Result<Parts, Unmodelled>>,
 }
 
@@ -90,7 +92,8 @@ pub struct Measurement {
     pub estimate: Estimate,
     /// How far it can be trusted.
     pub verdict: Verdict,
-    /// Why a photograph that an ideal fold does not explain was taken for one all the same: its error bars lack what that changes.
+    /// Why a photograph that an ideal fold does not explain was taken for one all the same: its error bars
+    /// lack what that changes.
     pub unmodelled: Option<Unmodelled>,
 }
 
@@ -183,14 +186,16 @@ impl<'a> Inference<'a> {
         Ok(self.judged(facets, estimate, doubts))
     }
 
-    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how far it can be trusted.
+    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how
+    /// far it can be trusted.
     #[must_use]
     pub fn share(&self, facets: &Facets, estimate: Estimate) -> Measurement {
         let doubts = facets.photograph.map(|photograph| self.doubts_of_taking(photograph));
         self.judged(facets, estimate, doubts.unwrap_or_default())
     }
 
-    /// What speaks against an estimate from how the photograph was taken; of other surfaces than a fold nothing is asked.
+    /// What speaks against an estimate from how the photograph was taken; of other surfaces than a fold
+    /// nothing is asked.
     fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
         let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));

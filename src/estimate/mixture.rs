@@ -38,7 +38,8 @@ pub struct Mixture<H, S> {
     pub spread: Option<DMatrix<f64>>,
     /// The maximum of most evidence.
     pub best: LocalMode<H, S>,
-    /// Hypotheses by how probable they are, which adds up to 1; one stands there as often as classes of spectra count under it.
+    /// Hypotheses by how probable they are, which adds up to 1; one stands there as often as classes of
+    /// spectra count under it.
     pub shares: Vec<(H, f64)>,
     /// Logarithm of the evidence for all.
     pub ln_evidence: f64,
@@ -71,7 +72,8 @@ impl<H: Copy, S> LocalMode<H, S> {
 }
 
 impl<H: Copy> Unsearched<H> {
-    /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is not finite.
+    /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is
+    /// not finite.
     pub fn of<F: Family<Hypothesis = H>>(
         family: &F,
         candidate: &Candidate<H>,
@@ -87,8 +89,9 @@ impl<H: Copy> Unsearched<H> {
 }
 
 impl<H: Copy, S> Mixture<H, S> {
-    /// The mean of the maxima and of what is `unsearched` them by evidence, its errors widened by how far they are from it. What was not searched
-    /// counts for no more than the best that was, and is taken to be known as the maxima are in the mean. None if there is no maximum.
+    /// The mean of the maxima and of what is `unsearched` them by evidence, its errors widened by how far
+    /// they are from it. What was not searched counts for no more than the best that was, and is taken to be
+    /// known as the maxima are in the mean. None if there is no maximum.
     pub fn of(mut modes: Vec<LocalMode<H, S>>, unsearched: &[Unsearched<H>]) -> Option<Self> {
         modes.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
         let most = modes.first()?;

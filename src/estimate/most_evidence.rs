@@ -1,7 +1,7 @@
 //! Which candidates are worth a search.
 
-/// Most candidates that are searched, and the least evidence for one of them, as the logarithm of its share of the first's; and where data do not
-/// tell classes apart.
+/// Most candidates that are searched, and the least evidence for one of them, as the logarithm of its share
+/// of the first's; and where data do not tell classes apart.
 const TRIED: usize = 3;
 const LN_EVIDENCE_LEAST: f64 = -3.0;
 const UNSEPARATED_TRIED: usize = 24;

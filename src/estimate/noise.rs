@@ -6,7 +6,8 @@ use crate::error::{Error, Result};
 use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
-/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to the brightest.
+/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to
+/// the brightest.
 const FLOOR: f64 = 1e-6;
 
 /// Directions in which the terms move facets by less than the root of that share of the most are rounding.
@@ -33,7 +34,8 @@ pub enum NoiseSource {
 }
 
 impl Noise {
-    /// Error of the model, relative to the facet's value, where none was given: what a real fold does that the model does not.
+    /// Error of the model, relative to the facet's value, where none was given: what a real fold does that
+    /// the model does not.
     #[must_use]
     pub fn model_error(is_photograph: bool) -> f64 {
         if is_photograph { 3e-4 } else { 0.0 }
@@ -75,8 +77,8 @@ fn greatest(values: &FacetValues, channel: usize) -> f64 {
     values.facets().flatten().map(|facet| facet[channel]).fold(0.0, f64::max)
 }
 
-/// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel, `model_error` relative to
-/// the facet's value, and a millionth of the brightest facet, in quadrature.
+/// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel,
+/// `model_error` relative to the facet's value, and a millionth of the brightest facet, in quadrature.
 #[must_use]
 pub fn deviations(rgb: &FacetValues, noise_sd: impl Fn([usize; 2]) -> f64, model_error: f64) -> FacetValues {
     let floor = FLOOR * rgb.greatest();
@@ -85,8 +87,8 @@ pub fn deviations(rgb: &FacetValues, noise_sd: impl Fn([usize; 2]) -> f64, model
 
 /// Noise of each channel, from the facets alone: the root mean square of what no reflectance explains.
 ///
-/// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a dozen
-/// directions are noise. Zero where the terms can be any facets.
+/// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a
+/// dozen directions are noise. Zero where the terms can be any facets.
 #[must_use]
 pub fn unexplained(model: &FacetModel, rgb: &FacetValues) -> Vec<f64> {
     let usable: Vec<usize> = (0..rgb.len().min(model.sources()[0].facets.nrows()))
@@ -113,7 +115,8 @@ pub fn unexplained(model: &FacetModel, rgb: &FacetValues) -> Vec<f64> {
     (0..channels).map(noise).collect()
 }
 
-/// Orthonormal vectors that the columns are made of, fewer than them by far: the terms of neighbouring folds are much alike.
+/// Orthonormal vectors that the columns are made of, fewer than them by far: the terms of neighbouring folds
+/// are much alike.
 fn span(columns: &[DVector<f64>]) -> DMatrix<f64> {
     // By terms, not by facets: there are ten times as many of these.
     let (q, r) = DMatrix::from_columns(columns).qr().unpack();

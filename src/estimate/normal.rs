@@ -40,7 +40,8 @@ impl From<Normal> for Expectation {
 pub enum Scale {
     /// The value itself.
     Linear,
-    /// A million over the value: colour temperatures in K differ to the eye as their reciprocals in 1e-6/K do.
+    /// A million over the value: colour temperatures in K differ to the eye as their reciprocals in 1e-6/K
+    /// do.
     Reciprocal,
     /// The logarithm: what is known of the value is a factor.
     Logarithm,

@@ -9,12 +9,12 @@ use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result};
 
-/// Correlation length and standard deviation, in logit, of what spectra do that the set behind a prior does not, all spectra being one
-/// Gaussian; classes are distinguished with it, too.
+/// Correlation length and standard deviation, in logit, of what spectra do that the set behind a prior does
+/// not, all spectra being one Gaussian; classes are distinguished with it, too.
 const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
-/// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little and materials differ most;
-/// it falls by e within the decay.
+/// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little
+/// and materials differ most; it falls by e within the decay.
 const MIDDLE_SD: f64 = 0.16;
 const VIOLET_SD: f64 = 0.2;
 const RED_SD: f64 = 0.1;
@@ -22,13 +22,15 @@ const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;
 
-/// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not all equally unusual, and
-/// with a scale for each of them its tails are heavy.
+/// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not
+/// all equally unusual, and with a scale for each of them its tails are heavy.
 pub const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 0.05)];
-/// How many times what is usual a spectrum may do beyond its class, and how often: some are smoother than others, whatever their class.
+/// How many times what is usual a spectrum may do beyond its class, and how often: some are smoother than
+/// others, whatever their class.
 pub const ROUGHNESSES: [(f64, f64); 2] = [(0.75, 0.65), (1.7, 0.35)];
 
-/// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all classes together.
+/// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all
+/// classes together.
 #[derive(Clone, Debug)]
 pub struct Prior {
     broad: Gaussian,
@@ -61,7 +63,8 @@ impl Class {
         &self.mean
     }
 
-    /// Waveband by factor; its product with its transpose is the covariance of the class, without what its spectra do beyond it.
+    /// Waveband by factor; its product with its transpose is the covariance of the class, without what its
+    /// spectra do beyond it.
     #[must_use]
     pub fn own(&self) -> &DMatrix<f64> {
         &self.own
@@ -86,7 +89,8 @@ impl Class {
 }
 
 impl Prior {
-    /// The built-in prior on `wavelengths_nm`: classes of paint, cloth, plants, skin, paper and prints, and one of anything smooth.
+    /// The built-in prior on `wavelengths_nm`: classes of paint, cloth, plants, skin, paper and prints, and
+    /// one of anything smooth.
     ///
     /// # Errors
     /// [`Error::Spectrum`] for wavelengths beyond 380 to 780 nm.
@@ -113,15 +117,16 @@ impl Prior {
         })
     }
 
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60 nm, 0.16 in logit, more below
-    /// 420 and above 680 nm) for what the set does not contain. `classes` holds the class of every spectrum; without it they are found
-    /// ([`classes_of`]).
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60
+    /// nm, 0.16 in logit, more below 420 and above 680 nm) for what the set does not contain. `classes` holds
+    /// the class of every spectrum; without it they are found ([`classes_of`]).
     ///
     /// # Source
     /// Rasmussen and Williams, *Gaussian Processes for Machine Learning* (2006), eq. (4.17).
     ///
     /// # Errors
-    /// [`Error::Numeric`] with fewer than two spectra, or one that is not as long as the grid, or a class for none.
+    /// [`Error::Numeric`] with fewer than two spectra, or one that is not as long as the grid, or a class for
+    /// none.
     pub fn from_spectra(
         wavelengths_nm: &[f64],
         spectra: &[Vec<f64>],
@@ -168,7 +173,8 @@ impl Prior {
         &self.classes
     }
 
-    /// Logarithm of the share of each class, where shares are as that power of those of the spectra that are known.
+    /// Logarithm of the share of each class, where shares are as that power of those of the spectra that are
+    /// known.
     #[must_use]
     pub fn ln_shares(&self, power: f64) -> Vec<f64> {
         let powers: Vec<f64> = self.classes.iter().map(|class| power * class.ln_share).collect();
@@ -231,7 +237,8 @@ mod tests {
 
     #[test]
     fn matern_as_scikit_learn_has_it() {
-        // 0.0625 * sklearn.gaussian_process.kernels.Matern(length_scale=60, nu=2.5)([[0.]], [[d]]) for d = 0, 30, 120.
+        // 0.0625 * sklearn.gaussian_process.kernels.Matern(length_scale=60, nu=2.5)([[0.]], [[d]]) for d = 0,
+        // 30, 120.
         for (distance_nm, want) in [(0.0, 0.0625), (30.0, 0.051_790_572), (120.0, 0.008_666_264)] {
             let got = matern_5_2(distance_nm);
             assert!((got - want).abs() < 1e-8, "{distance_nm}: {got}");

@@ -1,8 +1,9 @@
-//! The most probable spectrum under all hypotheses and all classes of spectra: one search for whatever has a prior.
+//! The most probable spectrum under all hypotheses and all classes of spectra: one search for whatever has a
+//! prior.
 //!
-//! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there says which classes of spectra are likely under it
-//! ([`linear`](super::linear)). Those of most evidence are searched to their own modes, and the estimate is the mean of these by their evidence
-//! ([`mixture`](super::mixture)).
+//! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there says which classes
+//! of spectra are likely under it ([`linear`](super::linear)). Those of most evidence are searched to their
+//! own modes, and the estimate is the mean of these by their evidence ([`mixture`](super::mixture)).
 
 use nalgebra::DVector;
 
@@ -17,39 +18,44 @@ use crate::solve::Termination;
 use crate::solve::forecast::{ScoreTest, foreseen_cost};
 use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, first_tempering};
 
-/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which classes are distinguished within so
-/// many times the [tolerance](Family::tolerance).
+/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which
+/// classes are distinguished within so many times the [tolerance](Family::tolerance).
 const SORTING_TOLERANCE: f64 = 0.3;
 const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
-/// Classes are distinguished at these noises, relative to the brightest datum, or at the true one if that is larger: at the coarse one all spectra
-/// lead to where the model is nearly linear, at the fine one the most probable class of these does.
+/// Classes are distinguished at these noises, relative to the brightest datum, or at the true one if that is
+/// larger: at the coarse one all spectra lead to where the model is nearly linear, at the fine one the most
+/// probable class of these does.
 const SORTING_NOISE: f64 = 1e-3;
 const FINE_NOISE: f64 = 1e-5;
-/// The search that leads there ends so near to its maximum, in standard deviations, or after so many iterations.
+/// The search that leads there ends so near to its maximum, in standard deviations, or after so many
+/// iterations.
 const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
-/// The least evidence, as the logarithm of its share of the first's, for one that counts without a search, how many do, and how many of many hypotheses.
+/// The least evidence, as the logarithm of its share of the first's, for one that counts without a search,
+/// how many do, and how many of many hypotheses.
 const UNSEARCHED_LN_EVIDENCE_LEAST: f64 = -4.0;
 const UNSEARCHED: usize = 15;
 const UNSEARCHED_OF_MANY: usize = 100;
-/// Hypotheses whose most probable class comes so near to that of the best, likewise, are followed to the fine noise, and so many of them at most.
+/// Hypotheses whose most probable class comes so near to that of the best, likewise, are followed to the fine
+/// noise, and so many of them at most.
 const FOLLOWED_LN_EVIDENCE_LEAST: f64 = -8.0;
 const FOLLOWED: usize = 8;
-/// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which may be of another scene than was
-/// told, so many that no search that explains them comes near to that.
+/// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which
+/// may be of another scene than was told, so many that no search that explains them comes near to that.
 const LIMIT: usize = 90;
 const NOISY_LIMIT: usize = 600;
-/// Of precise data, maxima so many standard deviations from what chance has may be false, and those that a search took more than [`LONG`]
-/// iterations to: one from another start counts by its evidence if it explains the data.
+/// Of precise data, maxima so many standard deviations from what chance has may be false, and those that a
+/// search took more than [`LONG`] iterations to: one from another start counts by its evidence if it explains
+/// the data.
 const SURPRISE: f64 = 0.0;
 const LONG: usize = 10;
 /// Most iterations of each of these searches, where data are precise.
 const ANOTHER_LIMIT: usize = 20;
 /// The best search is carried on for so many iterations where none has come to the data.
 const CARRIED_ON: usize = 40;
-/// A maximum explains the data if it leaves them within so many times their noise; further off the scene is not the one that was
-/// photographed, and evidence says nothing.
+/// A maximum explains the data if it leaves them within so many times their noise; further off the scene is
+/// not the one that was photographed, and evidence says nothing.
 const REDUCED_CHI_MOST: f64 = 1.1;
 
 /// A hypothesis under all spectra as one Gaussian.
@@ -96,8 +102,8 @@ impl<'a, F: Family> Search<'a, F> {
         Self { family, prior, coarse, fine, trace: Vec::new(), skipped: 0 }
     }
 
-    /// A hypothesis that is so often true, from `start` on, or from the mean; none if there is no maximum. The search is given up where the
-    /// logarithm of evidence and share cannot be as high as `ln_least`.
+    /// A hypothesis that is so often true, from `start` on, or from the mean; none if there is no maximum.
+    /// The search is given up where the logarithm of evidence and share cannot be as high as `ln_least`.
     pub fn sort(
         &mut self,
         (hypothesis, ln_share): (F::Hypothesis, f64),
@@ -130,13 +136,14 @@ impl<'a, F: Family> Search<'a, F> {
         one.solution.surprise(self.coarse)
     }
 
-    /// How much more probable data become where the model may move in one more way about the maximum of a hypothesis.
+    /// How much more probable data become where the model may move in one more way about the maximum of a
+    /// hypothesis.
     pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
         ScoreTest::at(&one.solution, self.coarse)
     }
 
-    /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about `start`, as they are under `one` of
-    /// another family; the volumes that errors take are not counted.
+    /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about
+    /// `start`, as they are under `one` of another family; the volumes that errors take are not counted.
     pub fn ln_gain_from(
         &self,
         hypothesis: F::Hypothesis,
@@ -214,7 +221,8 @@ impl<'a, F: Family> Search<'a, F> {
             found.extend(self.maximum(all, 0));
         }
         self.trace.extend(found.iter().map(|one| one.trace.clone()));
-        // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which does not explain them
+        // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which
+        // does not explain them
         let count = match family.has_many_hypotheses() {
             _ if are_precise => 0,
             true => UNSEARCHED_OF_MANY,
@@ -239,7 +247,8 @@ impl<'a, F: Family> Search<'a, F> {
         Linear::laplace(&model, (&w, &at), self.coarse, of)
     }
 
-    /// Logarithm of the evidence of a hypothesis under all classes of spectra; under all spectra as one where data do not tell these apart.
+    /// Logarithm of the evidence of a hypothesis under all classes of spectra; under all spectra as one where
+    /// data do not tell these apart.
     pub fn ln_evidence_by_classes(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<f64> {
         if !self.family.tells_classes() {
             return Some(one.ln_evidence);
@@ -261,8 +270,8 @@ impl<'a, F: Family> Search<'a, F> {
         Some(LocalMode::of(&model, found, start))
     }
 
-    /// Candidates about the maxima that the most probable class leads to at the fine noise, under each hypothesis that comes near to the best; none
-    /// if no search comes to its end.
+    /// Candidates about the maxima that the most probable class leads to at the fine noise, under each
+    /// hypothesis that comes near to the best; none if no search comes to its end.
     fn nearer(&mut self, ranked: &[Candidate<F::Hypothesis>]) -> Option<Vec<Candidate<F::Hypothesis>>> {
         let least = ranked.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
         let mut firsts: Vec<&Candidate<F::Hypothesis>> = Vec::new();
@@ -275,7 +284,8 @@ impl<'a, F: Family> Search<'a, F> {
         Some(candidates(self.family, linears, self.prior)).filter(|found| !found.is_empty())
     }
 
-    /// The model linear about the maximum under a candidate at the fine noise; none if the search does not come to its end.
+    /// The model linear about the maximum under a candidate at the fine noise; none if the search does not
+    /// come to its end.
     fn laplace_fine(&mut self, candidate: &Candidate<F::Hypothesis>) -> Option<Linear<F::Hypothesis>> {
         let start = candidate.start(self.family, self.prior)?;
         let model = self.family.model(start.hypothesis, &start.gaussian)?;
@@ -317,8 +327,8 @@ fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>,
     }
 }
 
-/// Whether another maximum may have more evidence than those that were found: data that are precise show it already where the search was
-/// long.
+/// Whether another maximum may have more evidence than those that were found: data that are precise show it
+/// already where the search was long.
 fn is_doubtful<H, S>(found: &[LocalMode<H, S>]) -> bool {
     let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
     most.is_none_or(|most| most.surprise > SURPRISE || most.trace.len() > LONG)

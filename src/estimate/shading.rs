@@ -1,7 +1,9 @@
-//! Whether facets are shaded as those of a fold: light that bounces makes both panels brighter towards the crease, and of one colour.
+//! Whether facets are shaded as those of a fold: light that bounces makes both panels brighter towards the
+//! crease, and of one colour.
 //!
-//! These are checks that need no model of a real sheet: where they fail, no spectrum can be measured, however well some model fits. Their
-//! bounds leave room beyond what the photographs show that hyperparameters are fitted on (`../shared/train`).
+//! These are checks that need no model of a real sheet: where they fail, no spectrum can be measured, however
+//! well some model fits. Their bounds leave room beyond what the photographs show that hyperparameters are
+//! fitted on (`../shared/train`).
 
 use std::ops::Range;
 
@@ -13,15 +15,15 @@ use crate::geometry::FacetGrid;
 
 /// Rows and columns that panels need for their shading to be seen.
 const ROWS_LEAST: usize = 4;
-/// Facets beside the crease that are darker than those at the outer sides by this (natural logarithm): a lens darkens corners, a crease
-/// is rounded, but neither by so much.
+/// Facets beside the crease that are darker than those at the outer sides by this (natural logarithm): a lens
+/// darkens corners, a crease is rounded, but neither by so much.
 const DARKER: f64 = 0.1;
-/// The ends of the crease are apart by no more (natural logarithm) in brightness, and in the ratio of two channels: lens, ground and the place of
-/// the sun make less.
+/// The ends of the crease are apart by no more (natural logarithm) in brightness, and in the ratio of two
+/// channels: lens, ground and the place of the sun make less.
 const ENDS_APART: f64 = 0.18;
 const END_COLOURS_APART: f64 = 0.14;
-/// Ratios of channels of the panels' outer halves are apart by no more (natural logarithm) in sheets of one colour: sky, ground and the other
-/// panel shine on both of them alike.
+/// Ratios of channels of the panels' outer halves are apart by no more (natural logarithm) in sheets of one
+/// colour: sky, ground and the other panel shine on both of them alike.
 const COLOURS_APART: f64 = 0.2;
 /// Panels are no further apart in brightness (natural logarithm) than the sun's place makes them.
 const PANELS_APART: f64 = 0.45;
@@ -48,7 +50,8 @@ impl<'a> Shading<'a> {
     ///
     /// # Arguments
     /// - `rgb`: values; `sd`: standard deviations of their noise.
-    /// - `ideal`: facets of an ideal fold in the scene as it was stated, with the reflectance that was estimated, facet by channel, in any exposure.
+    /// - `ideal`: facets of an ideal fold in the scene as it was stated, with the reflectance that was
+    ///   estimated, facet by channel, in any exposure.
     #[must_use]
     pub fn new(
         grid: FacetGrid,
@@ -59,8 +62,8 @@ impl<'a> Shading<'a> {
         (grid.rows >= ROWS_LEAST && rgb.len() == 2 * grid.len()).then_some(Self { grid, rgb, sd, ideal })
     }
 
-    /// What shows that these are no facets of a fold with this spectrum: in the sun, or else in the light of a sky, which is darker where panels
-    /// meet.
+    /// What shows that these are no facets of a fold with this spectrum: in the sun, or else in the light of
+    /// a sky, which is darker where panels meet.
     #[must_use]
     pub fn doubts(&self, is_sunlit: bool) -> Vec<Doubt> {
         let all = [
@@ -113,7 +116,8 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// Panels whose every channel is darker beside the crease than at the outer side, and not because a sky was stated.
+    /// Panels whose every channel is darker beside the crease than at the outer side, and not because a sky
+    /// was stated.
     fn darker_at_crease(&self) -> Option<Doubt> {
         let is_darker = |panel: &usize| {
             let rises: Vec<_> = self.rises(*panel).collect();
@@ -150,7 +154,8 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// By how much each channel of a panel is brighter beside the crease than at the outer side, columns that were measured at both alone.
+    /// By how much each channel of a panel is brighter beside the crease than at the outer side, columns that
+    /// were measured at both alone.
     fn rises(&self, panel: usize) -> impl Iterator<Item = (usize, Ratio)> {
         (0..self.rgb.channels()).filter_map(move |channel| Some((channel, self.rise(panel, channel)?)))
     }
@@ -176,7 +181,8 @@ impl<'a> Shading<'a> {
         Some((inner / outer).ln()).filter(|ln| ln.is_finite())
     }
 
-    /// By how much each channel is brighter on the outer half of panel 0 than on that of panel 1, beyond what an ideal fold makes.
+    /// By how much each channel is brighter on the outer half of panel 0 than on that of panel 1, beyond what
+    /// an ideal fold makes.
     fn panels_apart(&self) -> impl Iterator<Item = Ratio> {
         let outer = self.grid.rows / 2..self.grid.rows;
         (0..self.rgb.channels()).filter_map(move |channel| {
@@ -270,7 +276,8 @@ mod tests {
         levels_beside(|_, row, _| 1.4 - 0.05 * row as f64, value)
     }
 
-    /// A card of another colour as the second panel, and a sky that was stated, make what they make of an ideal fold.
+    /// A card of another colour as the second panel, and a sky that was stated, make what they make of an
+    /// ideal fold.
     #[test]
     fn what_was_stated_is_no_doubt() {
         let with_card =

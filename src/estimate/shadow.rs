@@ -1,8 +1,9 @@
 //! Shadows on a panel: facets that are darker than those about them and than those opposite, with an edge.
 //!
-//! Panels of a fold have the same rows, whatever light bounces between them, and what else sets facets apart is smooth: logarithms of their
-//! brightness are a number for each row and a few products of place and panel. A shadow is not, and it only darkens: facets that are far below
-//! the rest are left out, the darkest first, until the others agree.
+//! Panels of a fold have the same rows, whatever light bounces between them, and what else sets facets apart
+//! is smooth: logarithms of their brightness are a number for each row and a few products of place and panel.
+//! A shadow is not, and it only darkens: facets that are far below the rest are left out, the darkest first,
+//! until the others agree.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,12 +12,13 @@ use super::verdict::Doubt;
 use crate::forward::FacetValues;
 use crate::geometry::FacetGrid;
 
-/// Facets that are darker than the rest by this (natural logarithm) are in a shadow: the least of 48 photographs (`../shared/train`) that leaves
-/// none of them with one.
+/// Facets that are darker than the rest by this (natural logarithm) are in a shadow: the least of 48
+/// photographs (`../shared/train`) that leaves none of them with one.
 const DARK: f64 = 0.07;
 /// Their own noise makes no facet that dark, in standard deviations.
 const SURE: f64 = 4.0;
-/// A shadow covers more than one square of two by two facets: corners that are marked wrong darken single rows.
+/// A shadow covers more than one square of two by two facets: corners that are marked wrong darken single
+/// rows.
 const SQUARES: usize = 3;
 /// Rows and columns that panels need for a shadow to have an edge there.
 const LEAST: usize = 4;

@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 /// Over so many nanometres what an instrument, a light or a camera says is off alike.
 const ALIKE_NM: f64 = 60.0;
 
-/// Independent errors, one per row, that are smooth over wavelengths and together as large as `sd` in every waveband; none without wavelengths.
+/// Independent errors, one per row, that are smooth over wavelengths and together as large as `sd` in every
+/// waveband; none without wavelengths.
 ///
 /// # Arguments
 /// - `wavelengths_nm`: increasing; `sd`: standard deviation, one per wavelength.

@@ -1,7 +1,8 @@
 //! Where else to look for the most probable spectrum: from the means of classes.
 //!
-//! Of one channel or two, spectra of every kind make the same (in light of one colour a red sheet may be a blue one), and many channels that are
-//! nearly alike mislead. Precise facets have several maxima, and the one that all spectra as one Gaussian lead to may be false.
+//! Of one channel or two, spectra of every kind make the same (in light of one colour a red sheet may be a
+//! blue one), and many channels that are nearly alike mislead. Precise facets have several maxima, and the
+//! one that all spectra as one Gaussian lead to may be false.
 
 use nalgebra::DVector;
 
@@ -17,32 +18,32 @@ use crate::solve::posterior::{Iteration, Model, find_mode, first_tempering};
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
 /// Most iterations of a search from a mean.
 const ITERATION_LIMIT: usize = 500;
-/// Searches are from so many means that come nearest to the data, the noise being so many times that at which the searches end: from all
-/// of them no fewer maxima are false.
+/// Searches are from so many means that come nearest to the data, the noise being so many times that at which
+/// the searches end: from all of them no fewer maxima are false.
 const MEANS: usize = 24;
 const NEAREST_TEMPERING: f64 = 10.0;
-/// A quick search sets out from noise so many times that at which it ends, ends after so many iterations, and moves so many coordinates of a
-/// class.
+/// A quick search sets out from noise so many times that at which it ends, ends after so many iterations, and
+/// moves so many coordinates of a class.
 const QUICK_TEMPERING: f64 = 10.0;
 const QUICK_LIMIT: usize = 6;
 const QUICK_COORDINATES: usize = 10;
-/// So many quick searches are followed to noise so many times the fine one, as near to the maximum there as that, in so many iterations at
-/// most.
+/// So many quick searches are followed to noise so many times the fine one, as near to the maximum there as
+/// that, in so many iterations at most.
 const FOLLOWED: usize = 14;
 const FOLLOWED_TEMPERING: f64 = 2.0;
 const FOLLOWED_TOLERANCE: f64 = 0.1;
 const FOLLOWED_LIMIT: usize = 20;
-/// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing comes to an end, no class is like the
-/// spectrum.
+/// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing
+/// comes to an end, no class is like the spectrum.
 const ESTIMATE_LIMIT: usize = 260;
-/// Classes are distinguished at so many maxima, and so many are searched of those that come near to the best, as the logarithm of a share of its
-/// evidence.
+/// Classes are distinguished at so many maxima, and so many are searched of those that come near to the best,
+/// as the logarithm of a share of its evidence.
 const PLACES: usize = 5;
 const SEARCHED: usize = 4;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 
-/// The classes of most evidence at the maxima that the means nearest to the data lead to, the noise `tempering` times its size; all of them
-/// none if there are too few channels to separate the classes.
+/// The classes of most evidence at the maxima that the means nearest to the data lead to, the noise
+/// `tempering` times its size; all of them none if there are too few channels to separate the classes.
 pub fn from_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
@@ -60,8 +61,8 @@ pub fn from_means<F: Family>(
     found
 }
 
-/// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse` times its size, then to the end
-/// near `fine` times, after an estimate has taken so many iterations.
+/// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse`
+/// times its size, then to the end near `fine` times, after an estimate has taken so many iterations.
 pub fn between_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
@@ -146,7 +147,8 @@ impl<H: Copy> FromMeans<H> {
     }
 }
 
-/// Classes by how near their means come to the data, the noise `tempering` times its size, and by their shares.
+/// Classes by how near their means come to the data, the noise `tempering` times its size, and by their
+/// shares.
 fn nearest_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,

@@ -117,8 +117,9 @@ fn other_fold(making: &Making) -> Option<Doubt> {
     })
 }
 
-/// Curves scaled one by one have lost what one channel's light is of another's. Of built-in cameras that were published so (docs/spectra.md) the
-/// verdict says it without a doubt: the paper, and samples simulated by them, take them as they are.
+/// Curves scaled one by one have lost what one channel's light is of another's. Of built-in cameras that were
+/// published so (docs/spectra.md) the verdict says it without a doubt: the paper, and samples simulated by
+/// them, take them as they are.
 fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
     (*has_one_peak && !is_built_in(What::Cameras, camera)).then(|| {
         Doubt::new(

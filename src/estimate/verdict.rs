@@ -1,7 +1,8 @@
 //! Whether an estimate can be trusted: good, doubtful or wrong, why, and what to do.
 //!
-//! It rests on evidence: how far the facets are from the model, whether another scene than the one that was stated explains them better, and
-//! how much of the spectrum they leave open. What no facet can check, the colour of the light and the camera's sensitivities, is named.
+//! It rests on evidence: how far the facets are from the model, whether another scene than the one that was
+//! stated explains them better, and how much of the spectrum they leave open. What no facet can check, the
+//! colour of the light and the camera's sensitivities, is named.
 
 use std::{fmt, iter};
 
@@ -20,18 +21,22 @@ const PROBABLY_NO_FOLD: f64 = 0.5;
 const NO_FOLD: f64 = 0.9;
 /// Standard deviations of the sum of squared residuals beyond which chance does not explain it.
 const CHANCE: f64 = 5.0;
-/// An exposure is doubtful that is brighter than nineteen in twenty, in standard deviations of those that people take, and wrong if it is this
-/// much brighter or darker: one that is too dark makes noise, where one that is too bright asks for pixels that no picture holds.
+/// An exposure is doubtful that is brighter than nineteen in twenty, in standard deviations of those that
+/// people take, and wrong if it is this much brighter or darker: one that is too dark makes noise, where one
+/// that is too bright asks for pixels that no picture holds.
 const EXPOSURE_DOUBTFUL: f64 = 1.65;
 const EXPOSURE_WRONG: f64 = 3.25;
-/// A sheet that is darker than this in its brightest waveband is exposed longer: by the root of how much darker it is.
+/// A sheet that is darker than this in its brightest waveband is exposed longer: by the root of how much
+/// darker it is.
 const DARK_SHEET: f64 = 0.2;
 /// No sheet is darker than that in its brightest waveband.
 const DARKEST_SHEET: f64 = 0.03;
-/// Facets say something else than was stated if that is so many standard deviations away; an exposure also by this logarithm of a factor.
+/// Facets say something else than was stated if that is so many standard deviations away; an exposure also by
+/// this logarithm of a factor.
 const SURE: f64 = 3.0;
 const EXPOSURE_APART: f64 = 0.1;
-/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means nothing.
+/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means
+/// nothing.
 const UNEXPLAINED: f64 = 0.3;
 /// What may be wrong where facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
@@ -58,8 +63,8 @@ impl Verdict {
     /// The verdict on an estimate that knows its errors.
     ///
     /// # Arguments
-    /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the gravest is the verdict's reason, and
-    ///   what stands first of all is said too, as it may be the cause.
+    /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the
+    ///   gravest is the verdict's reason, and what stands first of all is said too, as it may be the cause.
     /// - `assumed`: what no facet can check, in words: light and camera.
     #[must_use]
     pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, assumed: &str) -> Self {
@@ -91,13 +96,16 @@ impl Verdict {
     }
 }
 
-/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand times too bright.
+/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand
+/// times too bright.
 ///
 /// # Arguments
-/// - `noise`: standard deviation of the facets in the unit of the estimate's residuals; 1 where these are in standard deviations.
+/// - `noise`: standard deviation of the facets in the unit of the estimate's residuals; 1 where these are in
+///   standard deviations.
 ///
 /// # Errors
-/// [`Error::Field`] if the estimate leaves that much of the light over; as `noise`, which is asked then alone.
+/// [`Error::Field`] if the estimate leaves that much of the light over; as `noise`, which is asked then
+/// alone.
 pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f64>) -> Result<()> {
     if estimate.unexplained <= UNEXPLAINED || estimate.residual_rms <= WRONG_CHI * noise()? {
         return Ok(());
@@ -109,7 +117,8 @@ pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f6
     Err(Error::field("facet_rgb", problem))
 }
 
-/// An exposure that people do not take: white that faces the sun too many times as bright as the white level of the picture.
+/// An exposure that people do not take: white that faces the sun too many times as bright as the white level
+/// of the picture.
 ///
 /// # Arguments
 /// - `stated`: the exposure that somebody stated, which then is what to look at.
@@ -163,7 +172,8 @@ pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
     })
 }
 
-/// Something about the photograph that is further from what is usual than people err and sheets differ: it is no longer only allowed for.
+/// Something about the photograph that is further from what is usual than people err and sheets differ: it is
+/// no longer only allowed for.
 #[must_use]
 pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
@@ -212,7 +222,8 @@ fn open(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// Computed facets further from the model than their noise allows, by chance alone; `values` is how many there are.
+/// Computed facets further from the model than their noise allows, by chance alone; `values` is how many
+/// there are.
 #[must_use]
 pub fn beyond_chance(estimate: &Estimate, values: usize) -> Option<Doubt> {
     let off = (estimate.residual_rms.powi(2) - 1.0) * (values as f64 / 2.0).sqrt();

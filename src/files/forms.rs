@@ -95,7 +95,8 @@ impl Text {
 /// How to read two bytes as a number.
 type ByteOrder = fn([u8; 2]) -> u16;
 
-/// The byte order of UTF-16, by its mark, else by the zeros that letters of ASCII have in it; and what makes UTF-8 of it.
+/// The byte order of UTF-16, by its mark, else by the zeros that letters of ASCII have in it; and what makes
+/// UTF-8 of it.
 fn utf_16(bytes: &[u8]) -> Option<(ByteOrder, &'static str)> {
     /// So much is looked at.
     const START: usize = 256;

@@ -1,4 +1,5 @@
-//! A sheet of which a Donaldson matrix says what it makes of light of other wavelengths: every bounce excites it.
+//! A sheet of which a Donaldson matrix says what it makes of light of other wavelengths: every bounce excites
+//! it.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,8 +9,8 @@ use crate::spectrum::{Bispectral, Outside, Spectrum, WavelengthGrid};
 
 /// A surface of one matt sheet that is excited by all light that falls on it.
 ///
-/// Light of all wavelengths is exchanged alike, by one kernel: mode by mode the wavebands hand light to each other as patches do, and
-/// b = (I − gD)⁻¹ D s for a mode of the pole g, the light s and the matrix D.
+/// Light of all wavelengths is exchanged alike, by one kernel: mode by mode the wavebands hand light to each
+/// other as patches do, and b = (I − gD)⁻¹ D s for a mode of the pole g, the light s and the matrix D.
 #[derive(Clone, Debug)]
 pub struct BispectralSheet<'a> {
     model: &'a FacetModel,
@@ -28,8 +29,8 @@ impl BispectralLight {
     /// That of `light`, which is dark where its samples do not reach to the bands.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if it does not cover `grid`, or has no power in a waveband in which the sheet fluoresces: that is no part of
-    /// white's light.
+    /// [`Error::Spectrum`] if it does not cover `grid`, or has no power in a waveband in which the sheet
+    /// fluoresces: that is no part of white's light.
     pub fn new(light: &Spectrum, grid: &WavelengthGrid, sheet: &Bispectral) -> Result<Self> {
         let in_scene = light.on(grid, Outside::Refuse)?;
         let in_bands: DVector<f64> = light.on(&sheet.excitation, Outside::Zero)?.into();
@@ -54,7 +55,8 @@ impl<'a> BispectralSheet<'a> {
     /// That of a model, a light for each of its sources.
     ///
     /// # Errors
-    /// [`Error::Field`] if a part of the surface is of known reflectance, which says nothing of the ultraviolet that it hands on.
+    /// [`Error::Field`] if a part of the surface is of known reflectance, which says nothing of the
+    /// ultraviolet that it hands on.
     ///
     /// # Example
     /// ```
@@ -87,7 +89,8 @@ impl<'a> BispectralSheet<'a> {
         Err(Error::field("fluorescence", problem))
     }
 
-    /// What the flat sheet sends out of white's light in the first of the lights, one number from 0 per waveband.
+    /// What the flat sheet sends out of white's light in the first of the lights, one number from 0 per
+    /// waveband.
     #[must_use]
     pub fn total_radiance_factor(&self) -> Vec<f64> {
         self.lights.first().map_or_else(Vec::new, |light| self.sent(light, 0.0))
@@ -122,7 +125,8 @@ impl<'a> BispectralSheet<'a> {
         self.sent_of(&falling, light, g)
     }
 
-    /// What a mode of the pole `g` sends out, all bounces included, of light that is `falling`, in parts of `light`.
+    /// What a mode of the pole `g` sends out, all bounces included, of light that is `falling`, in parts of
+    /// `light`.
     fn sent_of(&self, falling: &BispectralLight, light: &BispectralLight, g: f64) -> Vec<f64> {
         let bands = falling.in_bands.len();
         let exchange = DMatrix::identity(bands, bands) - g * &self.sheet.between_bands;

@@ -48,7 +48,8 @@ impl Family {
         self.offset + a * r / (1.0 - b * r)
     }
 
-    /// What bounces make of light that leaves the sheet at first, per unit of it: the value but for the offset, without its `r`.
+    /// What bounces make of light that leaves the sheet at first, per unit of it: the value but for the
+    /// offset, without its `r`.
     #[inline]
     pub fn gain(&self, r: f64, g: f64) -> f64 {
         let (a, b) = self.coefficients(g);

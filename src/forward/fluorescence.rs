@@ -1,4 +1,5 @@
-//! A sheet that fluoresces: it sends out light of longer wavelengths than it takes in, beside what it reflects.
+//! A sheet that fluoresces: it sends out light of longer wavelengths than it takes in, beside what it
+//! reflects.
 
 use nalgebra::DMatrix;
 
@@ -6,7 +7,8 @@ use super::families::Family;
 use super::model::FacetModel;
 use crate::error::{Error, Result};
 
-/// A surface of one matt sheet that sends out, wherever light falls on it directly, a part of white's light beside what it reflects.
+/// A surface of one matt sheet that sends out, wherever light falls on it directly, a part of white's light
+/// beside what it reflects.
 ///
 /// Both bounce alike: B = (I − ρK)⁻¹ (ρ + f) E₀ in every waveband, f being the part.
 #[derive(Clone, Copy, Debug)]
@@ -17,11 +19,12 @@ pub struct Fluorescing<'a> {
 }
 
 impl<'a> Fluorescing<'a> {
-    /// A sheet of this `reflectance` and `fluorescence`, the latter as a part of white in the same light, one number from 0 per waveband.
+    /// A sheet of this `reflectance` and `fluorescence`, the latter as a part of white in the same light, one
+    /// number from 0 per waveband.
     ///
     /// # Errors
-    /// [`Error::Field`] if a part of the surface is of known reflectance: light by way of it would excite the sheet by an amount that `fluorescence`
-    /// does not say.
+    /// [`Error::Field`] if a part of the surface is of known reflectance: light by way of it would excite the
+    /// sheet by an amount that `fluorescence` does not say.
     ///
     /// # Example
     /// ```

@@ -14,7 +14,8 @@ impl FacetModel {
         Self::under(response, lighting, None)
     }
 
-    /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other one the sheet.
+    /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other
+    /// one the sheet.
     #[must_use]
     pub fn with_card(response: &Response, lighting: &Lighting, panel: usize, reflectance: Vec<f64>) -> Self {
         Self::under(response, lighting, Some(Card { panel, reflectance }))
@@ -26,8 +27,8 @@ impl FacetModel {
         Self::new(std::slice::from_ref(response), &lights, card)
     }
 
-    /// A fold of one sheet, or of a sheet and a card, with a source for each of `lights`. Several `responses`, of as many
-    /// facets each, are the fold at several angles.
+    /// A fold of one sheet, or of a sheet and a card, with a source for each of `lights`. Several
+    /// `responses`, of as many facets each, are the fold at several angles.
     #[must_use]
     pub fn new(responses: &[Response], lights: &[Lit], card: Option<Card>) -> Self {
         let poles = responses.iter().flat_map(Response::poles).collect();

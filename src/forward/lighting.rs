@@ -11,12 +11,14 @@ pub struct Lighting {
     pub light: Light,
     /// Response of the camera to the sun.
     pub sun: CameraResponse,
-    /// Response to the sky, scaled to 1 in the sun's reference channel; needed only where the light has a sky.
+    /// Response to the sky, scaled to 1 in the sun's reference channel; needed only where the light has a
+    /// sky.
     pub sky: CameraResponse,
 }
 
 impl Lighting {
-    /// The lights of the scene: the sun and the sky, as far as there are any, each with the camera's response to it.
+    /// The lights of the scene: the sun and the sky, as far as there are any, each with the camera's response
+    /// to it.
     pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> + Clone {
         let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
         let sky = (ModeLight::Sky(self.light.sky()), &self.sky);

@@ -1,8 +1,9 @@
 //! Facet RGB of a surface as a linear combination of a few functions of reflectance.
 //!
-//! Every facet's radiance is a sum over the poles of the response; the poles and what the reflectance makes of them are
-//! common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the spectrum is integrated
-//! once per pole and channel, not once per facet and channel, and only over wavebands that a sensor sees.
+//! Every facet's radiance is a sum over the poles of the response; the poles and what the reflectance makes
+//! of them are common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the
+//! spectrum is integrated once per pole and channel, not once per facet and channel, and only over wavebands
+//! that a sensor sees.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -85,8 +86,9 @@ impl FacetModel {
         self.in_all_bands(reflectance, Family::at)
     }
 
-    /// Poles with their signs, one per term: light that the surface sends out itself makes `1 + pt` of a term `t = r/(1 − rp)`, as what it reflects of
-    /// direct light makes of r. None where parts of the surface are known.
+    /// Poles with their signs, one per term: light that the surface sends out itself makes `1 + pt` of a term
+    /// `t = r/(1 − rp)`, as what it reflects of direct light makes of r. None where parts of the surface are
+    /// known.
     #[must_use]
     pub fn signed_poles(&self) -> Option<Vec<f64>> {
         self.terms.signed_poles()
@@ -101,18 +103,20 @@ impl FacetModel {
         self.rgb_of(reflectance, None, Family::value)
     }
 
-    /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than `bounces` times.
+    /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than
+    /// `bounces` times.
     ///
     /// # Source
-    /// Deeb et al., eqs. (5) to (7) and (11) to (14): light after b bounces is a mode's share times its pole to the b, so
-    /// that the sum over b > `bounces` has a closed form.
+    /// Deeb et al., eqs. (5) to (7) and (11) to (14): light after b bounces is a mode's share times its pole
+    /// to the b, so that the sum over b > `bounces` has a closed form.
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32, reflectance: &[f64]) -> DMatrix<f64> {
         self.rgb_of(reflectance, None, |family, r, g| family.value_after(bounces, r, g))
     }
 
-    /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce: channel by waveband.
-    /// None for a concave sheet, whose RGB is not a linear function of reflectance, or beside what is known.
+    /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce:
+    /// channel by waveband. None for a concave sheet, whose RGB is not a linear function of reflectance, or
+    /// beside what is known.
     #[must_use]
     pub fn without_bounces(&self, facets: &[usize]) -> Option<DMatrix<f64>> {
         if !self.terms.is_flat() {
@@ -141,8 +145,8 @@ impl FacetModel {
         self.terms.signed_poles().is_some()
     }
 
-    /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the light, by the number of the source and the
-    /// mode's pole.
+    /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the
+    /// light, by the number of the source and the mode's pole.
     pub(super) fn rgb_of_modes(&self, sent: impl Fn(usize, f64) -> Vec<f64>) -> DMatrix<f64> {
         let poles = self.terms.signed_poles().unwrap_or_default();
         let of_source = |(n, Source { facets, camera }): (usize, &Source)| {
@@ -160,7 +164,8 @@ impl FacetModel {
         self.sources.iter().enumerate().map(of_source).sum()
     }
 
-    /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per waveband, if there are any.
+    /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per
+    /// waveband, if there are any.
     pub(super) fn rgb_of(
         &self,
         reflectance: &[f64],

@@ -30,8 +30,8 @@ impl OpenLight {
         Self { sources: sources.iter().map(open).collect() }
     }
 
-    /// RGB at exposure 1 of a flat sheet of this `reflectance`, one number per waveband, outside the scene: the sun meets it at an
-    /// angle of cosine `cos`, nothing hides the sky, and other lamps do not reach it.
+    /// RGB at exposure 1 of a flat sheet of this `reflectance`, one number per waveband, outside the scene:
+    /// the sun meets it at an angle of cosine `cos`, nothing hides the sky, and other lamps do not reach it.
     ///
     /// # Example
     /// ```

@@ -16,11 +16,13 @@ pub struct Card {
 /// What the facets' radiances are combined of.
 #[derive(Clone, Debug)]
 pub enum Terms {
-    /// A surface of one reflectance: `r/(1 − rg)` and, where a fold is lit unevenly (`odd`), then `r/(1 + rg)`.
+    /// A surface of one reflectance: `r/(1 − rg)` and, where a fold is lit unevenly (`odd`), then
+    /// `r/(1 + rg)`.
     One { poles: Vec<f64>, odd: bool },
     /// A fold of a sheet and a card c: `r/d`, `rcg/d`, `c/d`, `d = 1 − rcg²`.
     Card { poles: Vec<f64>, card: Card },
-    /// A surface with parts of known reflectance has other poles in every waveband: 1, then `r/(1 − rg)`, in that waveband alone.
+    /// A surface with parts of known reflectance has other poles in every waveband: 1, then `r/(1 − rg)`, in
+    /// that waveband alone.
     WithKnown(Vec<Vec<f64>>),
 }
 
@@ -41,7 +43,8 @@ impl Terms {
         }
     }
 
-    /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones; none of any other.
+    /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones;
+    /// none of any other.
     pub fn signed_poles(&self) -> Option<Vec<f64>> {
         let Self::One { poles, odd } = self else { return None };
         let subtracted = poles.iter().filter(|_| *odd).map(|pole| -pole);
@@ -80,7 +83,8 @@ impl Terms {
         blocks.into_iter().flatten()
     }
 
-    /// What `of` makes of every family, pole and waveband of `bands`, `reflectance` being those of these: waveband by term.
+    /// What `of` makes of every family, pole and waveband of `bands`, `reflectance` being those of these:
+    /// waveband by term.
     pub fn in_bands<const N: usize>(
         &self,
         bands: &[usize],

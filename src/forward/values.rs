@@ -12,7 +12,8 @@ pub struct FacetValues {
 }
 
 impl FacetValues {
-    /// From a list of facets, `None` for one that was not measured; none if facets have different numbers of channels.
+    /// From a list of facets, `None` for one that was not measured; none if facets have different numbers of
+    /// channels.
     ///
     /// # Example
     /// ```

@@ -66,7 +66,8 @@ impl Spacing {
     }
 }
 
-/// A fold: two rectangular panels that share the crease, opened by an angle, each divided into a grid of facets.
+/// A fold: two rectangular panels that share the crease, opened by an angle, each divided into a grid of
+/// facets.
 ///
 /// Only the ratio of the panels' sides matters: interreflection is free of scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,11 +80,12 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// A fold opened by `angle_deg` in (0, 180], both panels `width` along the crease by `depth` away from it, any unit, with
-    /// facets of equal size.
+    /// A fold opened by `angle_deg` in (0, 180], both panels `width` along the crease by `depth` away from
+    /// it, any unit, with facets of equal size.
     ///
     /// # Errors
-    /// Angle outside the range, sides not positive, beyond 1e±100 or further apart than 1 : 1000, no facet, or more than 262144 a panel.
+    /// Angle outside the range, sides not positive, beyond 1e±100 or further apart than 1 : 1000, no facet,
+    /// or more than 262144 a panel.
     ///
     /// # Example
     /// ```
@@ -199,7 +201,8 @@ impl Fold {
         self.spacing
     }
 
-    /// Distances from the crease at which the facet rows of each panel begin and end: `rows + 1` numbers from 0.
+    /// Distances from the crease at which the facet rows of each panel begin and end: `rows + 1` numbers from
+    /// 0.
     #[must_use]
     pub fn row_edges(&self) -> [Vec<f64>; 2] {
         let edges = self.spacing.edges(self.facets.rows);

@@ -7,8 +7,8 @@ use crate::geometry::Fold;
 
 /// The sun, square to the crease, and a uniform sky.
 ///
-/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky` from the sky. Where there is no sun,
-/// it is 1 that the sky gives an open plane.
+/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky`
+/// from the sky. Where there is no sun, it is 1 that the sky gives an open plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     tilt_deg: f64,
@@ -19,9 +19,9 @@ pub struct Light {
 }
 
 impl Light {
-    /// Light on `fold` from `tilt_deg` off its bisecting plane (positive: the sun leans over panel 1 and lights panel 0
-    /// more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the sun's irradiance; the sky
-    /// alone if that is infinite.
+    /// Light on `fold` from `tilt_deg` off its bisecting plane (positive: the sun leans over panel 1 and
+    /// lights panel 0 more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the
+    /// sun's irradiance; the sky alone if that is infinite.
     ///
     /// # Errors
     /// A tilt that leaves a panel unlit, a slant of 90° or more, or a negative sky.
@@ -36,7 +36,8 @@ impl Light {
     /// ```
     pub fn new(fold: &Fold, tilt_deg: f64, slant_deg: f64, sky: f64) -> Result<Self> {
         let half = fold.angle_deg() / 2.0;
-        // Beyond half the opening one panel shades the other; at a slant no panel is shaded as long as both face the sun.
+        // Beyond half the opening one panel shades the other; at a slant no panel is shaded as long as both
+        // face the sun.
         if tilt_deg.is_nan() || tilt_deg.abs() >= half {
             return Err(Error::usage(
                 "--tilt-deg",
@@ -85,8 +86,8 @@ impl Light {
         Vector3::new(tilt_sin * slant_cos, slant_sin, tilt_cos * slant_cos)
     }
 
-    /// What the panels of `fold` receive alike from the sun on the bisecting plane, and what panel 0 receives more and
-    /// panel 1 less for each unit of the sine of its tilt.
+    /// What the panels of `fold` receive alike from the sun on the bisecting plane, and what panel 0 receives
+    /// more and panel 1 less for each unit of the sine of its tilt.
     ///
     /// The irradiance at a tilt is `even·cos(tilt) ± odd·sin(tilt)`.
     #[must_use]
@@ -101,7 +102,8 @@ impl Light {
         self.sun
     }
 
-    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's if there is one.
+    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's if there is
+    /// one.
     #[must_use]
     pub fn sky(&self) -> f64 {
         self.sky

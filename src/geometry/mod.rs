@@ -1,6 +1,7 @@
 //! A fold and the light that falls on it; nothing here knows about reflectance or colour.
 //!
-//! A [`Fold`] is two [`Panel`]s, by which photographs are measured. What is no fold is in [`surfaces`](crate::surfaces).
+//! A [`Fold`] is two [`Panel`]s, by which photographs are measured. What is no fold is in
+//! [`surfaces`](crate::surfaces).
 
 pub mod fold;
 pub mod light;

@@ -21,8 +21,8 @@ pub struct Panel {
 }
 
 impl Fold {
-    /// Both panels in space: the crease along y with its middle at the origin, the bisecting plane x = 0, the fold open towards +z, panel 0 on
-    /// the side of negative x.
+    /// Both panels in space: the crease along y with its middle at the origin, the bisecting plane x = 0, the
+    /// fold open towards +z, panel 0 on the side of negative x.
     #[must_use]
     pub fn panels(&self) -> [Panel; 2] {
         let (sin, cos) = (self.angle_rad() / 2.0).sin_cos();
@@ -44,8 +44,8 @@ impl Fold {
 impl Panel {
     /// The panel that these facets make up row by row, from number `first` on, if they do.
     ///
-    /// Rows count in the order of the facets, and columns too. A strip of facets is a row if neighbours share the side that follows the first
-    /// one's second corner, else a column; that is how accordions have them.
+    /// Rows count in the order of the facets, and columns too. A strip of facets is a row if neighbours share
+    /// the side that follows the first one's second corner, else a column; that is how accordions have them.
     ///
     /// # Example
     /// ```
@@ -103,7 +103,8 @@ fn columns(quads: &[[Vec3; 4]]) -> Option<usize> {
     quads.len().is_multiple_of(cols).then_some(cols)
 }
 
-/// From the first facet to the next in its row and to the first of the next row; where there is none, along a side of its own.
+/// From the first facet to the next in its row and to the first of the next row; where there is none, along a
+/// side of its own.
 fn directions(quads: &[[Vec3; 4]], cols: usize) -> Option<[Vec3; 2]> {
     let middle = |quad: &[Vec3; 4]| quad.iter().sum::<Vec3>() / 4.0;
     let to = |facet: usize| quads.get(facet).map(|quad| middle(quad) - middle(&quads[0]));
@@ -127,7 +128,8 @@ fn corner(quad: &[Vec3; 4], [along, out]: [Vec3; 2], ends: [f64; 2]) -> Vec3 {
     quad.iter().max_by(|a, b| reach(a).total_cmp(&reach(b))).copied().unwrap_or_default()
 }
 
-/// Directions whose products with a point of the plane are its coordinates along `a` and `b`; none if these are parallel.
+/// Directions whose products with a point of the plane are its coordinates along `a` and `b`; none if these
+/// are parallel.
 fn dual(a: Vec3, b: Vec3) -> Option<[Vec3; 2]> {
     let normal = a.cross(&b);
     let area = normal.norm_squared();

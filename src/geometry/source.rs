@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use super::StandardSky;
 use crate::error::{Error, Result};
 
-/// Brightest and darkest source, relative to the sun or whatever stands in its place: sums of such numbers keep their digits.
+/// Brightest and darkest source, relative to the sun or whatever stands in its place: sums of such numbers
+/// keep their digits.
 const IRRADIANCES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 /// Lamps are nearer than this: squares of such distances are numbers.
@@ -34,9 +35,11 @@ pub enum LightSource {
         /// Positive, in the unit of the surface.
         distance: f64,
     },
-    /// A lamp or a window of some size: flat, alike bright all over and in all directions, on the side to which it faces.
+    /// A lamp or a window of some size: flat, alike bright all over and in all directions, on the side to
+    /// which it faces.
     Area {
-        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the surface.
+        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the
+        /// surface.
         corners: [Vector3<f64>; 4],
         /// On a plane that faces its middle squarely at `distance` before it.
         irradiance: f64,
@@ -97,8 +100,8 @@ impl LightSource {
         Ok(Self::Point { at: at.into(), irradiance: possible(irradiance)?, distance })
     }
 
-    /// A rectangle with its middle `at` a place, turned `towards` another, `size` along the y axis, or as nearly as it can be, and across it; it
-    /// gives `irradiance` to a plane there that faces it.
+    /// A rectangle with its middle `at` a place, turned `towards` another, `size` along the y axis, or as
+    /// nearly as it can be, and across it; it gives `irradiance` to a plane there that faces it.
     ///
     /// # Errors
     /// As [`LightSource::directional`].

@@ -69,7 +69,8 @@ impl StandardSky {
         self.number
     }
 
-    /// Irradiance of an open horizontal plane by its relative radiance, the sine of the sun's elevation being `sun_height`.
+    /// Irradiance of an open horizontal plane by its relative radiance, the sine of the sun's elevation being
+    /// `sun_height`.
     #[must_use]
     pub fn irradiance(self, sun_height: f64) -> f64 {
         let sun_horizontal = (1.0 - sun_height * sun_height).max(0.0).sqrt();
@@ -86,7 +87,8 @@ impl StandardSky {
         PI / (HEIGHTS * AZIMUTHS) as f64 * (0..HEIGHTS).map(|n| ring(height(n))).sum::<f64>()
     }
 
-    /// Relative radiance from a direction with these cosines of its angles with the zenith, above 0, and with the sun.
+    /// Relative radiance from a direction with these cosines of its angles with the zenith, above 0, and with
+    /// the sun.
     #[must_use]
     pub fn radiance(self, cos_to_zenith: f64, cos_to_sun: f64) -> f64 {
         let [gradation, indicatrix] = TYPES[self.number - 1];
@@ -102,7 +104,8 @@ impl StandardSky {
 mod tests {
     use super::*;
 
-    /// An even one gives a horizontal plane π times its radiance, the overcast one of Moon and Spencer's kind nearly 7/9 of that at its zenith.
+    /// An even one gives a horizontal plane π times its radiance, the overcast one of Moon and Spencer's kind
+    /// nearly 7/9 of that at its zenith.
     #[test]
     fn skies_are_added_up() {
         let of = |number: usize, height| StandardSky::of_type(number).unwrap().irradiance(height);
@@ -111,7 +114,8 @@ mod tests {
         assert!((of(1, 0.5) / (zenith * PI) - 7.0 / 9.0).abs() < 0.01);
     }
 
-    /// The standard's own numbers: an overcast sky of type 1 is three times as bright at the zenith as at the horizon, one of type 5 is even.
+    /// The standard's own numbers: an overcast sky of type 1 is three times as bright at the zenith as at the
+    /// horizon, one of type 5 is even.
     #[test]
     fn skies_are_those_of_the_standard() {
         let of = |number: usize, height: f64| StandardSky::of_type(number).unwrap().radiance(height, 0.0);

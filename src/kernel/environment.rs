@@ -1,6 +1,8 @@
-//! Light of surroundings that are not alike in all directions on a fold: sky, ground, and the glow about the sun.
+//! Light of surroundings that are not alike in all directions on a fold: sky, ground, and the glow about the
+//! sun.
 //!
-//! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced between them as in
+//! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced
+//! between them as in
 //! [`super::bent`].
 
 use std::ops::Range;
@@ -15,8 +17,9 @@ use crate::geometry::{Fold, StandardSky};
 use super::bent::{BentExchange, BentFold, Seen};
 use super::quadrature::{Lagrange, Rule};
 
-/// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many of them (R. Swinbank, R. J. Purser,
-/// *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p. 1769).
+/// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many
+/// of them (R. Swinbank, R. J. Purser, *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p.
+/// 1769).
 const DIRECTIONS: usize = 800;
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
@@ -27,15 +30,18 @@ pub enum Surroundings {
     Sky,
     /// Alike from everywhere below the horizon: irradiance 1 on a horizontal plane that faces down.
     Ground,
-    /// A standard sky with the sun where this unit vector points, above the horizon: irradiance 1 on a horizontal plane that faces up.
+    /// A standard sky with the sun where this unit vector points, above the horizon: irradiance 1 on a
+    /// horizontal plane that faces up.
     Standard(StandardSky, Vector3<f64>),
-    /// An overcast sky, irradiance 1 on a horizontal plane that faces up: three times as bright at the zenith as at the horizon (P. Moon, D. E.
-    /// Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard overcast sky).
+    /// An overcast sky, irradiance 1 on a horizontal plane that faces up: three times as bright at the zenith
+    /// as at the horizon (P. Moon, D. E. Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard
+    /// overcast sky).
     OvercastSky,
 }
 
 impl Surroundings {
-    /// Relative radiance from a direction whose cosine with the zenith (the nadir for the ground) is `height`.
+    /// Relative radiance from a direction whose cosine with the zenith (the nadir for the ground) is
+    /// `height`.
     fn radiance(self, towards: &Vector3<f64>, height: f64) -> f64 {
         match self {
             Self::Sky | Self::Ground => 1.0,
@@ -49,8 +55,8 @@ impl Surroundings {
 pub struct Environment<const PARTS: usize> {
     /// Unit vectors towards the light, coordinate by coordinate.
     rays: [Vec<f64>; 3],
-    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below, and is 0
-    /// in the other half.
+    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below,
+    /// and is 0 in the other half.
     irradiances: [(Range<usize>, Vec<f64>); PARTS],
 }
 
@@ -59,7 +65,8 @@ const LANES: usize = 8;
 const _: () = assert!(DIRECTIONS.is_multiple_of(LANES));
 
 impl<const PARTS: usize> Environment<PARTS> {
-    /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of [`Fold::panels`].
+    /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of
+    /// [`Fold::panels`].
     #[must_use]
     pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
         let mut rays: [Vec<f64>; 3] = Default::default();
@@ -181,8 +188,9 @@ fn along<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], 
     simd.mul_add_f64s(a, x[n], simd.mul_add_f64s(b, y[n], simd.mul_f64s(c, z[n])))
 }
 
-/// Radiance of the facets of a sheet bent like this in each of these lights, part by part, all bounces included: in the unit in which a perfect
-/// diffuser with irradiance 1 has 1. Facets are those of `fold`, seen from far away from the direction `eye`.
+/// Radiance of the facets of a sheet bent like this in each of these lights, part by part, all bounces
+/// included: in the unit in which a perfect diffuser with irradiance 1 has 1. Facets are those of `fold`,
+/// seen from far away from the direction `eye`.
 ///
 /// # Returns
 /// Light by light, part by part: facet by albedo, as [`BentFold::facet_radiance`].

@@ -39,8 +39,8 @@ impl fmt::Display for Mesh {
 pub struct Accuracy {
     /// Unknowns of a panel in the last solution.
     pub unknowns: usize,
-    /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where the mesh was
-    /// given and no second solution made.
+    /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where
+    /// the mesh was given and no second solution made.
     pub facet_mean_error: Option<f64>,
     /// Residual that Lanczos' method left in the equations of the bounces, relative to the light.
     pub residual: f64,

@@ -55,8 +55,8 @@ impl Rule {
 
     /// The `order`-point Gauss rule for the weight `1 − |x|` on [-1, 1].
     ///
-    /// Stieltjes' procedure on an exact discretisation of the weight, then the eigenvalues of the Jacobi matrix
-    /// (Gautschi, *Orthogonal Polynomials*, sections 2.2.3 and 3.1.1).
+    /// Stieltjes' procedure on an exact discretisation of the weight, then the eigenvalues of the Jacobi
+    /// matrix (Gautschi, *Orthogonal Polynomials*, sections 2.2.3 and 3.1.1).
     ///
     /// # Example
     /// ```
@@ -96,9 +96,9 @@ impl Rule {
     }
 }
 
-/// ρ of the largest ellipse with foci at the ends of `[low, high]` that does not hold the point `re ± i·im` of the complex plane: a Gauss rule
-/// of n points integrates a function that is singular there to about `ρ^(−2n)` (Trefethen, *Approximation Theory and Approximation
-/// Practice*, chapter 19).
+/// ρ of the largest ellipse with foci at the ends of `[low, high]` that does not hold the point `re ± i·im`
+/// of the complex plane: a Gauss rule of n points integrates a function that is singular there to about
+/// `ρ^(−2n)` (Trefethen, *Approximation Theory and Approximation Practice*, chapter 19).
 ///
 /// # Example
 /// ```
@@ -137,7 +137,8 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// Values at `points` in [-1, 1] of the Legendre polynomials of degree 0 on: one degree after the other, as many as `values` holds.
+/// Values at `points` in [-1, 1] of the Legendre polynomials of degree 0 on: one degree after the other, as
+/// many as `values` holds.
 pub fn legendre_series(points: &[f64], values: &mut [f64]) {
     let mut degrees = values.chunks_exact_mut(points.len());
     let Some(mut before) = degrees.next() else { return };
@@ -188,7 +189,8 @@ impl Lagrange {
         self.at_all(&[x], weights);
     }
 
-    /// As [`Lagrange::at`] for many points: the weights of the first node at all of them, then those of the next.
+    /// As [`Lagrange::at`] for many points: the weights of the first node at all of them, then those of the
+    /// next.
     pub fn at_all(&self, points: &[f64], weights: &mut [f64]) {
         let mut sums: SmallVec<[f64; 4]> = smallvec![0.0; points.len()];
         let of_nodes = weights.chunks_exact_mut(points.len()).zip(&self.nodes).zip(&self.scale);
@@ -235,7 +237,8 @@ mod tests {
         }
     }
 
-    /// Poles at ±0.5i of 1/(x² + 0.25), and at −1.5 of 1/(x + 1.5): a point more makes the error ρ² times smaller.
+    /// Poles at ±0.5i of 1/(x² + 0.25), and at −1.5 of 1/(x + 1.5): a point more makes the error ρ² times
+    /// smaller.
     #[test]
     fn an_ellipse_says_how_fast_rules_converge() {
         let tame = (4.0 * 2.0_f64.atan(), [0.0, 0.5], (|x| 1.0 / (x * x + 0.25)) as fn(f64) -> f64);

@@ -8,13 +8,15 @@ use crate::room;
 
 /// Most unknowns of one solution: its matrix then has 800 MB, if nothing in it is negligible.
 const UNKNOWNS_MAX: usize = 10_000;
-/// Most multiplications of one solution, of which one in six is done: a few seconds. A 1° fold takes hundreds of products with its matrix.
+/// Most multiplications of one solution, of which one in six is done: a few seconds. A 1° fold takes hundreds
+/// of products with its matrix.
 const PRODUCTS_MAX: f64 = 4e10;
 /// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
 const AIM: f64 = 0.2;
 /// The estimated error, relative to the one that the solution should have from its forerunner's.
 const SAFETY: f64 = 3.0;
-/// The least error estimate, relative to the target: where a coarser one has as many strips, both lack the same.
+/// The least error estimate, relative to the target: where a coarser one has as many strips, both lack the
+/// same.
 const LEAST: f64 = 2.0;
 /// How much finer a solution is than the coarser one that tells its error.
 const STEP: f64 = 100.0;
@@ -44,11 +46,12 @@ struct Solution {
     residual: f64,
 }
 
-/// Solves the bounces on `fold` ever finer until the estimated error is within `tolerance`; it stays above where the next
-/// solution would take too long.
+/// Solves the bounces on `fold` ever finer until the estimated error is within `tolerance`; it stays above
+/// where the next solution would take too long.
 ///
-/// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as its resolution aims
-/// at less; `SAFETY` allows for folds that differ from the one by which resolutions were chosen.
+/// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as
+/// its resolution aims at less; `SAFETY` allows for folds that differ from the one by which resolutions were
+/// chosen.
 ///
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.
@@ -78,8 +81,8 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     Ok(Refined { response: fine.response, unknowns: fine.unknowns, error, residual: fine.residual })
 }
 
-/// A coarse solution, and a finer one that aims at this error or, if that would take too long, at one as near as it may be; the coarse one
-/// and a still coarser one if nothing finer can be had.
+/// A coarse solution, and a finer one that aims at this error or, if that would take too long, at one as near
+/// as it may be; the coarse one and a still coarser one if nothing finer can be had.
 fn first_two(fold: &Fold, aim: f64) -> Result<Option<(Solution, Solution)>> {
     let start = COARSEST.min(STEP * aim);
     let Some(first) = solve(fold, start, 1)? else { return Ok(None) };
@@ -98,7 +101,8 @@ fn estimated_error(coarse: &Solution, fine: &Solution) -> f64 {
     of_difference.max(LEAST * fine.aim)
 }
 
-/// The solution that aims at this error; none if it would take too long, `poles` being those of the one before.
+/// The solution that aims at this error; none if it would take too long, `poles` being those of the one
+/// before.
 fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     let resolution = Resolution::reaching(aim, fold);
     let unknowns = resolution.unknowns(fold);

@@ -14,8 +14,8 @@ pub struct Skipped {
     pub why: &'static str,
 }
 
-/// What was skipped in solving the bounces on `fold`, of which `accuracy` tells how they were solved, with `poles` of the unknowns
-/// left; nothing that was skipped zero times.
+/// What was skipped in solving the bounces on `fold`, of which `accuracy` tells how they were solved, with
+/// `poles` of the unknowns left; nothing that was skipped zero times.
 ///
 /// # Example
 /// ```

@@ -1,13 +1,14 @@
 //! The exchange between strips of the two panels, exact to rounding.
 //!
-//! Eq. (10) with every facet averaged over its whole area; eq. (2) at facet centres, as printed, lets a fold hand on more
-//! light than it has. With s and t the distances from the crease and z the shift along it, the kernel of eq. (2) is
-//! `sin²θ·s·t / (π r⁴)`, `r² = q² + z²`, `q² = s² + t² − 2st·cosθ`, so an entry depends on the two rows and on the number
-//! of columns between the facets alone. Lengths are in units of the facet's width along the crease.
+//! Eq. (10) with every facet averaged over its whole area; eq. (2) at facet centres, as printed, lets a fold
+//! hand on more light than it has. With s and t the distances from the crease and z the shift along it, the
+//! kernel of eq. (2) is `sin²θ·s·t / (π r⁴)`, `r² = q² + z²`, `q² = s² + t² − 2st·cosθ`, so an entry depends
+//! on the two rows and on the number of columns between the facets alone. Lengths are in units of the facet's
+//! width along the crease.
 //!
-//! Near pairs: the shift and one row direction are integrated in closed form, the other by Gauss–Legendre panels after
-//! `b = a·cosθ + a·sinθ·sinh u`, which moves every singularity to `Im u = ±π/2`. Far pairs: Gauss–Legendre in all three
-//! directions, with the order that the nearest singularity asks for.
+//! Near pairs: the shift and one row direction are integrated in closed form, the other by Gauss–Legendre
+//! panels after `b = a·cosθ + a·sinθ·sinh u`, which moves every singularity to `Im u = ±π/2`. Far pairs:
+//! Gauss–Legendre in all three directions, with the order that the nearest singularity asks for.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -53,7 +54,8 @@ impl Wedge {
         }
     }
 
-    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease from 0.
+    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease from
+    /// 0.
     pub fn exchange(&self, s: &Range<f64>, t: &Range<f64>, shifts: &mut [f64]) {
         if self.sin == 0.0 {
             return shifts.fill(0.0);
@@ -105,8 +107,8 @@ impl Wedge {
         a * a * sum
     }
 
-    /// Orders of the Gauss rules in s, t and along the crease that reach rounding for facets whose columns leave `gap`
-    /// between them and whose rows are `across` apart, if all are moderate.
+    /// Orders of the Gauss rules in s, t and along the crease that reach rounding for facets whose columns
+    /// leave `gap` between them and whose rows are `across` apart, if all are moderate.
     fn far_orders(&self, s: &Range<f64>, t: &Range<f64>, gap: f64, across: f64) -> Option<[usize; 3]> {
         // z runs over two widths from the nearer ends of the facets.
         let along_z = gauss_order(gap, gap + 2.0, across)?;
@@ -156,8 +158,8 @@ impl Wedge {
     }
 }
 
-/// Gauss order that integrates to [`FAR_TOLERANCE`] a function on `[low, high]` whose nearest singularities lie at `±i·im`;
-/// none if it exceeds [`FAR_ORDER_MAX`].
+/// Gauss order that integrates to [`FAR_TOLERANCE`] a function on `[low, high]` whose nearest singularities
+/// lie at `±i·im`; none if it exceeds [`FAR_ORDER_MAX`].
 ///
 /// The error falls as ρ^(−2p), ρ the sum of the half axes of the Bernstein ellipse through the singularity
 /// (Trefethen, *Approximation Theory and Approximation Practice*, theorem 19.3).
@@ -168,11 +170,11 @@ fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
     (order <= FAR_ORDER_MAX as f64).then_some(order as usize)
 }
 
-/// Second difference over the shift `k` of `W(q, z) = ½[z·q·atan(z/q) + ½z²·ln(1 + q²/z²)]`, the kernel integrated along
-/// both facets' widths (times 2 q⁴ over the area element).
+/// Second difference over the shift `k` of `W(q, z) = ½[z·q·atan(z/q) + ½z²·ln(1 + q²/z²)]`, the kernel
+/// integrated along both facets' widths (times 2 q⁴ over the area element).
 ///
-/// The parts of W that are linear or constant in z vanish in the difference. Each branch leaves out those that outweigh
-/// the rest: `πzq/4 − q²/4` where q is small, nothing where it is large.
+/// The parts of W that are linear or constant in z vanish in the difference. Each branch leaves out those
+/// that outweigh the rest: `πzq/4 − q²/4` where q is small, nothing where it is large.
 fn shift_integral(q: f64, k: f64) -> f64 {
     let close = |z: f64| if z == 0.0 { 0.25 * q * q } else { 0.5 * z * z * small_shift(q / z) };
     let distant = |z: f64| {

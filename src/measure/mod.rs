@@ -1,4 +1,5 @@
-//! From one photograph to the spectrum of its sheet in one call, by what the tools do if no flag says otherwise.
+//! From one photograph to the spectrum of its sheet in one call, by what the tools do if no flag says
+//! otherwise.
 
 mod camera;
 mod light;
@@ -36,23 +37,25 @@ pub struct Setup<'a> {
     pub fold: Fold,
     /// Where the sun stands, and how much sky there is.
     pub light: Light,
-    /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1, outer end 1, outer end
-    /// 0; they are moved to the edges around them.
+    /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1,
+    /// outer end 1, outer end 0; they are moved to the edges around them.
     pub corners: [[Point; 4]; 2],
     /// Wavelengths of the spectrum.
     pub wavelengths: WavelengthGrid,
-    /// Built-in name or file of the camera; none: the one that the photograph names, or one that stands in for it.
+    /// Built-in name or file of the camera; none: the one that the photograph names, or one that stands in
+    /// for it.
     pub camera: Option<&'a str>,
-    /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; none: the sun of the photograph's place and time if it says
-    /// them, else daylight that is assumed, or, by a flash, a lamp or at night, a light that is found.
+    /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; none: the sun of the
+    /// photograph's place and time if it says them, else daylight that is assumed, or, by a flash, a lamp or
+    /// at night, a light that is found.
     pub illuminant: Option<&'a str>,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, if it is known.
     pub exposure: Option<f64>,
 }
 
 impl Setup<'_> {
-    /// A fold of square panels open by `angle_deg`, degrees, with 10 x 10 facets each, the sun on the plane that halves it, and all else
-    /// unknown; the spectrum from 400 to 700 nm by 5.
+    /// A fold of square panels open by `angle_deg`, degrees, with 10 x 10 facets each, the sun on the plane
+    /// that halves it, and all else unknown; the spectrum from 400 to 700 nm by 5.
     ///
     /// # Errors
     /// [`Error::Usage`] if there is no such fold.
@@ -99,7 +102,8 @@ impl Setup<'_> {
         })
     }
 
-    /// What the light may be where nobody states it and the camera wrote that it was not daylight; empty otherwise.
+    /// What the light may be where nobody states it and the camera wrote that it was not daylight; empty
+    /// otherwise.
     fn lights(&self, photograph: &Photograph, optics: &Optics) -> Result<Vec<Candidate>> {
         match (self.illuminant, light_of(&photograph.info().camera.taken)) {
             (None, LightTaken::OtherThanDaylight(_)) => {
@@ -110,20 +114,23 @@ impl Setup<'_> {
     }
 }
 
-/// Measures the spectrum of a folded sheet in a photograph: what `vkernel`, `vextract` and `vestimate` make of it by default.
+/// Measures the spectrum of a folded sheet in a photograph: what `vkernel`, `vextract` and `vestimate` make
+/// of it by default.
 ///
 /// # Arguments
-/// - `photograph`: linear light, opened from a file ([`Photograph::open`]) or [at hand](Photograph::from_light).
+/// - `photograph`: linear light, opened from a file ([`Photograph::open`]) or
+///   [at hand](Photograph::from_light).
 /// - `setup`: where the panels are in it, and what is known of fold, light and camera.
 ///
 /// # Returns
-/// Of every wavelength the 45:0 reflectance, from 0 to 1, with its standard deviation; the exposure; what was found that sets the photograph
-/// apart from that of an ideal fold; and how far all that can be trusted. See [`Measurement`].
+/// Of every wavelength the 45:0 reflectance, from 0 to 1, with its standard deviation; the exposure; what was
+/// found that sets the photograph apart from that of an ideal fold; and how far all that can be trusted. See
+/// [`Measurement`].
 ///
 /// # Errors
-/// [`Error::Usage`] if the photograph names no camera and none is given, or corners are not those of the fold's panels; [`Error::Corners`] if
-/// they lie outside the picture; [`Error::Spectrum`] if camera or light are not known; [`Error::Field`] if no facet can be used, or they are
-/// nothing like those of a fold.
+/// [`Error::Usage`] if the photograph names no camera and none is given, or corners are not those of the
+/// fold's panels; [`Error::Corners`] if they lie outside the picture; [`Error::Spectrum`] if camera or light
+/// are not known; [`Error::Field`] if no facet can be used, or they are nothing like those of a fold.
 ///
 /// # Example
 /// ```

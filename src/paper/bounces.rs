@@ -1,4 +1,5 @@
-//! How many bounces of light count: the first ones are eqs. (5) to (7), in matrices eqs. (11) to (13), their sum is eq. (14).
+//! How many bounces of light count: the first ones are eqs. (5) to (7), in matrices eqs. (11) to (13), their
+//! sum is eq. (14).
 
 use nalgebra::DMatrix;
 
@@ -25,7 +26,8 @@ pub struct Truncation {
 }
 
 impl Bounces {
-    /// RGB of every facet at exposure 1, facet by channel, and what it leaves out, if anything is asked to be.
+    /// RGB of every facet at exposure 1, facet by channel, and what it leaves out, if anything is asked to
+    /// be.
     ///
     /// # Source
     /// Deeb et al., eq. (14).

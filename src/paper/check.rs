@@ -83,8 +83,8 @@ impl fmt::Display for Law {
 
 /// Measures every law on `kernel`, and its distance from the `exact` kernel of the same facets.
 ///
-/// Nothing is as large as the dense matrix. Reciprocity holds by construction, since one number stands for both directions:
-/// its line shows the rounding of the form factors read from it.
+/// Nothing is as large as the dense matrix. Reciprocity holds by construction, since one number stands for
+/// both directions: its line shows the rounding of the form factors read from it.
 ///
 /// # Example
 /// ```
@@ -116,10 +116,12 @@ pub fn check(kernel: &FoldKernel, exact: &FoldKernel) -> Vec<Law> {
     ]
 }
 
-/// Largest absolute eigenvalue of the matrix of eq. (10): the share of its light that the slowest mode hands on.
+/// Largest absolute eigenvalue of the matrix of eq. (10): the share of its light that the slowest mode hands
+/// on.
 ///
-/// K = [0 F; Fᵀ 0] has the singular values of F, which Lanczos' method finds from the products alone (Golub and Van Loan,
-/// *Matrix Computations*, section 10.1). Without reorthogonalisation eigenvalues repeat, but the largest stays the largest.
+/// K = [0 F; Fᵀ 0] has the singular values of F, which Lanczos' method finds from the products alone (Golub
+/// and Van Loan, *Matrix Computations*, section 10.1). Without reorthogonalisation eigenvalues repeat, but
+/// the largest stays the largest.
 #[must_use]
 pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
     let mut now = operator.uniform(0);
@@ -188,8 +190,8 @@ fn row_sums(operator: &FacetOperator, panel: usize) -> Vec<f64> {
     sums
 }
 
-/// Even light on two sheets of reflectance `r`: |received − absorbed − leaving|, relative to the received; infinite where
-/// the bounces diverge.
+/// Even light on two sheets of reflectance `r`: |received − absorbed − leaving|, relative to the received;
+/// infinite where the bounces diverge.
 fn energy_imbalance(operator: &FacetOperator, row_sums: &[Vec<f64>; 2], r: f64) -> f64 {
     let Ok((response, _)) = Response::solve(&Dimmed { operator, r }, SOLVED) else { return f64::INFINITY };
     let (mut received, mut lost) = (0.0, 0.0);
@@ -209,7 +211,8 @@ fn difference(kernel: &FoldKernel, exact: &FoldKernel) -> f64 {
     entries(kernel).zip(entries(exact)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// An operator with the reflectance in it: a kernel whose radius is beyond 1 still has an answer for dark sheets.
+/// An operator with the reflectance in it: a kernel whose radius is beyond 1 still has an answer for dark
+/// sheets.
 struct Dimmed<'a> {
     operator: &'a FacetOperator<'a>,
     r: f64,

@@ -1,4 +1,5 @@
-//! Flat sheets: no bounces, so that colour is linear in reflectance, and a spectrum must be a combination of few components.
+//! Flat sheets: no bounces, so that colour is linear in reflectance, and a spectrum must be a combination of
+//! few components.
 //!
 //! What [`super::park`] and [`super::khan`] share; they differ in the components.
 
@@ -13,7 +14,8 @@ use crate::estimate::{Estimate, Exposure};
 use crate::forward::FacetModel;
 use crate::solve::Eigen;
 
-/// Just above rounding: where colour tells little of a spectrum, what is left of the barrier moves it by a million times that.
+/// Just above rounding: where colour tells little of a spectrum, what is left of the barrier moves it by a
+/// million times that.
 const TOLERANCE: f64 = 2e-15;
 /// An eigenvalue below that share of the largest is rounding: the set has no such component.
 const ROUNDING: f64 = 1e-13;
@@ -31,8 +33,9 @@ pub struct FlatSheet {
     pub view: DMatrix<f64>,
     /// Value per channel.
     pub values: Vec<f64>,
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel; if none is known, values are divided by their
-    /// sum, as the paper does where no chart is in the picture (section 5D), and the scale of the spectrum stays open.
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel; if none is known, values
+    /// are divided by their sum, as the paper does where no chart is in the picture (section 5D), and the
+    /// scale of the spectrum stays open.
     pub exposure: Option<f64>,
 }
 
@@ -40,7 +43,8 @@ impl FlatSheet {
     /// The mean colour of the facets of a sample.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets or channels do not fit the scene, the sheet is folded, or the exposure is to be fitted.
+    /// [`Error::Field`] if facets or channels do not fit the scene, the sheet is folded, or the exposure is
+    /// to be fitted.
     pub fn new(model: &FacetModel, measured: &Measured, exposure: Exposure) -> Result<Self> {
         let exposure = match exposure {
             Exposure::Known(exposure) => Some(exposure),
@@ -80,8 +84,8 @@ pub fn autocorrelation(spectra: &[Vec<f64>]) -> DMatrix<f64> {
 pub struct Components(DMatrix<f64>);
 
 impl Components {
-    /// What `spectrum` makes of the `count` largest eigenvalues. Sets, cameras and lights have no negative numbers, so that the
-    /// first component has one sign (Perron and Frobenius): here it is positive.
+    /// What `spectrum` makes of the `count` largest eigenvalues. Sets, cameras and lights have no negative
+    /// numbers, so that the first component has one sign (Perron and Frobenius): here it is positive.
     ///
     /// # Errors
     /// [`Error::Numeric`] if there are fewer components, or if the first one is zero somewhere.
@@ -120,8 +124,8 @@ impl Components {
     }
 }
 
-/// The combination within 0 to 1 that comes nearest to the sheet's values, white being 1, plus `smoothness` times its squared
-/// second differences.
+/// The combination within 0 to 1 that comes nearest to the sheet's values, white being 1, plus `smoothness`
+/// times its squared second differences.
 ///
 /// # Errors
 /// [`Error::Numeric`] if values and smoothness leave a component open, or the solver fails.
@@ -160,8 +164,8 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
     })
 }
 
-/// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: all directions are known
-/// equally well, which no solver minds.
+/// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: all
+/// directions are known equally well, which no solver minds.
 struct Space {
     /// Spectrum of every coordinate: waveband by coordinate.
     spectra: DMatrix<f64>,

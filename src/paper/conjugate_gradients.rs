@@ -5,8 +5,8 @@ use nalgebra::DVector;
 /// More iterations than any well-posed system of these tools takes.
 const ITERATION_LIMIT: usize = 10_000;
 
-/// Solves `A·x = b`, A symmetric and positive definite, `product(v)` being `A·v`, until the residual norm is at most
-/// `tolerance` times that of `b`; none if 10000 iterations do not get there.
+/// Solves `A·x = b`, A symmetric and positive definite, `product(v)` being `A·v`, until the residual norm is
+/// at most `tolerance` times that of `b`; none if 10000 iterations do not get there.
 ///
 /// # Source
 /// Golub and Van Loan, *Matrix Computations*, algorithm 11.3.3.

@@ -32,7 +32,8 @@ impl<'a> FacetOperator<'a> {
         Self { kernel, facets, spectra, scale }
     }
 
-    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves; `x` has a column per row of facets.
+    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves; `x` has a
+    /// column per row of facets.
     fn add_up(&self, panel: usize, i: usize, x: &DMatrix<f64>, out: &mut [f64]) {
         for (j, x) in x.column_iter().enumerate() {
             let (x, factors) = (x.as_slice(), self.kernel.shifts_from(panel, i, j));

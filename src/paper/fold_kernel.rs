@@ -15,8 +15,9 @@ const ENTRIES_A_THREAD: usize = 2000;
 
 /// The distinct form factors of a fold, K of eq. (10).
 ///
-/// Shift along the crease, mirror image and reciprocity leave `rows² · cols` numbers of the `(2 · rows · cols)²` of the full
-/// matrix; panels of one size leave `rows (rows + 1)/2 · cols`. Lengths are in units of the facet's width along the crease.
+/// Shift along the crease, mirror image and reciprocity leave `rows² · cols` numbers of the
+/// `(2 · rows · cols)²` of the full matrix; panels of one size leave `rows (rows + 1)/2 · cols`. Lengths are
+/// in units of the facet's width along the crease.
 #[derive(Clone, Debug)]
 pub struct FoldKernel {
     facets: FacetGrid,
@@ -27,9 +28,10 @@ pub struct FoldKernel {
 }
 
 impl FoldKernel {
-    /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are what `exchange(i, j, shifts)` fills in for every
-    /// shift along the crease: area times form factor in units of the facet width squared. Where the panels are alike,
-    /// only `i ≤ j` is asked for. No thread is woken for fewer than `pairs_a_thread` pairs of rows.
+    /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are what `exchange(i, j, shifts)`
+    /// fills in for every shift along the crease: area times form factor in units of the facet width squared.
+    /// Where the panels are alike, only `i ≤ j` is asked for. No thread is woken for fewer than
+    /// `pairs_a_thread` pairs of rows.
     ///
     /// # Returns
     /// The kernel, and what `exchange` said about each pair of rows.
@@ -61,7 +63,8 @@ impl FoldKernel {
         room::ask(bytes as u64, "form factors", "take fewer facets")
     }
 
-    /// The same from a function of the two rows' extents away from the crease that takes a microsecond per entry.
+    /// The same from a function of the two rows' extents away from the crease that takes a microsecond per
+    /// entry.
     #[must_use]
     pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, &mut [f64]) + Sync) -> Self {
         let [rows0, rows1] = row_ranges(fold);
@@ -87,8 +90,8 @@ impl FoldKernel {
         self.exchange.len()
     }
 
-    /// Area times form factor between facets of row `i` on panel 0 and row `j` on panel 1 for every shift along the crease, 0
-    /// to `cols − 1`, in units of the facet width squared.
+    /// Area times form factor between facets of row `i` on panel 0 and row `j` on panel 1 for every shift
+    /// along the crease, 0 to `cols − 1`, in units of the facet width squared.
     #[must_use]
     pub fn shifts(&self, i: usize, j: usize) -> &[f64] {
         self.exchange.column(self.pair(i, j)).data.into_slice()
@@ -116,8 +119,8 @@ impl FoldKernel {
         self.row_edges[panel][i + 1] - self.row_edges[panel][i]
     }
 
-    /// Fraction of the light leaving a facet of row `i` of `panel` that reaches one of row `j` of the other panel, `shift`
-    /// columns apart, in [0, 1].
+    /// Fraction of the light leaving a facet of row `i` of `panel` that reaches one of row `j` of the other
+    /// panel, `shift` columns apart, in [0, 1].
     #[must_use]
     pub fn form_factor(&self, panel: usize, i: usize, j: usize, shift: usize) -> f64 {
         self.shifts_from(panel, i, j)[shift] / self.row_height(panel, i)

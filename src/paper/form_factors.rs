@@ -1,4 +1,5 @@
-//! Form factors between the facets of a fold, exact to rounding: eq. (10), with eq. (2) averaged over both facets.
+//! Form factors between the facets of a fold, exact to rounding: eq. (10), with eq. (2) averaged over both
+//! facets.
 
 use super::FoldKernel;
 use crate::geometry::Fold;

@@ -1,7 +1,7 @@
 //! Minimisation within bounds by a primal-dual interior point method, as an argmin solver.
 //!
-//! Newton's method on the optimality conditions of the logarithmic barrier, whose weight falls with the gap between the
-//! variables and their multipliers; steps stop short of the bounds.
+//! Newton's method on the optimality conditions of the logarithmic barrier, whose weight falls with the gap
+//! between the variables and their multipliers; steps stop short of the bounds.
 //!
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 19.2 and 19.3.
@@ -24,8 +24,8 @@ const SUFFICIENT: f64 = 1e-4;
 /// State of an argmin run of this solver.
 pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
-/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables or for all of some
-/// combinations of them.
+/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables or for
+/// all of some combinations of them.
 ///
 /// # Example
 /// ```
@@ -66,7 +66,8 @@ pub struct InteriorPoint {
 }
 
 impl InteriorPoint {
-    /// A solver between `low` and `high` that stops when no optimality condition is violated by more than `tolerance`.
+    /// A solver between `low` and `high` that stops when no optimality condition is violated by more than
+    /// `tolerance`.
     #[must_use]
     pub fn new(low: f64, high: f64, tolerance: f64) -> Self {
         let none = DVector::zeros(0);
@@ -269,8 +270,8 @@ mod tests {
         run.state().get_best_param().unwrap().as_slice().to_vec()
     }
 
-    /// With bounds on x + y and x − y, that is on the edge x + y = 1 of a turned square: `x = 1 − y`, least where
-    /// `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)` finds it.
+    /// With bounds on x + y and x − y, that is on the edge x + y = 1 of a turned square: `x = 1 − y`, least
+    /// where `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)` finds it.
     #[test]
     fn bounds_on_combinations() {
         let turned = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1.0, -1.0]);

@@ -7,11 +7,12 @@ use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::mesh::{self, Accuracy, Mesh};
 use crate::response::Response;
 
-/// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`, with form factors found by `method`.
+/// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`, with form
+/// factors found by `method`.
 ///
 /// # Errors
-/// As [`mesh::respond`]; a mesh that does not divide into the facets, a method other than exact on undivided panels, or one whose kernel makes
-/// the bounces diverge.
+/// As [`mesh::respond`]; a mesh that does not divide into the facets, a method other than exact on undivided
+/// panels, or one whose kernel makes the bounces diverge.
 pub fn respond(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
     match mesh {
         Mesh::Auto if method != Method::Exact => Err(Error::usage(

@@ -20,7 +20,8 @@ pub enum Method {
 }
 
 impl Method {
-    /// The form factors between the facets of `fold`, and the largest standard error of one where they are estimates.
+    /// The form factors between the facets of `fold`, and the largest standard error of one where they are
+    /// estimates.
     ///
     /// # Example
     /// ```

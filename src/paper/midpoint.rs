@@ -1,7 +1,8 @@
 //! Form factors from facet centres: eq. (2) as printed, times area over pi, as eq. (10) has it.
 //!
-//! Right for facets far apart. Facets that meet at the crease get too much at any size, since centres and distances shrink
-//! together: at 45° with 10 x 10 facets a facet hands on 2.09 times its light, and the bounces diverge.
+//! Right for facets far apart. Facets that meet at the crease get too much at any size, since centres and
+//! distances shrink together: at 45° with 10 x 10 facets a facet hands on 2.09 times its light, and the
+//! bounces diverge.
 
 use std::f64::consts::PI;
 
@@ -49,7 +50,8 @@ impl PointKernel {
         Self { scale, spread: 4.0 * half_sin * half_sin }
     }
 
-    /// `sin²θ·s·t / (π r⁴)` for points at distances `s` and `t` from the crease, `z` apart along it, in any unit of length.
+    /// `sin²θ·s·t / (π r⁴)` for points at distances `s` and `t` from the crease, `z` apart along it, in any
+    /// unit of length.
     #[must_use]
     #[inline]
     pub fn at(&self, s: f64, t: f64, z: f64) -> f64 {

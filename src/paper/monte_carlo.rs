@@ -1,9 +1,10 @@
 //! Form factors by Monte Carlo, as the paper estimates its kernel, and with rays instead of pairs of points.
 //!
-//! Pairs of points spread evenly over two facets have an infinite variance where the facets meet: with ρ the distance to the
-//! point they share, the squared kernel of eq. (2) grows as ρ⁻⁴ and the area elements leave ∫ ρ⁻² dρ. The mean still converges,
-//! but slower than the standard error computed from the same samples says. Rays that leave a facet under the cosine law only
-//! have to be counted where they land: the variance is that of a proportion.
+//! Pairs of points spread evenly over two facets have an infinite variance where the facets meet: with ρ the
+//! distance to the point they share, the squared kernel of eq. (2) grows as ρ⁻⁴ and the area elements leave ∫
+//! ρ⁻² dρ. The mean still converges, but slower than the standard error computed from the same samples says.
+//! Rays that leave a facet under the cosine law only have to be counted where they land: the variance is that
+//! of a proportion.
 
 use ndarray::parallel::prelude::*;
 use ndarray::{Array4, ArrayViewMut2, Axis};
@@ -48,7 +49,8 @@ pub struct MonteCarlo {
 }
 
 impl MonteCarlo {
-    /// An estimate from `samples` samples; the same `seed` gives the same on every machine and any number of threads.
+    /// An estimate from `samples` samples; the same `seed` gives the same on every machine and any number of
+    /// threads.
     ///
     /// # Errors
     /// Fewer than two samples, which have no spread.
@@ -75,7 +77,8 @@ impl MonteCarlo {
     /// The form factors of `fold`, and the largest standard error of one, from the spread of the samples.
     ///
     /// # Source
-    /// Deeb et al., section 5A; Malley's method for rays (Pharr et al., *Physically Based Rendering*, 4th ed., appendix A.5.3).
+    /// Deeb et al., section 5A; Malley's method for rays (Pharr et al., *Physically Based Rendering*, 4th
+    /// ed., appendix A.5.3).
     ///
     /// # Example
     /// ```
@@ -102,7 +105,8 @@ impl MonteCarlo {
         generator
     }
 
-    /// Pairs of points for every pair of rows and every shift; the largest standard error of each pair of rows.
+    /// Pairs of points for every pair of rows and every shift; the largest standard error of each pair of
+    /// rows.
     fn by_points(&self, fold: &Fold) -> (FoldKernel, Vec<f64>) {
         let (points, [rows0, rows1]) = (PointKernel::new(fold), row_ranges(fold));
         let FacetGrid { rows, cols } = fold.facets();
@@ -139,7 +143,8 @@ impl MonteCarlo {
         (mean, ((squares / count - mean * mean).max(0.0) / (count - 1.0)).sqrt())
     }
 
-    /// Rays from every row; those between two rows count in both directions, weighted so that the variance is least.
+    /// Rays from every row; those between two rows count in both directions, weighted so that the variance is
+    /// least.
     fn by_rays(&self, fold: &Fold) -> (FoldKernel, Vec<f64>) {
         let (hits, rows) = (self.hits(fold), row_ranges(fold));
         let (count, last_panel) = (f64::from(self.samples), hits.len_of(Axis(0)) - 1);
@@ -160,7 +165,8 @@ impl MonteCarlo {
         })
     }
 
-    /// Where the rays of each row of panel 0, and of panel 1 unless it is alike, land: by panel, row, row hit and shift.
+    /// Where the rays of each row of panel 0, and of panel 1 unless it is alike, land: by panel, row, row hit
+    /// and shift.
     fn hits(&self, fold: &Fold) -> Array4<u32> {
         let panels = if fold.is_symmetric() { 1 } else { 2 };
         let (ranges, FacetGrid { rows, cols }) = (row_ranges(fold), fold.facets());
@@ -172,7 +178,8 @@ impl MonteCarlo {
                 let s = from.start + (from.end - from.start) * unit(&mut generator);
                 let x = unit(&mut generator);
                 let [along, away, up] = cosine_direction(&mut generator);
-                // The ray reaches the other panel's plane `reach·sinθ` further on, unless it leads away from it.
+                // The ray reaches the other panel's plane `reach·sinθ` further on, unless it leads away from
+                // it.
                 let reach = s / (up * cos - away * sin);
                 let t = reach * up;
                 // Both signs of the shift are alike, and so are x and 1 − x.

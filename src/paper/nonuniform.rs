@@ -1,8 +1,9 @@
 //! Sheets whose reflectance differs from facet to facet: eq. (24) as it stands, one flat patch per facet.
 //!
-//! A facet's own light E obeys `E = E₀ + K·R·E`. With S = √A·K·√A⁻¹, which is symmetric, and y = √R·√A·E this is
-//! `(I − √R·S·√R)·y = √R·√A·E₀`: symmetric, positive definite, and at ease with black facets. The panels see each other and not
-//! themselves, `√R·S·√R = [0 G; Gᵀ 0]`, so panel 1 drops out and `I − G·Gᵀ` is left, which takes half as many iterations.
+//! A facet's own light E obeys `E = E₀ + K·R·E`. With S = √A·K·√A⁻¹, which is symmetric, and y = √R·√A·E this
+//! is `(I − √R·S·√R)·y = √R·√A·E₀`: symmetric, positive definite, and at ease with black facets. The panels
+//! see each other and not themselves, `√R·S·√R = [0 G; Gᵀ 0]`, so panel 1 drops out and `I − G·Gᵀ` is left,
+//! which takes half as many iterations.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 use rayon::prelude::*;
@@ -20,8 +21,8 @@ const TOLERANCE: f64 = 1e-14;
 /// Wavebands solved before they are added up, always in the same order.
 const BATCH: usize = 16;
 
-/// RGB of every facet at exposure 1, facet by channel, for a `reflectance` in [0, 1] of every facet and waveband; facet
-/// order panel, row, column. Wavebands that no sensor sees are not looked at.
+/// RGB of every facet at exposure 1, facet by channel, for a `reflectance` in [0, 1] of every facet and
+/// waveband; facet order panel, row, column. Wavebands that no sensor sees are not looked at.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the bounces of a waveband do not end: a fold far narrower than 0.1°.
@@ -124,7 +125,8 @@ impl<'a> Waveband<'a> {
     }
 }
 
-/// The same of any surface under `lights`, each one direct irradiance per patch and the camera's response to it.
+/// The same of any surface under `lights`, each one direct irradiance per patch and the camera's response to
+/// it.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the bounces of a waveband do not end.

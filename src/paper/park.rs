@@ -1,8 +1,10 @@
-//! The estimator of Park and others for flat sheets, in one light or several: a few components, and smoothness.
+//! The estimator of Park and others for flat sheets, in one light or several: a few components, and
+//! smoothness.
 //!
 //! ## Reference
-//! J.-I. Park, M.-H. Lee, M. D. Grossberg, S. K. Nayar, "Multispectral imaging using multiplexed illumination", *ICCV* (2007);
-//! the components are those of J. P. S. Parkkinen, J. Hallikainen, T. Jaaskelainen, *JOSA A* 6 (1989), p. 318.
+//! J.-I. Park, M.-H. Lee, M. D. Grossberg, S. K. Nayar, "Multispectral imaging using multiplexed
+//! illumination", *ICCV* (2007); the components are those of J. P. S. Parkkinen, J. Hallikainen, T.
+//! Jaaskelainen, *JOSA A* 6 (1989), p. 318.
 
 use nalgebra::DMatrix;
 
@@ -14,11 +16,13 @@ use crate::solve::Eigen;
 
 /// Components that the paper uses with three lights.
 pub const COMPONENTS: usize = 8;
-/// Weight of smoothness: with three lights and no noise the error on the 24 patches of a ColorChecker is least about there.
+/// Weight of smoothness: with three lights and no noise the error on the 24 patches of a ColorChecker is
+/// least about there.
 pub const SMOOTHNESS: f64 = 1e-4;
 
-/// The combination of the first `count` principal components of a set of spectra, with reflectances from 0 to 1, that comes
-/// nearest to the sheet's values, white being 1, plus `smoothness` times its squared second differences.
+/// The combination of the first `count` principal components of a set of spectra, with reflectances from 0 to
+/// 1, that comes nearest to the sheet's values, white being 1, plus `smoothness` times its squared second
+/// differences.
 ///
 /// `autocorrelation` is [`components::autocorrelation`] of the set.
 ///
@@ -46,7 +50,8 @@ pub fn estimate(
     components::estimate(&basis(autocorrelation, count)?, sheet, smoothness)
 }
 
-/// Eigenvectors of the largest eigenvalues. The mean of the set is not subtracted: the first one is close to it.
+/// Eigenvectors of the largest eigenvalues. The mean of the set is not subtracted: the first one is close to
+/// it.
 fn basis(autocorrelation: &DMatrix<f64>, count: usize) -> Result<Components> {
     Components::leading(Eigen::of_symmetric(autocorrelation.clone()), count, |eigen, k| {
         eigen.vectors.column(k).into_owned()

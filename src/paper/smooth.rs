@@ -21,12 +21,13 @@ pub const SMOOTHNESS: f64 = 1e-5;
 pub const CUTOFF: f64 = 1e-8;
 const TOLERANCE: f64 = 1e-9;
 pub(super) const ITERATION_LIMIT: u64 = 300;
-/// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of logarithms.
+/// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of
+/// logarithms.
 const SMOOTHNESS_RANGE: [f64; 2] = [1e-9, 1.0];
 const BISECTIONS: usize = 10;
 
-/// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the spectrum
-/// (step: one waveband), with every reflectance in (0, 1].
+/// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the
+/// spectrum (step: one waveband), with every reflectance in (0, 1].
 ///
 /// `start` is the reflectance from which it sets out.
 ///
@@ -63,8 +64,8 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     })
 }
 
-/// The estimate of the largest smoothness whose residuals are no larger than the noise, whose standard deviation is
-/// `noise_sd`, white being 1.
+/// The estimate of the largest smoothness whose residuals are no larger than the noise, whose standard
+/// deviation is `noise_sd`, white being 1.
 ///
 /// # Source
 /// Morozov's discrepancy principle: Hansen, *Discrete Inverse Problems* (2010), section 5.2.

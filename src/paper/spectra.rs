@@ -1,4 +1,5 @@
-//! Products along the crease by FFT: the exchange of two rows depends on the shift alone, so it is a convolution.
+//! Products along the crease by FFT: the exchange of two rows depends on the shift alone, so it is a
+//! convolution.
 
 use std::sync::Arc;
 
@@ -11,8 +12,8 @@ use super::fold_kernel::FoldKernel;
 
 /// The kernel of every pair of rows, transformed along the crease.
 ///
-/// A row of facets is padded to twice its length, so that the convolution does not wrap around; a kernel that is the same
-/// to both sides has a real transform.
+/// A row of facets is padded to twice its length, so that the convolution does not wrap around; a kernel that
+/// is the same to both sides has a real transform.
 pub struct Spectra {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,

@@ -1,4 +1,5 @@
-//! What all drawings share: SVG or PNG as the file's name ends, a font that is always there, colours that all readers tell apart.
+//! What all drawings share: SVG or PNG as the file's name ends, a font that is always there, colours that all
+//! readers tell apart.
 
 use std::path::Path;
 use std::sync::Once;
@@ -98,7 +99,8 @@ fn png(path: &Path, figure: &impl Figure) -> Result<()> {
     Saved::write(path, &png_bytes(width, height, pixels)?)
 }
 
-/// Makes the font of all drawings, "sans-serif", known to plotters, which measures text in it; again does no harm.
+/// Makes the font of all drawings, "sans-serif", known to plotters, which measures text in it; again does no
+/// harm.
 pub fn load_font() {
     static FONT_LOADED: Once = Once::new();
     // fails only for a file that is no font

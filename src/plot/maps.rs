@@ -38,8 +38,8 @@ pub struct FacetMap {
     pub values: Vec<Option<f64>>,
 }
 
-/// Panels side by side, those of even number with their crease to the right, the others with it to the left, so that creases that
-/// are one lie beside each other.
+/// Panels side by side, those of even number with their crease to the right, the others with it to the left,
+/// so that creases that are one lie beside each other.
 pub(super) struct Surface<'a> {
     panels: &'a [(usize, Panel)],
 }

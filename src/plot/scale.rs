@@ -2,7 +2,8 @@
 
 use plotters::prelude::RGBColor;
 
-/// Blue, white, brown, alike in darkness on both sides: from two diverging schemes of C. Brewer, *The Cartographic Journal* 40 (2003), p. 27.
+/// Blue, white, brown, alike in darkness on both sides: from two diverging schemes of C. Brewer, *The
+/// Cartographic Journal* 40 (2003), p. 27.
 const DIVERGING: [RGBColor; 5] = [
     RGBColor(5, 48, 97),
     RGBColor(67, 147, 195),

@@ -1,4 +1,5 @@
-//! One sheet or a few: spectra, what they look like and, of one sheet, what the estimate leaves of its facets.
+//! One sheet or a few: spectra, what they look like and, of one sheet, what the estimate leaves of its
+//! facets.
 
 use std::path::Path;
 
@@ -12,7 +13,8 @@ use super::swatches::Swatches;
 use super::terminal;
 use crate::error::{Error, Result};
 
-/// Residuals beyond that many standard deviations are on every scale, so that noise looks alike in all drawings.
+/// Residuals beyond that many standard deviations are on every scale, so that noise looks alike in all
+/// drawings.
 const USUAL: f64 = 4.0;
 
 impl Sheet {
@@ -50,7 +52,8 @@ impl Sheet {
     }
 }
 
-/// Draws the first sheets of `all`, as SVG or PNG: a single one with its residuals, up to [`CURVES_MAX`] on one chart, up to
+/// Draws the first sheets of `all`, as SVG or PNG: a single one with its residuals, up to [`CURVES_MAX`] on
+/// one chart, up to
 /// [`MULTIPLES_MAX`] on one each; `-` is the terminal, which shows the spectra of the first
 /// [`CURVES_MAX`] alone.
 ///

@@ -23,7 +23,8 @@ pub struct Curve {
     pub reflectance: Vec<f64>,
     /// Standard deviation of each, drawn as a band of two to either side.
     pub reflectance_sd: Option<Vec<f64>>,
-    /// Total radiance factor per wavelength of a sheet that fluoresces, drawn thin: what it sends out is between the two.
+    /// Total radiance factor per wavelength of a sheet that fluoresces, drawn thin: what it sends out is
+    /// between the two.
     pub total: Option<Vec<f64>>,
     /// True wavelengths and reflectances, drawn dashed.
     pub truth: Option<(Vec<f64>, Vec<f64>)>,

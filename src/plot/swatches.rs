@@ -64,7 +64,8 @@ impl Swatches<'_> {
             area.draw(&Rectangle::new(patch, screen(*srgb).filled()))?;
             right = left + SWATCH.1;
         }
-        // a white sheet is seen on white paper, and true and estimated colours meet without a line between them
+        // a white sheet is seen on white paper, and true and estimated colours meet without a line between
+        // them
         area.draw(&Rectangle::new([(SWATCH.0, top), (right, top + TALL)], GREY.stroke_width(1)))
     }
 }

@@ -22,7 +22,8 @@ impl Html {
         Self(format!("<style>{rules}</style>"))
     }
 
-    /// A drawing as `plot` makes it, with a description for those who cannot see it, in the width that the page has.
+    /// A drawing as `plot` makes it, with a description for those who cannot see it, in the width that the
+    /// page has.
     pub fn drawing(svg: &str, words: &str) -> Self {
         let described = format!("<svg role=\"img\" aria-label=\"{}\" ", escaped(words));
         Self(svg.replacen("<svg ", &described, 1))

@@ -1,7 +1,8 @@
 //! A report for people: one HTML file with all that a scored stream says, in drawings and words.
 //!
-//! [`Gallery`] keeps what is to be shown of a stream of any length, [`write()`] makes the page of it: `html` holds the elements,
-//! `page` their look, `batch`, `sample` and `scene` the sections, `colours`, `photograph` and `command` parts of these. The file needs no other, no script and no network.
+//! [`Gallery`] keeps what is to be shown of a stream of any length, [`write()`] makes the page of it: `html`
+//! holds the elements, `page` their look, `batch`, `sample` and `scene` the sections, `colours`, `photograph`
+//! and `command` parts of these. The file needs no other, no script and no network.
 
 mod batch;
 mod colours;
@@ -29,8 +30,8 @@ use crate::score::Summary;
 /// Writes the page of a gallery, and of the scores of all samples.
 ///
 /// # Errors
-/// [`crate::Error::File`] if it cannot be written, or an overlay cannot be read; [`crate::Error::Usage`] for an overlay of no sample;
-/// [`crate::Error::Field`] if a record is not what the tools write.
+/// [`crate::Error::File`] if it cannot be written, or an overlay cannot be read; [`crate::Error::Usage`] for
+/// an overlay of no sample; [`crate::Error::Field`] if a record is not what the tools write.
 pub fn write(path: &Path, gallery: &Gallery, summary: &Summary, view: &View) -> Result<()> {
     overlay::check(gallery, view)?;
     let mut sections = Vec::new();

@@ -1,6 +1,7 @@
 //! The picture of what was measured, as `vextract --overlay` drew it.
 //!
-//! Which pictures are read is up to the command line alone: a stream may be anybody's, and says no more than which of them is whose.
+//! Which pictures are read is up to the command line alone: a stream may be anybody's, and says no more than
+//! which of them is whose.
 
 use std::path::{Component, Path, PathBuf};
 

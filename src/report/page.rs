@@ -5,9 +5,9 @@ use super::html::Html;
 use crate::error::Result;
 use crate::estimate::verdict::Level;
 
-/// System fonts, one column, light or dark as the reader's system is; on paper always light, and a sample begins
-/// on a page of its own. Drawings, which are black on white, are drawn in the colours of the page. On narrow screens
-/// their letters grow, or they scroll.
+/// System fonts, one column, light or dark as the reader's system is; on paper always light, and a sample
+/// begins on a page of its own. Drawings, which are black on white, are drawn in the colours of the page. On
+/// narrow screens their letters grow, or they scroll.
 const STYLE: &str = include_str!("page.css");
 
 /// The whole page.

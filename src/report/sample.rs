@@ -14,7 +14,8 @@ use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 const SHOWN_ELSEWHERE: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const SHOWN_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
-/// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on; the rest is folded away.
+/// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on;
+/// the rest is folded away.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
     let mut parts = vec![Html::element("h2", &[], sample.id())];

@@ -14,6 +14,7 @@ pub struct View<'a> {
     pub illuminant: &'a Spectrum,
     /// Observer of their colours.
     pub observer: Observer,
-    /// Pictures of what was measured: each has its sample's name, or `{}` in the place of it; one alone may be called anything.
+    /// Pictures of what was measured: each has its sample's name, or `{}` in the place of it; one alone may
+    /// be called anything.
     pub overlays: &'a [PathBuf],
 }

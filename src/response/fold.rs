@@ -1,7 +1,9 @@
-//! Light on a fold, bounced for every reflectance at once: eqs. (26) to (28) with what a fold's symmetry saves.
+//! Light on a fold, bounced for every reflectance at once: eqs. (26) to (28) with what a fold's symmetry
+//! saves.
 //!
-//! Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on one panel give everything:
-//! panels of two reflectances, a tilted sun, and the sky, whose light on a panel is `1 − F·1`.
+//! Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on one panel
+//! give everything: panels of two reflectances, a tilted sun, and the sky, whose light on a panel is
+//! `1 − F·1`.
 
 use nalgebra::DMatrix;
 
@@ -9,8 +11,8 @@ use super::lanczos::{Excited, Lanczos};
 use super::{ModeSet, PanelOperator};
 use crate::error::{Error, Result};
 
-/// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near poles, and only
-/// the sum of the two is right to all digits.
+/// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near
+/// poles, and only the sum of the two is right to all digits.
 const NEAR_TWIN: f64 = 1e-3;
 
 /// What the bounces make of even light on either panel, as poles and residues for every facet.
@@ -23,8 +25,8 @@ pub struct Response {
 
 /// Modes that even light excites.
 ///
-/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on that panel, and
-/// the same with `r·pole_k·residue_k` on the other.
+/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on
+/// that panel, and the same with `r·pole_k·residue_k` on the other.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Modes {
     /// Of a fold whose panels are alike: on any panel, whichever panel the light falls on.
@@ -46,15 +48,16 @@ pub struct Excitation {
 }
 
 impl Response {
-    /// Reduces `operator` to poles and residues whose residual in the system of eq. (15) is at most `tolerance`, relative
-    /// to the light, for every reflectance in [0, 1].
+    /// Reduces `operator` to poles and residues whose residual in the system of eq. (15) is at most
+    /// `tolerance`, relative to the light, for every reflectance in [0, 1].
     ///
     /// # Returns
     /// The response and the residual that it reached.
     ///
     /// # Source
-    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with partial reorthogonalisation (Simon, *Mathematics of
-    /// Computation* 42, 1984, p. 115); the residual of the system at r = 1, the slowest to converge, stops it.
+    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with partial reorthogonalisation (Simon,
+    /// *Mathematics of Computation* 42, 1984, p. 115); the residual of the system at r = 1, the slowest to
+    /// converge, stops it.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the light does not leave the fold: an operator that hands on all it receives.
@@ -86,7 +89,8 @@ impl Response {
     /// A response from its modes.
     ///
     /// # Errors
-    /// [`Error::Field`] if the shapes disagree, a pole is not inside (−1, 1), or the residues are not those of even light.
+    /// [`Error::Field`] if the shapes disagree, a pole is not inside (−1, 1), or the residues are not those
+    /// of even light.
     pub fn new(modes: Modes) -> Result<Self> {
         let (sets, panels): (&[ModeSet], _) = match &modes {
             Modes::Shared(set) => (std::slice::from_ref(set), 1),
@@ -168,7 +172,8 @@ impl Response {
         }
     }
 
-    /// Irradiance of a facet of `panel` in `light` with all bounces, the panels' reflectances being `reflectances`.
+    /// Irradiance of a facet of `panel` in `light` with all bounces, the panels' reflectances being
+    /// `reflectances`.
     #[must_use]
     pub fn irradiance(&self, panel: usize, facet: usize, light: ModeLight, reflectances: [f64; 2]) -> f64 {
         let (both, r_other) = (reflectances[0] * reflectances[1], reflectances[1 - panel]);
@@ -189,7 +194,8 @@ impl Response {
 pub enum ModeLight {
     /// Parallel light: irradiance on panel 0 and on panel 1.
     Sun([f64; 2]),
-    /// A uniform sky with this irradiance on an unobstructed plane: each panel gets what the other does not hide, `1 − F·1`.
+    /// A uniform sky with this irradiance on an unobstructed plane: each panel gets what the other does not
+    /// hide, `1 − F·1`.
     Sky(f64),
 }
 
@@ -219,8 +225,8 @@ impl ModeLight {
 
 /// Modes of even light on either panel, seen on both, and the residuals.
 ///
-/// Light that starts on one panel is on the other after every odd number of bounces. So light of the two sources is always on different
-/// panels, and one product serves both.
+/// Light that starts on one panel is on the other after every odd number of bounces. So light of the two
+/// sources is always on different panels, and one product serves both.
 fn both_panels<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<[(ModeSet, f64); 2]> {
     let uniform = [0, 1].map(|panel| operator.uniform(panel));
     let middle = uniform[0].len();

@@ -9,7 +9,8 @@ use crate::solve::{Eigen, dot};
 
 /// Most Lanczos steps: an undivided fold of 1° takes about 600.
 const STEPS_MAX: usize = 1000;
-/// Poles nearer to zero than this count as this far away: a mode so weak does not come back, and its light is divided by its pole.
+/// Poles nearer to zero than this count as this far away: a mode so weak does not come back, and its light is
+/// divided by its pole.
 const LEAST_POLE: f64 = 1e-9;
 /// A surface that keeps all but this share of its light is closed but for rounding.
 const CLOSED: f64 = 1e-12;
@@ -20,7 +21,8 @@ pub struct Excited<A, M> {
     pub apply: A,
     /// Facet means of a vector.
     pub means: M,
-    /// Facet means of the light itself where `means` are those of the operator's product with a vector, which it knows better.
+    /// Facet means of the light itself where `means` are those of the operator's product with a vector, which
+    /// it knows better.
     pub direct: Option<Vec<f64>>,
 }
 
@@ -100,7 +102,8 @@ impl Lanczos {
         Ok(None)
     }
 
-    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means; `direct` as in [`Excited`].
+    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means; `direct`
+    /// as in [`Excited`].
     pub fn modes(&self, means: impl Fn(&[f64]) -> Vec<f64>, direct: Option<&[f64]>) -> ModeSet {
         let means: Vec<_> = self.basis.iter().map(|x| DVector::from_vec(means(x))).collect();
         // The light starts along the first vector of the basis.
@@ -141,7 +144,8 @@ fn subtract(x: &mut [f64], direction: &[f64], along: f64) {
 
 /// Modes of `direct + Σ_k r·light_k/(1 − r·pole_k)`, light that modes have thrown on facets.
 ///
-/// `r/(1 − rg) = (1/(1 − rg) − 1)/g`: modes keep their poles, and what does not depend on r is one that does not bounce, of pole 0.
+/// `r/(1 − rg) = (1/(1 − rg) − 1)/g`: modes keep their poles, and what does not depend on r is one that does
+/// not bounce, of pole 0.
 fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> ModeSet {
     let unbounced = light.ncols();
     let mut residues = light;
@@ -158,7 +162,8 @@ fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> M
     ModeSet { poles, residues }
 }
 
-/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1 or more.
+/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1
+/// or more.
 fn residual_at_one(diagonal: &[f64], off_diagonal: &[f64], next: f64) -> Option<f64> {
     // LDLᵀ of I − T, carrying the last component of the solution.
     let mut pivot = 1.0 - diagonal[0];
@@ -177,7 +182,8 @@ fn residual_at_one(diagonal: &[f64], off_diagonal: &[f64], next: f64) -> Option<
 mod tests {
     use super::*;
 
-    /// The pole of −0.9 stands alone: it is found long before the last step, and rounding would bring it back as another.
+    /// The pole of −0.9 stands alone: it is found long before the last step, and rounding would bring it back
+    /// as another.
     #[test]
     fn vectors_stay_orthogonal_without_being_made_so_every_time() {
         let size = 1500;

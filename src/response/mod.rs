@@ -1,8 +1,8 @@
 //! Light bounced for every reflectance at once.
 //!
-//! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few poles and
-//! residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28) without the modes that the
-//! light does not excite. A fold's [`Response`] holds those of any light on it.
+//! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few
+//! poles and residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28)
+//! without the modes that the light does not excite. A fold's [`Response`] holds those of any light on it.
 
 mod fold;
 mod lanczos;

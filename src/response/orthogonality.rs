@@ -1,10 +1,12 @@
-//! How orthogonal Lanczos' vectors are, as rounding has it: what three vectors in a row have to do with each other tells it without a look
-//! at the others.
+//! How orthogonal Lanczos' vectors are, as rounding has it: what three vectors in a row have to do with each
+//! other tells it without a look at the others.
 //!
 //! ## Reference
-//! H. D. Simon, *The Lanczos algorithm with partial reorthogonalization*, Mathematics of Computation 42 (1984), p. 115.
+//! H. D. Simon, *The Lanczos algorithm with partial reorthogonalization*, Mathematics of Computation 42
+//! (1984), p. 115.
 
-/// Vectors that are less orthogonal are made so again. Up to the root of the rounding (1e-8) poles and residues would not suffer.
+/// Vectors that are less orthogonal are made so again. Up to the root of the rounding (1e-8) poles and
+/// residues would not suffer.
 const LEAST_ORTHOGONAL: f64 = 1e-10;
 /// Rounding of a step, of vectors of length 1 and an exchange of norm 1 at most.
 const ROUNDING: f64 = 1e-15;
@@ -23,7 +25,8 @@ impl Orthogonality {
         Self { products: [vec![], vec![1.0]], restored: false }
     }
 
-    /// Whether the next vector, which will be divided by `length`, is to be made orthogonal to the basis; it is then taken to be.
+    /// Whether the next vector, which will be divided by `length`, is to be made orthogonal to the basis; it
+    /// is then taken to be.
     pub fn is_lost(&mut self, diagonal: &[f64], off_diagonal: &[f64], length: f64) -> bool {
         let last = diagonal.len() - 1;
         let [before, now] = &self.products;

@@ -11,8 +11,8 @@ use crate::response::ModeLight;
 use crate::spectrum::Spectrum;
 use crate::stream::{EstimateRecord, Sample, Scene, SpectrumRecord};
 
-/// What can be drawn of an estimate of the sample, its colours as under `illuminant` for `observer`. Where the scene cannot be seen, as one of
-/// nothing but a kernel, the spectrum is drawn alone.
+/// What can be drawn of an estimate of the sample, its colours as under `illuminant` for `observer`. Where
+/// the scene cannot be seen, as one of nothing but a kernel, the spectrum is drawn alone.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if a part of the scene is missing or does not fit the others.

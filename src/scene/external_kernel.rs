@@ -21,9 +21,9 @@ pub struct ExternalKernel {
 }
 
 impl ExternalKernel {
-    /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that reaches facet j. The file
-    /// `irradiance` holds direct light, one number per facet, or one row per source (1 everywhere if there is none); `areas` those of the
-    /// facets (by reciprocity if there is none).
+    /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that
+    /// reaches facet j. The file `irradiance` holds direct light, one number per facet, or one row per source
+    /// (1 everywhere if there is none); `areas` those of the facets (by reciprocity if there is none).
     ///
     /// # Errors
     /// [`Error::File`] or [`Error::Array`] if a file does not hold what it should.

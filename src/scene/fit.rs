@@ -20,8 +20,9 @@ impl Setting<'_> {
         self.model_to_fit_within(fit, 0.0)
     }
 
-    /// The same, folds of other angles being solved to this relative error of facet means if that is more than the scene's: enough to see
-    /// whether another angle would explain the facets, in a small part of the time.
+    /// The same, folds of other angles being solved to this relative error of facet means if that is more
+    /// than the scene's: enough to see whether another angle would explain the facets, in a small part of the
+    /// time.
     ///
     /// # Errors
     /// As [`Setting::model_to_fit`].

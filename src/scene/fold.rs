@@ -1,4 +1,5 @@
-//! A fold under sun and sky: its response, its lights and its camera, with a card of known reflectance if it has one.
+//! A fold under sun and sky: its response, its lights and its camera, with a card of known reflectance if it
+//! has one.
 
 use super::camera::{illuminant_responses, sky_response};
 use super::stated_light::{StatedLight, StatedSky};
@@ -34,7 +35,8 @@ pub struct FoldSetting {
     pub is_daylight_assumed: bool,
     /// The card that a panel is, if it is one.
     pub card: Option<Card>,
-    /// Relative error to which folds of other angles are solved; none if they are to be divided as this one is.
+    /// Relative error to which folds of other angles are solved; none if they are to be divided as this one
+    /// is.
     pub tolerance: Option<f64>,
 }
 

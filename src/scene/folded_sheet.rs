@@ -22,8 +22,8 @@ pub struct FoldedSheet {
 }
 
 impl FoldSetting {
-    /// A sheet that reflects like this in this fold, seen from `eye` in the fold's unit, on the facets of the scene or on others that are
-    /// `finer`.
+    /// A sheet that reflects like this in this fold, seen from `eye` in the fold's unit, on the facets of the
+    /// scene or on others that are `finer`.
     ///
     /// # Errors
     /// [`Error::Field`] if the scene has a card, panels of different depth, or more than one light.
@@ -56,7 +56,8 @@ impl FoldedSheet {
     /// Albedo of the sheet of this 45:0 reflectance in every waveband.
     ///
     /// # Errors
-    /// [`Error::Usage`] if no such sheet has it: what its surface reflects is more, or it would send out more light than it gets.
+    /// [`Error::Usage`] if no such sheet has it: what its surface reflects is more, or it would send out more
+    /// light than it gets.
     pub fn albedo(&self, reflectance: &[f64]) -> Result<Vec<f64>> {
         let [slope, offset] = self.shape.slope_and_offset();
         let of = |reflectance: &f64| {

@@ -10,8 +10,8 @@ use crate::image::{
 };
 use crate::surfaces::Sight;
 
-/// A fold as it was stated, to be compared with corners; the standard deviation of its angle, degrees, is that of one that somebody measured
-/// unless it is known.
+/// A fold as it was stated, to be compared with corners; the standard deviation of its angle, degrees, is
+/// that of one that somebody measured unless it is known.
 #[must_use]
 pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
     StatedFold {
@@ -62,8 +62,9 @@ impl<'a> MarkedPanels<'a> {
         self.panels.iter().zip(&self.marked).zip(corners).map(grid).collect()
     }
 
-    /// Whether each facet of the panels is hidden, row by row, by what stands before it: seen from where the camera stood for the panels to lie as
-    /// the `grids`. Panels of one plane do not tell where that was, and hide nothing.
+    /// Whether each facet of the panels is hidden, row by row, by what stands before it: seen from where the
+    /// camera stood for the panels to lie as the `grids`. Panels of one plane do not tell where that was, and
+    /// hide nothing.
     #[must_use]
     pub fn hidden(&self, sight: &Sight, grids: &[Grid], lens: Lens) -> Vec<bool> {
         let corners = |(panel, grid): (&&Panel, &Grid)| {

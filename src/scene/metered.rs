@@ -4,7 +4,8 @@ use crate::estimate::photograph::priors::Priors;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::Sun;
 
-/// Illuminance by the sun beyond the atmosphere, klx, and what a clear one takes of its logarithm for each air mass.
+/// Illuminance by the sun beyond the atmosphere, klx, and what a clear one takes of its logarithm for each
+/// air mass.
 const BEYOND_KLX: f64 = 127.5;
 const EXTINCTION: f64 = 0.21;
 /// What a clear atmosphere takes varies by as much for each air mass.
@@ -12,11 +13,13 @@ const EXTINCTION_SD: f64 = 0.1;
 /// Where the sun stands if nobody says it, degrees from the zenith.
 const ZENITH_DEG: f64 = 45.0;
 
-/// Logarithm of the value of a perfect white diffuser that faces an unclouded sun, if the camera makes it `white_per_klx` under 1000 lx, in the light of
-/// this `illuminant`. A low sun says less, as its way through the air is long.
+/// Logarithm of the value of a perfect white diffuser that faces an unclouded sun, if the camera makes it
+/// `white_per_klx` under 1000 lx, in the light of this `illuminant`. A low sun says less, as its way through
+/// the air is long.
 ///
 /// # Source
-/// Illuminating Engineering Society of North America, *Lighting Handbook*, 9th ed. (2000), chapter 8: direct illuminance under a clear sky.
+/// Illuminating Engineering Society of North America, *Lighting Handbook*, 9th ed. (2000), chapter 8: direct
+/// illuminance under a clear sky.
 #[must_use]
 pub fn in_the_sun(white_per_klx: f64, illuminant: &str, priors: &Priors) -> Option<Normal> {
     let stated = illuminant.strip_prefix("sun:").and_then(|words| Sun::parse(words).ok());
@@ -37,7 +40,8 @@ mod tests {
         Normal { mean: mean.exp(), sd }
     }
 
-    /// The sun on a plane that faces it, from tables of clear days: 100 klx at 60° above the horizon, about 60 klx at 15°.
+    /// The sun on a plane that faces it, from tables of clear days: 100 klx at 60° above the horizon, about
+    /// 60 klx at 15°.
     #[test]
     fn a_high_sun_gives_a_hundred_thousand_lux() {
         assert!((klx("sun:30deg").mean - 100.0).abs() < 3.0, "{:?}", klx("sun:30deg"));

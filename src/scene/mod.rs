@@ -1,7 +1,8 @@
 //! What the records of a scene mean: a surface in its light before a camera, and the models of it.
 //!
-//! [`stream`](crate::stream) reads and writes the records; here they become responses, lights and models. Whether a scene is a fold,
-//! which has formulas of its own, or any other surface is decided by [`Setting::of`] and nowhere else.
+//! [`stream`](crate::stream) reads and writes the records; here they become responses, lights and models.
+//! Whether a scene is a fold, which has formulas of its own, or any other surface is decided by
+//! [`Setting::of`] and nowhere else.
 
 mod camera;
 mod drawn;
@@ -114,7 +115,8 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// What is in the order of the model's sources, of what lamps have in their order, the sun being one, and skies.
+    /// What is in the order of the model's sources, of what lamps have in their order, the sun being one, and
+    /// skies.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if the sources are missing.

@@ -1,5 +1,5 @@
-//! What the facets of a photograph are made of: the fold of the scene, the camera where the corners say it stood, and all that real sheets
-//! and light may add.
+//! What the facets of a photograph are made of: the fold of the scene, the camera where the corners say it
+//! stood, and all that real sheets and light may add.
 
 mod ambient;
 mod bins;
@@ -30,8 +30,8 @@ use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
 use crate::stream::Sample;
 
-/// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may have erred by, as a share of the angle
-/// at most; degrees of bow.
+/// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may
+/// have erred by, as a share of the angle at most; degrees of bow.
 const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
@@ -83,7 +83,8 @@ impl<'a> PhotographedFold<'a> {
         Self { setting, nodes: nodes(NODES), priors: &Priors::USUAL, left_out: None }
     }
 
-    /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes of a sheet that nobody measured.
+    /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes
+    /// of a sheet that nobody measured.
     #[must_use]
     pub fn leaving_out(self, sheet: &str) -> Self {
         Self { left_out: Some(sheet.to_owned()), ..self }
@@ -106,11 +107,12 @@ impl<'a> PhotographedFold<'a> {
         }
     }
 
-    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own, its facets as the model has them; or why there
-    /// are none.
+    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own, its facets as
+    /// the model has them; or why there are none.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if facets do not fit the scene, [`crate::Error::Usage`] if the fold cannot be seen.
+    /// [`crate::Error::Field`] if facets do not fit the scene, [`crate::Error::Usage`] if the fold cannot be
+    /// seen.
     pub fn planned(
         &self,
         measured: &Measured,

@@ -1,4 +1,5 @@
-//! What an estimate leaves of the facets, computed from the records: scene, estimate and what facets were taken to be worth.
+//! What an estimate leaves of the facets, computed from the records: scene, estimate and what facets were
+//! taken to be worth.
 
 use nalgebra::DMatrix;
 
@@ -9,13 +10,15 @@ use crate::estimate::unknowns::Unknown;
 use crate::forward::{FacetModel, FacetValues};
 use crate::stream::{EstimateRecord, Sample, Scene};
 
-/// Measured minus estimated facets in units of their standard deviations; none of a sheet that is not taken to be ideal.
+/// Measured minus estimated facets in units of their standard deviations; none of a sheet that is not taken
+/// to be ideal.
 ///
 /// # Errors
 /// [`Error::Field`] if estimate and facets do not fit the scene.
 pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> Result<Option<FacetValues>> {
     let fit: Vec<_> = estimate.fitted().map(|(unknown, _)| unknown).collect();
-    // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it says little.
+    // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it
+    // says little.
     if fit.iter().any(|unknown| unknown.is_of_photographs()) {
         return Ok(None);
     }

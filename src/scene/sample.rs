@@ -38,10 +38,12 @@ pub fn other_lights(
     (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
 }
 
-/// The photograph in which the facets of a sample were measured, but for those in shadows; of other surfaces than a `fold` nothing is asked.
+/// The photograph in which the facets of a sample were measured, but for those in shadows; of other surfaces
+/// than a `fold` nothing is asked.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if facets or corners do not fit the scene, or the record of the photograph is not one.
+/// [`crate::Error::Field`] if facets or corners do not fit the scene, or the record of the photograph is not
+/// one.
 pub fn photographed(
     fold: Option<&FoldSetting>,
     sample: &Sample,

@@ -1,4 +1,5 @@
-//! Sources around a fold as the light in which a photograph of it is taken: the sun, and a sky that somebody stated.
+//! Sources around a fold as the light in which a photograph of it is taken: the sun, and a sky that somebody
+//! stated.
 
 use nalgebra::Vector3;
 

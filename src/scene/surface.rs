@@ -41,12 +41,12 @@ impl<'a> SurfaceSetting<'a> {
         self.scene.sources()
     }
 
-    /// The camera's responses to the sources. Of several illuminants each is that of a source, the skies aside, or, where there
-    /// is one source, that of a picture.
+    /// The camera's responses to the sources. Of several illuminants each is that of a source, the skies
+    /// aside, or, where there is one source, that of a picture.
     ///
     /// # Errors
-    /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths, or if there are more than one but
-    /// not as many illuminants as sources.
+    /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths, or if there
+    /// are more than one but not as many illuminants as sources.
     pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
         let sources = self.sources()?;
         let responses = self.lamp_responses(&sources)?;
@@ -77,7 +77,8 @@ impl<'a> SurfaceSetting<'a> {
             );
             return Err(Error::field("illuminants", problem));
         }
-        // Powers are relative: in which amounts the sources light the surface is said of the first one's strongest channel.
+        // Powers are relative: in which amounts the sources light the surface is said of the first one's
+        // strongest channel.
         let others = illuminants[1..]
             .iter()
             .map(|illuminant| pictures[0].to_other_light(grid, &camera.sensitivities, &illuminant.power));

@@ -109,7 +109,8 @@ pub static METRICS: [Metric; 6] = [
 ];
 
 impl Metric {
-    /// The metric of a score in a record, whichever illuminant it is under; none if it is not one of [`METRICS`].
+    /// The metric of a score in a record, whichever illuminant it is under; none if it is not one of
+    /// [`METRICS`].
     ///
     /// # Example
     /// ```

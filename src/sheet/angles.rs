@@ -19,12 +19,14 @@ pub struct Angles {
     pub cos_between: f64,
     /// Where a table has them.
     pub(super) place: Place,
-    /// What a smooth surface reflects of light that comes in, that leaves, and of light that its facets mirror from one to the other.
+    /// What a smooth surface reflects of light that comes in, that leaves, and of light that its facets
+    /// mirror from one to the other.
     pub(super) fresnel: [f64; 3],
 }
 
 impl Angles {
-    /// Those of two directions of length 1 away from the sheet, z along its normal: towards the light and towards the eye.
+    /// Those of two directions of length 1 away from the sheet, z along its normal: towards the light and
+    /// towards the eye.
     ///
     /// # Example
     /// ```
@@ -54,7 +56,8 @@ impl Angles {
         Self::new(&Vector3::new(half, 0.0, half), &Vector3::z())
     }
 
-    /// Product of the directions' parts along the sheet: sines of both angles times the cosine of the azimuth between them.
+    /// Product of the directions' parts along the sheet: sines of both angles times the cosine of the azimuth
+    /// between them.
     #[must_use]
     pub fn along_sheet(&self) -> f64 {
         self.cos_between - self.cos_in * self.cos_out

@@ -17,7 +17,8 @@ pub struct Family {
     pub specular_weight: f64,
     /// Roughness of that surface, (0, 1]: the parameter of the GGX distribution.
     pub roughness: f64,
-    /// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of felt.
+    /// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of
+    /// felt.
     pub sheen: f64,
 }
 

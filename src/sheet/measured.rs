@@ -12,7 +12,8 @@ use crate::error::{Error, Result};
 const NAMES: &str = include_str!("../../share/sheet-shapes.txt");
 const TABLES: &[u8] = include_bytes!("../../share/sheet-shapes.npy");
 
-/// Shapes of measured sheets: papers, felts, card, a leaf, cloth, flat paints; in the order of [`measured_names`].
+/// Shapes of measured sheets: papers, felts, card, a leaf, cloth, flat paints; in the order of
+/// [`measured_names`].
 ///
 /// # Errors
 /// Only if the embedded table is damaged.

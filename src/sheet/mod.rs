@@ -1,8 +1,10 @@
-//! How a sheet reflects: a coloured body and a colourless surface, both with a shape of their own over the directions.
+//! How a sheet reflects: a coloured body and a colourless surface, both with a shape of their own over the
+//! directions.
 //!
-//! `f(a) = (a − s)/b · B + S`, 1/sr: `a` the sheet's albedo in a waveband, that is its reflectance averaged over cosine-weighted
-//! directions of incidence and exit; `B` the body, normalised to `π·B = 1` for light from 45 degrees seen from above; `S` the surface, 0 there; `b` and
-//! `s` their own albedos. What a spectrophotometer of that geometry says is then `ρ = (a − s)/b`.
+//! `f(a) = (a − s)/b · B + S`, 1/sr: `a` the sheet's albedo in a waveband, that is its reflectance averaged
+//! over cosine-weighted directions of incidence and exit; `B` the body, normalised to `π·B = 1` for light
+//! from 45 degrees seen from above; `S` the surface, 0 there; `b` and `s` their own albedos. What a
+//! spectrophotometer of that geometry says is then `ρ = (a − s)/b`.
 
 mod angles;
 mod family;
@@ -189,7 +191,8 @@ mod tests {
         }
     }
 
-    /// Under light from everywhere a white sheet of albedo 1 sends out no more than it gets, within what is lost to rough slopes.
+    /// Under light from everywhere a white sheet of albedo 1 sends out no more than it gets, within what is
+    /// lost to rough slopes.
     #[test]
     fn albedos_are_what_is_asked_for() {
         for family in families() {

@@ -31,7 +31,8 @@ impl Place {
     }
 }
 
-/// Nodes of angles and azimuths as shares of their ranges: narrow towards grazing angles and the mirror's direction.
+/// Nodes of angles and azimuths as shares of their ranges: narrow towards grazing angles and the mirror's
+/// direction.
 static NODES: LazyLock<([f64; ANGLES], [f64; AZIMUTHS])> = LazyLock::new(|| (nodes(), nodes()));
 
 /// `1 − (1 − x)^1.5`, x even from 0 to 1.

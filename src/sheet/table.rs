@@ -1,7 +1,8 @@
 //! Reflection of measured sheets, as a table over the directions.
 //!
-//! Fits of measured materials (A. Sztrajman et al., "Neural BRDF representation and importance sampling", Computer Graphics Forum 2021; the
-//! measurements: J. Dupuy, W. Jakob, SIGGRAPH Asia 2018, and J. Nielsen et al., SIGGRAPH Asia 2015), sampled by `share/make-shapes.py`.
+//! Fits of measured materials (A. Sztrajman et al., "Neural BRDF representation and importance sampling",
+//! Computer Graphics Forum 2021; the measurements: J. Dupuy, W. Jakob, SIGGRAPH Asia 2018, and J. Nielsen et
+//! al., SIGGRAPH Asia 2015), sampled by `share/make-shapes.py`.
 
 use std::sync::Arc;
 

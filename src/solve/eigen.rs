@@ -1,7 +1,7 @@
 //! Eigenvalues and eigenvectors of symmetric matrices.
 //!
-//! By the QL method with implicit shifts. `nalgebra::SymmetricEigen` (0.33) is not right for some matrices, tridiagonal ones
-//! with small entries among them: a test below holds one against it.
+//! By the QL method with implicit shifts. `nalgebra::SymmetricEigen` (0.33) is not right for some matrices,
+//! tridiagonal ones with small entries among them: a test below holds one against it.
 
 use nalgebra::DMatrix;
 use nalgebra::linalg::SymmetricTridiagonal;
@@ -36,7 +36,8 @@ impl Eigen {
         Self::seen(DMatrix::identity(diagonal.len(), diagonal.len()), diagonal, off_diagonal)
     }
 
-    /// As [`Eigen::of_tridiagonal`], with the product of `rows` and the eigenvectors in place of these: fewer rows take less time.
+    /// As [`Eigen::of_tridiagonal`], with the product of `rows` and the eigenvectors in place of these: fewer
+    /// rows take less time.
     ///
     /// # Example
     /// ```
@@ -90,7 +91,8 @@ impl Ql {
         (rest > 0).then_some(first + rest)
     }
 
-    /// One implicit QL step on a block, shifted by the eigenvalue of its first two rows that is nearer to the first entry.
+    /// One implicit QL step on a block, shifted by the eigenvalue of its first two rows that is nearer to the
+    /// first entry.
     fn sweep(&mut self, first: usize, last: usize) {
         let (d, e) = (&mut self.diagonal, &mut self.off_diagonal);
         let slope = (d[first + 1] - d[first]) / (2.0 * e[first]);

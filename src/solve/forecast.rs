@@ -7,7 +7,8 @@ use super::posterior::{Model, Solution, cost, gauss_newton};
 /// About a maximum, how much more probable data become where the model may move in one more way.
 ///
 /// # Source
-/// The score test: C. R. Rao, *Mathematical Proceedings of the Cambridge Philosophical Society* 44 (1948), p. 50.
+/// The score test: C. R. Rao, *Mathematical Proceedings of the Cambridge Philosophical Society* 44 (1948), p.
+/// 50.
 pub struct ScoreTest<'a> {
     weight: f64,
     residuals: &'a DVector<f64>,
@@ -24,8 +25,8 @@ impl<'a> ScoreTest<'a> {
         Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
     }
 
-    /// Logarithm of how many times as probable the maximum becomes where the model may move along `change`, too, as far as it likes: 0 where
-    /// the data would have it move the other way.
+    /// Logarithm of how many times as probable the maximum becomes where the model may move along `change`,
+    /// too, as far as it likes: 0 where the data would have it move the other way.
     #[must_use]
     pub fn ln_gain_along(&self, change: &DVector<f64>) -> f64 {
         let slope = self.slope(change);

@@ -18,7 +18,8 @@ pub enum Termination {
     },
     /// The limit on iterations came first.
     IterationLimit,
-    /// No step along the search direction lowered the cost any more, where rounding is reached, or none would lower it enough.
+    /// No step along the search direction lowered the cost any more, where rounding is reached, or none would
+    /// lower it enough.
     NoProgress {
         /// What is left of the gradient.
         gradient_norm: f64,

@@ -1,12 +1,12 @@
 //! The maximum of a Gaussian prior times a Gaussian likelihood of a nonlinear model, by Newton's method.
 //!
-//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. Data a million times as large as their
-//! noise are constraints, and their residuals far from the minimum say nothing of the curvature along them. So the second
-//! derivatives are weighted as in sequential quadratic programming, with multipliers: the residuals that the linearised
-//! model leaves, `I + JᵀJ − Σ (ρ − Jδ)ᵢ∇²mᵢ`. A step that the constraints' curvature spoils is corrected to second order.
-//! The step is solved for itself, in the space of the unknowns: the system in the space of the data (Tarantola, *Inverse
-//! Problem Theory*, 2005, section 3.2.3) gives the next iterate whole, and the step as a small difference of large vectors
-//! loses its digits.
+//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. Data a million times
+//! as large as their noise are constraints, and their residuals far from the minimum say nothing of the
+//! curvature along them. So the second derivatives are weighted as in sequential quadratic programming, with
+//! multipliers: the residuals that the linearised model leaves, `I + JᵀJ − Σ (ρ − Jδ)ᵢ∇²mᵢ`. A step that the
+//! constraints' curvature spoils is corrected to second order. The step is solved for itself, in the space of
+//! the unknowns: the system in the space of the data (Tarantola, *Inverse Problem Theory*, 2005, section
+//! 3.2.3) gives the next iterate whole, and the step as a small difference of large vectors loses its digits.
 //!
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
@@ -19,13 +19,15 @@ use super::Termination;
 
 /// The noise is first taken for this share of the residual at the start.
 const FIRST_SHARE: f64 = 0.3;
-/// Factor by which the noise falls from stage to stage, the root of ten: a tenth releases so many coordinates at once that the next stage
-/// may set out far off the valley that precise data cut.
+/// Factor by which the noise falls from stage to stage, the root of ten: a tenth releases so many coordinates
+/// at once that the next stage may set out far off the valley that precise data cut.
 const STAGE: f64 = 3.162_277_660_168_379_5;
-/// Most steps at each tempering of the noise, and the gradient in the metric of the Hessian that ends a stage earlier.
+/// Most steps at each tempering of the noise, and the gradient in the metric of the Hessian that ends a stage
+/// earlier.
 const STEPS_A_STAGE: u32 = 60;
 const END_OF_STAGE: f64 = 1.0;
-/// Longest step, in standard deviations of the prior: further out the model is not the one that was linearised.
+/// Longest step, in standard deviations of the prior: further out the model is not the one that was
+/// linearised.
 const LONGEST: f64 = 10.0;
 /// Most trials of a step; first damping, and its factors after a failure and after a success.
 const TRIALS: usize = 14;
@@ -33,18 +35,19 @@ const DAMPING: f64 = 0.1;
 const DAMPING_UP: f64 = 5.0;
 const DAMPING_DOWN: f64 = 0.1;
 const DAMPING_LEAST: f64 = 1e-3;
-/// Where curvature is left out, the share of what a step promised from which damping falls after it, and the one below which it rises
-/// (Nocedal and Wright, section 4.1, of the radius of a trust region).
+/// Where curvature is left out, the share of what a step promised from which damping falls after it, and the
+/// one below which it rises (Nocedal and Wright, section 4.1, of the radius of a trust region).
 const KEPT_WELL: f64 = 0.75;
 const KEPT_BADLY: f64 = 0.25;
-/// The least that a damped step must promise, relative to what the last step may: where the model has a kink, or its derivatives are
-/// differences, no step lowers the cost.
+/// The least that a damped step must promise, relative to what the last step may: where the model has a kink,
+/// or its derivatives are differences, no step lowers the cost.
 const LEAST_PROMISE: f64 = 0.01;
-/// Most corrections of a step, and the share of what it promised that is enough. One takes a third more steps; with more than two some
-/// searches end in another maximum.
+/// Most corrections of a step, and the share of what it promised that is enough. One takes a third more
+/// steps; with more than two some searches end in another maximum.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
-/// Where even this share of the cost that the linear model foresees at the last noise is too much, less noise is not tried.
+/// Where even this share of the cost that the linear model foresees at the last noise is too much, less noise
+/// is not tried.
 const FORESEEN: f64 = 0.1;
 /// A step that lowers the cost by less than this share of what it is too high leads nowhere.
 const TOO_LITTLE: f64 = 0.05;
@@ -101,8 +104,8 @@ pub struct Iteration {
 }
 
 impl<S> Solution<S> {
-    /// Logarithm of the probability of the data under prior and model, the noise `tempering` times its size, but for a term that
-    /// depends on the data alone.
+    /// Logarithm of the probability of the data under prior and model, the noise `tempering` times its size,
+    /// but for a term that depends on the data alone.
     ///
     /// # Source
     /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
@@ -119,8 +122,9 @@ impl<S> Solution<S> {
         cost(tempering.powi(-2), &self.w, &self.at.residuals)
     }
 
-    /// How far the data, the noise being `tempering` times its size, are from what the prior predicts, in standard deviations: of a linear model the cost at the maximum is
-    /// chi-squared, with as many degrees of freedom as there are data. At a false maximum it is far out.
+    /// How far the data, the noise being `tempering` times its size, are from what the prior predicts, in
+    /// standard deviations: of a linear model the cost at the maximum is chi-squared, with as many degrees of
+    /// freedom as there are data. At a false maximum it is far out.
     #[must_use]
     pub fn surprise(&self, tempering: f64) -> f64 {
         let data = self.at.residuals.len() as f64;
@@ -144,21 +148,23 @@ impl From<usize> for Limits {
     }
 }
 
-/// Factor of `I + JᵀJ`, J being the derivatives of the model: the inverse of Laplace's covariance. None if the model was not finite.
+/// Factor of `I + JᵀJ`, J being the derivatives of the model: the inverse of Laplace's covariance. None if
+/// the model was not finite.
 #[must_use]
 pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Cholesky::new(gauss_newton(jacobian, 1.0))
 }
 
-/// The noise at the start: a third of the residual there, but no less than `least`, all in units of the true noise.
+/// The noise at the start: a third of the residual there, but no less than `least`, all in units of the true
+/// noise.
 pub fn first_tempering(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 {
     let residuals = model.residuals(w);
     (FIRST_SHARE * residuals.norm() / (residuals.len().max(1) as f64).sqrt()).max(least)
 }
 
-/// Minimises from `start`, the noise first tempered to `tempering.0` times its true size and then, by roots of ten, down to
-/// `tempering.1`, until a step promises to lower the cost by no more than half of `tolerance` squared: the iterate is then
-/// within `tolerance` standard deviations of the minimum.
+/// Minimises from `start`, the noise first tempered to `tempering.0` times its true size and then, by roots
+/// of ten, down to `tempering.1`, until a step promises to lower the cost by no more than half of `tolerance`
+/// squared: the iterate is then within `tolerance` standard deviations of the minimum.
 ///
 /// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
 pub fn find_mode<M: Model>(
@@ -186,7 +192,8 @@ pub fn find_mode<M: Model>(
         };
         let gradient_norm = newton.decrement;
         if now > last {
-            // A stage only has to lead to where the next one can start: it is left before its own minimum, but not without a step.
+            // A stage only has to lead to where the next one can start: it is left before its own minimum,
+            // but not without a step.
             if steps > 0 && (gradient_norm < END_OF_STAGE || steps == STEPS_A_STAGE) {
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;
@@ -214,7 +221,8 @@ pub fn find_mode<M: Model>(
             if now <= last {
                 break Termination::NoProgress { gradient_norm };
             }
-            // Less noise changes the cost, so that steps may lower it again: end the stage and forget the damping.
+            // Less noise changes the cost, so that steps may lower it again: end the stage and forget the
+            // damping.
             (steps, search.damping) = (STEPS_A_STAGE, 0.0);
         }
     };
@@ -281,7 +289,8 @@ impl<M: Model> Search<'_, M> {
         cost(newton.weight, &self.w, &self.at.residuals)
     }
 
-    /// Cost at the minimum of the linear model, the noise being `tempering` times its size; not finite if the model is not.
+    /// Cost at the minimum of the linear model, the noise being `tempering` times its size; not finite if the
+    /// model is not.
     fn foreseen_cost(&self, tempering: f64) -> f64 {
         let newton = self.gauss_newton(tempering.powi(-2));
         newton.map_or(f64::INFINITY, |newton| self.cost(&newton) - newton.decrement.powi(2))
@@ -298,8 +307,8 @@ impl<M: Model> Search<'_, M> {
 
     /// One step, damped until it lowers the cost; whether any did.
     fn step(&mut self, newton: &GaussNewton) -> bool {
-        // What the linear model leaves of the residuals, not the residuals themselves: far from the minimum these are large and
-        // would make a curvature of what the step is about to remove.
+        // What the linear model leaves of the residuals, not the residuals themselves: far from the minimum
+        // these are large and would make a curvature of what the step is about to remove.
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
         let curvature =
             self.model.curvature(&self.at.second, &multipliers).map(|of_data| newton.weight * of_data);
@@ -344,8 +353,8 @@ impl<M: Model> Search<'_, M> {
         (direction.norm() <= LONGEST).then_some(direction)
     }
 
-    /// Where a step leads, corrected for what bends if it does not keep half of its promise, and the share that it keeps; none if the cost
-    /// is higher.
+    /// Where a step leads, corrected for what bends if it does not keep half of its promise, and the share
+    /// that it keeps; none if the cost is higher.
     fn trial(&self, newton: &GaussNewton, direction: DVector<f64>) -> Option<(DVector<f64>, f64)> {
         let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
@@ -356,8 +365,8 @@ impl<M: Model> Search<'_, M> {
         if after < before - 0.5 * promise {
             return Some((next, (before - after) / promise));
         }
-        // The curvature of precise data has thrown the step off their valley: solutions with the old factor, for what the linear model
-        // did not foresee, lead back to it.
+        // The curvature of precise data has thrown the step off their valley: solutions with the old factor,
+        // for what the linear model did not foresee, lead back to it.
         let foreseen = &self.at.residuals - &self.at.jacobian * direction;
         let enough = before - KEPT * (before - cost(&next, &foreseen));
         for _ in 0..CORRECTIONS {

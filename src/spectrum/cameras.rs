@@ -1,6 +1,7 @@
 //! The 52 cameras of rawtoaces-data, found by maker and model as they write them into their pictures.
 //!
-//! Measured at Wētā Digital, scitech and the National Physical Laboratory; `share/make-cameras.py` made the array and the names.
+//! Measured at Wētā Digital, scitech and the National Physical Laboratory; `share/make-cameras.py` made the
+//! array and the names.
 
 use std::sync::Arc;
 
@@ -106,7 +107,8 @@ impl MeasuredCamera {
         words(self.maker).next() == words(make).next()
     }
 
-    /// The model whose sensor is this one's, if `model`, as it is written into pictures, is not this one but has its sensor.
+    /// The model whose sensor is this one's, if `model`, as it is written into pictures, is not this one but
+    /// has its sensor.
     #[must_use]
     pub fn has_same_sensor(&self, model: &str) -> bool {
         self.is_called(self.same_sensor, model)
@@ -132,7 +134,8 @@ pub(super) fn by_name(name: &str) -> Option<MeasuredCamera> {
     measured_cameras().find(|camera| camera.is_made_by(name) && camera.is_or_shares_sensor(name))
 }
 
-/// Whether make and model, as they are written into pictures, are those of a camera that calls itself otherwise elsewhere.
+/// Whether make and model, as they are written into pictures, are those of a camera that calls itself
+/// otherwise elsewhere.
 pub(super) fn is_same_model((make, model): (&str, &str), (other_make, other): (&str, &str)) -> bool {
     words(make).next() == words(other_make).next() && plain_model(make, model) == plain_model(make, other)
 }

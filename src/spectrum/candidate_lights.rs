@@ -24,12 +24,14 @@ struct Kind {
     lights: fn(usize) -> Vec<(String, Option<f64>)>,
 }
 
-/// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are distinguished from neither by facets of one part in a thousand.
+/// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are distinguished from
+/// neither by facets of one part in a thousand.
 const STEP_MIRED: usize = 10;
 /// The same of a sheet that is known.
 const FINE_STEP_MIRED: usize = 2;
 
-/// Nothing is known of where people fold sheets but that it is by day as often as not: round shares, none of them fitted.
+/// Nothing is known of where people fold sheets but that it is by day as often as not: round shares, none of
+/// them fitted.
 const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.4,
@@ -78,8 +80,8 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
     names.into_iter().map(|name| (name.into(), None)).collect()
 }
 
-/// Daylight of 4000 to 12 500 K, the sun at four heights, black bodies of 2500 to 4000 K, CIE's white LEDs and fluorescent lamps, neighbours
-/// next to each other.
+/// Daylight of 4000 to 12 500 K, the sun at four heights, black bodies of 2500 to 4000 K, CIE's white LEDs
+/// and fluorescent lamps, neighbours next to each other.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.

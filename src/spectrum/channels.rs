@@ -9,7 +9,8 @@ use crate::error::Result;
 const COLOURS: [&[&str]; 3] =
     [&["r", "red"], &["g", "green", "g1", "g2", "gr", "gb", "green1", "green2"], &["b", "blue"]];
 const GREEN: usize = 1;
-/// How far apart the peaks of measured channels are at least: of those built in that are on one scale, by a fifth.
+/// How far apart the peaks of measured channels are at least: of those built in that are on one scale, by a
+/// fifth.
 const SAME_PEAK: f64 = 0.01;
 
 /// The place among R, G and B that the name of a column says: `R`, `Red channel`, `Canon R`, `G1`.
@@ -24,11 +25,12 @@ fn is_one_of_two(name: &str) -> bool {
     words(name).any(|word| matches!(word.as_str(), "gr" | "gb") || word.ends_with(['1', '2']))
 }
 
-/// The channels of a camera's file in the order R, G, B, two greens as their mean, and what was done; columns whose names say no colour
-/// stay where they are.
+/// The channels of a camera's file in the order R, G, B, two greens as their mean, and what was done; columns
+/// whose names say no colour stay where they are.
 ///
 /// # Errors
-/// [`crate::Error::Spectrum`] if two columns are of one colour, or if names say the colours of some but not of all.
+/// [`crate::Error::Spectrum`] if two columns are of one colour, or if names say the colours of some but not
+/// of all.
 pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum>, Vec<String>)> {
     const NAME_THEM: &str = "name the columns R, G and B";
     let places: Vec<_> = columns.iter().map(|column| place(column.name())).collect();
@@ -85,8 +87,8 @@ fn mean(name: &str, a: &Spectrum, b: &Spectrum) -> Spectrum {
     Spectrum::from_table(name.to_owned(), a.wavelengths_nm.clone(), values)
 }
 
-/// Whether the two or three channels of a camera have the same peak: someone scaled them one by one, and they do not say any more how they
-/// compare. Filters of a camera with more may well be so.
+/// Whether the two or three channels of a camera have the same peak: someone scaled them one by one, and they
+/// do not say any more how they compare. Filters of a camera with more may well be so.
 ///
 /// # Example
 /// ```

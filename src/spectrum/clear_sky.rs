@@ -1,8 +1,9 @@
 //! The sun and the sky of a cloudless day.
 //!
-//! R. Bird, C. Riordan, "Simple solar spectral model for direct and diffuse irradiance on horizontal and tilted planes at the earth's surface
-//! for cloudless atmospheres", *Journal of Climate and Applied Meteorology* 25 (1986), p. 87; equations are those of the report before it,
-//! SERI/TR-215-2436 (1984). Where report and NREL's program `spectrl2_2.c` differ, the program is followed, as pvlib does.
+//! R. Bird, C. Riordan, "Simple solar spectral model for direct and diffuse irradiance on horizontal and
+//! tilted planes at the earth's surface for cloudless atmospheres", *Journal of Climate and Applied
+//! Meteorology* 25 (1986), p. 87; equations are those of the report before it, SERI/TR-215-2436 (1984). Where
+//! report and NREL's program `spectrl2_2.c` differ, the program is followed, as pvlib does.
 
 use super::Spectrum;
 use super::sun::Sun;
@@ -39,8 +40,8 @@ const ASYMMETRY: f64 = 0.65;
 const BACK_AIR_MASS: f64 = 1.8;
 
 impl ClearSky {
-    /// At sea level, turbidity 0.1 at 500 nm, 1.42 cm of water and 0.344 atm cm of ozone, the U.S. Standard Atmosphere's as in ASTM G173,
-    /// ground of albedo 0.2.
+    /// At sea level, turbidity 0.1 at 500 nm, 1.42 cm of water and 0.344 atm cm of ozone, the U.S. Standard
+    /// Atmosphere's as in ASTM G173, ground of albedo 0.2.
     #[must_use]
     pub fn usual(sun: Sun) -> Self {
         Self {
@@ -111,7 +112,8 @@ impl ClearSky {
         (by_air + by_aerosol + from_ground) * ultraviolet
     }
 
-    /// Share of light from the ground that the sky sends back; eq. 3-8 as in the program, with the mixed gases in place of ozone.
+    /// Share of light from the ground that the sky sends back; eq. 3-8 as in the program, with the mixed
+    /// gases in place of ozone.
     fn sky_reflectivity(&self, band: &Band) -> f64 {
         let passed = self.passed(band, BACK_AIR_MASS);
         let backward = 1.0 - forward_share(1.0 / BACK_AIR_MASS);

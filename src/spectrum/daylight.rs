@@ -1,7 +1,7 @@
 //! CIE daylight of any colour temperature.
 //!
-//! CIE 15:2018, section 4.1.2: chromaticity from the temperature, then a mean and two characteristic vectors of
-//! measured daylight, S(λ) = S0(λ) + M1 S1(λ) + M2 S2(λ).
+//! CIE 15:2018, section 4.1.2: chromaticity from the temperature, then a mean and two characteristic vectors
+//! of measured daylight, S(λ) = S0(λ) + M1 S1(λ) + M2 S2(λ).
 
 use std::sync::OnceLock;
 
@@ -11,8 +11,8 @@ use crate::error::{Error, Result};
 
 /// Daylight of the correlated colour temperature `cct_k`, in K, 100 at 560 nm, on 300..830 nm.
 ///
-/// The temperature is the actual one: D65 is `daylight:6504`, D50 is `daylight:5003`, because the constant c2 of
-/// Planck's law changed by 1.4388/1.4380 after those illuminants were named.
+/// The temperature is the actual one: D65 is `daylight:6504`, D50 is `daylight:5003`, because the constant c2
+/// of Planck's law changed by 1.4388/1.4380 after those illuminants were named.
 ///
 /// # Errors
 /// [`Error::Spectrum`] outside 4000..25000 K, where the formulae are not defined.
@@ -41,8 +41,8 @@ pub fn daylight_weights(cct_k: f64) -> [f64; 2] {
     [m1, m2]
 }
 
-/// A light that is one of the CIE's daylight illuminants, which are tabulated here from 380 nm, continued to 300 nm by the formulae of their
-/// temperatures; any other light as it is.
+/// A light that is one of the CIE's daylight illuminants, which are tabulated here from 380 nm, continued to
+/// 300 nm by the formulae of their temperatures; any other light as it is.
 ///
 /// # Errors
 /// [`Error::Spectrum`] if a table is damaged.

@@ -6,17 +6,18 @@ use super::quantities::bad;
 use super::{Outside, Spectrum, WavelengthGrid, formats, interpolation::Interpolation};
 use crate::error::{Error, Result};
 
-/// Nearer to its excitation than this, nm, light counts as reflected: instruments that measure such matrices let bands of 10 nm pass, which share
-/// what their neighbours reflect.
+/// Nearer to its excitation than this, nm, light counts as reflected: instruments that measure such matrices
+/// let bands of 10 nm pass, which share what their neighbours reflect.
 const REFLECTED_WITHIN_NM: f64 = 10.0;
 /// More than instruments measure of nothing: up to 0.006 in four matrices of a Labsphere BFC-450.
 const NO_NOISE: f64 = 0.01;
 
-/// The bispectral radiance factors of a sheet: what it sends out in a waveband of light that falls on it in another one, where white sends out
-/// as much as falls on it in the same.
+/// The bispectral radiance factors of a sheet: what it sends out in a waveband of light that falls on it in
+/// another one, where white sends out as much as falls on it in the same.
 ///
 /// # Source
-/// R. Donaldson, "Spectrophotometry of fluorescent pigments", *British Journal of Applied Physics* 5 (1954), p. 210.
+/// R. Donaldson, "Spectrophotometry of fluorescent pigments", *British Journal of Applied Physics* 5 (1954),
+/// p. 210.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Donaldson {
     /// Light that is reflected, on the wavelengths of emission.
@@ -31,7 +32,8 @@ pub struct Donaldson {
 pub struct Bispectral {
     /// Reflectance, one per waveband of the scene.
     pub reflectance: Vec<f64>,
-    /// What is sent out in the scene's wavebands (rows) of light in the bands of excitation (columns), without what is reflected.
+    /// What is sent out in the scene's wavebands (rows) of light in the bands of excitation (columns),
+    /// without what is reflected.
     pub fluorescence: DMatrix<f64>,
     /// The bands of excitation.
     pub excitation: WavelengthGrid,
@@ -40,12 +42,13 @@ pub struct Bispectral {
 }
 
 impl Donaldson {
-    /// The matrix of `factors`, emission by excitation, of a sheet of this name. What is next to its excitation is reflected, by 10 nm at
-    /// most; no light is sent out at shorter wavelengths than excite it: such factors are noise and left out, as are those below 0.
+    /// The matrix of `factors`, emission by excitation, of a sheet of this name. What is next to its
+    /// excitation is reflected, by 10 nm at most; no light is sent out at shorter wavelengths than excite it:
+    /// such factors are noise and left out, as are those below 0.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if more than white has is reflected, or if rows and columns are interchanged; [`Error::Grid`] if wavelengths do
-    /// not rise.
+    /// [`Error::Spectrum`] if more than white has is reflected, or if rows and columns are interchanged;
+    /// [`Error::Grid`] if wavelengths do not rise.
     ///
     /// # Example
     /// ```
@@ -99,12 +102,12 @@ impl Donaldson {
         })
     }
 
-    /// Reads a matrix from CSV, wavelengths of emission in the first column, those of excitation in the header, or from the export of a Labsphere
-    /// BFC-450.
+    /// Reads a matrix from CSV, wavelengths of emission in the first column, those of excitation in the
+    /// header, or from the export of a Labsphere BFC-450.
     ///
     /// # Errors
-    /// As [`Donaldson::new`]; [`Error::File`] or [`Error::Table`] for a file that cannot be read, [`Error::Spectrum`] for a column that is not
-    /// called by a wavelength.
+    /// As [`Donaldson::new`]; [`Error::File`] or [`Error::Table`] for a file that cannot be read,
+    /// [`Error::Spectrum`] for a column that is not called by a wavelength.
     pub fn read(path: &str) -> Result<Self> {
         let columns = formats::read(path, formats::no_json)?.spectra(path);
         let wavelength_nm = |column: &Spectrum| {
@@ -134,8 +137,9 @@ impl Donaldson {
         self.fluorescence.iter().position(excites).map(|band| self.excitation.wavelengths_nm()[band])
     }
 
-    /// The matrix on a scene's wavelengths. Beyond those of its emission the sheet is taken to reflect what it does at the nearest of them:
-    /// instruments begin at 380 nm to look at light that excites it from 300 nm on, and that bounces, too.
+    /// The matrix on a scene's wavelengths. Beyond those of its emission the sheet is taken to reflect what
+    /// it does at the nearest of them: instruments begin at 380 nm to look at light that excites it from 300
+    /// nm on, and that bounces, too.
     ///
     /// # Errors
     /// [`Error::Spectrum`] if the emission does not cover them.

@@ -6,7 +6,8 @@ use super::interpolation::even_step_nm;
 use crate::error::{Error, Result};
 use std::fmt;
 
-/// More wavebands than facets of three numbers have use for, 300 to 2300 nm by 1: time and memory grow with their square.
+/// More wavebands than facets of three numbers have use for, 300 to 2300 nm by 1: time and memory grow with
+/// their square.
 const MAX_WAVELENGTHS: usize = 2001;
 
 /// Strictly increasing wavelengths in nm, 2 to 2001.

@@ -1,7 +1,8 @@
 //! Values between the samples of a spectrum.
 //!
-//! CIE 167:2005, "Recommended practice for tabulating spectral data for use in colour computations": Sprague's polynomial of fifth
-//! degree for even samples. What is uneven, or too short for it, is joined by lines.
+//! CIE 167:2005, "Recommended practice for tabulating spectral data for use in colour computations":
+//! Sprague's polynomial of fifth degree for even samples. What is uneven, or too short for it, is joined by
+//! lines.
 
 /// How values between samples are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +41,8 @@ pub(super) fn even_step_nm(wavelengths_nm: &[f64]) -> Option<f64> {
     wavelengths_nm.iter().enumerate().all(even).then_some(step_nm)
 }
 
-/// Two samples before the first of six even ones, the farther one first; CIE 167:2005, table 1. Reversed they are those behind the
-/// last ones.
+/// Two samples before the first of six even ones, the farther one first; CIE 167:2005, table 1. Reversed they
+/// are those behind the last ones.
 #[rustfmt::skip]
 const BEFORE: [[f64; 6]; 2] = [
     [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
@@ -58,7 +59,8 @@ const POLYNOMIAL: [[f64; 6]; 5] = [
     [-5.0, 25.0, -50.0, 50.0, -25.0, 5.0],
 ];
 
-/// Sprague's value at the share `x`, 0..1, of the way from sample `left` to the next one, of at least six even samples.
+/// Sprague's value at the share `x`, 0..1, of the way from sample `left` to the next one, of at least six
+/// even samples.
 pub(super) fn sprague(samples: &[f64], left: usize, x: f64) -> f64 {
     let around: [f64; 6] = std::array::from_fn(|k| sample(samples, left as isize + k as isize - 2));
     let horner = |sum, row| (sum + dot(row, around) / 24.0) * x;

@@ -1,4 +1,5 @@
-//! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of each.
+//! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of
+//! each.
 
 use std::sync::OnceLock;
 
@@ -176,8 +177,8 @@ fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     Ok(members.into_iter().map(|member| member.renamed(|patch| format!("{set}:{patch}"))).collect())
 }
 
-/// The built-in spectra called `name`: a set, a member, an illuminant, the channels of a camera; `None` if there are
-/// none.
+/// The built-in spectra called `name`: a set, a member, an illuminant, the channels of a camera; `None` if
+/// there are none.
 pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
     match what {
         What::Cameras => {
@@ -284,8 +285,8 @@ pub fn other_measurements(name: &str) -> Vec<String> {
     others
 }
 
-/// Whether the built-in camera `name` was measured on another model than the one that writes these EXIF fields Make and Model into
-/// its pictures; not where there is no such camera, or the picture names no model.
+/// Whether the built-in camera `name` was measured on another model than the one that writes these EXIF
+/// fields Make and Model into its pictures; not where there is no such camera, or the picture names no model.
 ///
 /// # Example
 /// ```

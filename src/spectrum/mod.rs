@@ -1,7 +1,8 @@
 //! Spectra: reflectances, illuminants and camera sensitivities, tabulated on any wavelengths.
 //!
-//! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the files are
-//! found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows geometry or colour.
+//! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the
+//! files are found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows
+//! geometry or colour.
 
 mod black_body;
 mod cameras;
@@ -152,7 +153,8 @@ impl Spectrum {
         &self.values
     }
 
-    /// What was done to the samples as they were read, such as `paint.csv: percent read as fractions`; for the user to see.
+    /// What was done to the samples as they were read, such as `paint.csv: percent read as fractions`; for
+    /// the user to see.
     #[must_use]
     pub fn note(&self) -> Option<&str> {
         self.note.as_deref()
@@ -166,8 +168,8 @@ impl Spectrum {
 
     /// The values at the grid's wavelengths: the samples themselves where there are any, else interpolated.
     ///
-    /// Between samples that are 0 or more no value is below 0, and a reflectance between two that are at most 1 is not above 1,
-    /// however far the polynomial may swing.
+    /// Between samples that are 0 or more no value is below 0, and a reflectance between two that are at most
+    /// 1 is not above 1, however far the polynomial may swing.
     ///
     /// # Source
     /// CIE 167:2005 for even samples ([`Interpolation::Sprague`]).
@@ -207,7 +209,8 @@ impl Spectrum {
         Ok(grid.wavelengths_nm().iter().map(value_at).collect())
     }
 
-    /// How [`Spectrum::on`] finds values on the grid; none where every wavelength of the grid is that of a sample, or lies beyond them.
+    /// How [`Spectrum::on`] finds values on the grid; none where every wavelength of the grid is that of a
+    /// sample, or lies beyond them.
     #[must_use]
     pub fn interpolation(&self, grid: &WavelengthGrid) -> Option<Interpolation> {
         let (first_nm, last_nm) = self.range_nm();

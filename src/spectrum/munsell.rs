@@ -1,7 +1,7 @@
 //! The 1269 matt chips of the Munsell book, measured at the University of Eastern Finland.
 //!
-//! The set behind the Parkkinen basis of the paper's section 5C, 380..780 nm by 5. `share/make-munsell.rs` froze the
-//! arrays from the crate `colorimetry`.
+//! The set behind the Parkkinen basis of the paper's section 5C, 380..780 nm by 5. `share/make-munsell.rs`
+//! froze the arrays from the crate `colorimetry`.
 
 use super::{Spectrum, WavelengthGrid};
 use crate::error::{Error, Result};

@@ -42,7 +42,8 @@ pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'
     Error::UnknownName { kind, name: name.to_owned(), hint }
 }
 
-/// Up to three of `known`, nearest first, that could be meant by `name`: a few letters off, or `name` is part of them.
+/// Up to three of `known`, nearest first, that could be meant by `name`: a few letters off, or `name` is part
+/// of them.
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut near: Vec<_> = known.map(|known| (edits(name, known), known)).collect();
     near.retain(|&(edits, known)| edits <= 1 + name.len() / 3 || known.contains(&name.to_lowercase()));

@@ -1,7 +1,7 @@
 //! A user's own spectra: the files in the directory that the environment variable `VFOLD_DATA` names.
 //!
-//! `paint.csv` in it is called `paint`, its column `red` `paint:red`, as a built-in set is. A built-in name stays what it is, so that
-//! a record means the same everywhere; the file is then reached by its path.
+//! `paint.csv` in it is called `paint`, its column `red` `paint:red`, as a built-in set is. A built-in name
+//! stays what it is, so that a record means the same everywhere; the file is then reached by its path.
 
 use std::path::{Path, PathBuf};
 

@@ -11,7 +11,8 @@ const NOISE_OF_PEAK: f64 = 1e-3;
 pub struct Sensitivities {
     /// The SPEC the camera was named by.
     pub name: String,
-    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in ones.
+    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in
+    /// ones.
     pub channels: Vec<Spectrum>,
 }
 
@@ -19,8 +20,8 @@ impl Sensitivities {
     /// The camera of these channels.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which is taken for
-    /// noise and set to 0, or zero throughout.
+    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which
+    /// is taken for noise and set to 0, or zero throughout.
     ///
     /// # Example
     /// ```

@@ -1,7 +1,8 @@
 //! SPEC, the way the command line names spectra.
 //!
-//! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `2856K`, `sun:WHERE` or `sky:WHERE`, the same in the
-//! directory `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A file called like a built-in name is reached as `./D65`.
+//! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `2856K`, `sun:WHERE` or
+//! `sky:WHERE`, the same in the directory `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A
+//! file called like a built-in name is reached as `./D65`.
 
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
 use super::names::{What, unknown};
@@ -84,25 +85,28 @@ impl Specs {
         Self { json, percent: None }
     }
 
-    /// The same for files of which it is known whether reflectances are in percent where the file does not say it.
+    /// The same for files of which it is known whether reflectances are in percent where the file does not
+    /// say it.
     #[must_use]
     pub fn in_percent(self, percent: Option<bool>) -> Self {
         Self { percent, ..self }
     }
 
-    /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in percent, in fractions.
+    /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in
+    /// percent, in fractions.
     ///
     /// # Errors
-    /// [`crate::Error::UnknownName`] if nothing has that name, [`crate::Error::File`] or [`crate::Error::Table`] for a file that cannot be
-    /// read, [`crate::Error::Spectrum`] for values outside 0..1.
+    /// [`crate::Error::UnknownName`] if nothing has that name, [`crate::Error::File`] or
+    /// [`crate::Error::Table`] for a file that cannot be read, [`crate::Error::Spectrum`] for values outside
+    /// 0..1.
     pub fn reflectances(self, spec: &str) -> Result<Vec<Spectrum>> {
         let spectra = self.find(What::Reflectances, spec)?;
         spectra.iter().try_for_each(check_reflectance)?;
         Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
     }
 
-    /// Parts of white's light that sheets send out, which `spec` names as it names reflectances. Those of sheets that fluoresce may be more than 1; above
-    /// 2, or where that is said, they are in percent.
+    /// Parts of white's light that sheets send out, which `spec` names as it names reflectances. Those of
+    /// sheets that fluoresce may be more than 1; above 2, or where that is said, they are in percent.
     ///
     /// # Errors
     /// As [`Specs::reflectances`]; values below 0 alone are refused.

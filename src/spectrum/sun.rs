@@ -26,12 +26,12 @@ impl Sun {
         sun.above_horizon(&format!("sun:{zenith_deg}deg"), "give an angle from 0, overhead, to less than 90")
     }
 
-    /// The sun that the words of a SPEC after `sun:` tell: `40deg`, or latitude, longitude and time. The atmosphere's refraction is that of
-    /// 15 °C at sea level.
+    /// The sun that the words of a SPEC after `sun:` tell: `40deg`, or latitude, longitude and time. The
+    /// atmosphere's refraction is that of 15 °C at sea level.
     ///
     /// # Source
-    /// I. Reda, A. Andreas, "Solar position algorithm for solar radiation applications", *Solar Energy* 76 (2004), p. 577, by the crate
-    /// solar-positioning.
+    /// I. Reda, A. Andreas, "Solar position algorithm for solar radiation applications", *Solar Energy* 76
+    /// (2004), p. 577, by the crate solar-positioning.
     ///
     /// # Errors
     /// [`Error::Spectrum`] if place or time cannot be, or the sun is below the horizon there and then.

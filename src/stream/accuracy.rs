@@ -18,8 +18,8 @@ pub(super) struct AccuracyRecord {
     tolerance: f64,
     /// Number of unknowns: of a fold those of one panel.
     unknowns: usize,
-    /// Largest error of a facet mean, as estimated, relative to it, on shapes at least to a tenth of the mean of all; null where no second
-    /// solution tells.
+    /// Largest error of a facet mean, as estimated, relative to it, on shapes at least to a tenth of the mean
+    /// of all; null where no second solution tells.
     #[schemars(range(min = 0))]
     facet_mean_error: Option<f64>,
     /// Residual that Lanczos' method left, relative to the light.

@@ -32,7 +32,8 @@ pub struct CalibrationRecord {
     /// Standard deviation of the exposure.
     #[schemars(range(min = 0))]
     exposure_sd: f64,
-    /// Constant, linear and quadratic coefficient of each channel: from the photograph's values to those of the camera.
+    /// Constant, linear and quadratic coefficient of each channel: from the photograph's values to those of
+    /// the camera.
     coefficients: Vec<[f64; 3]>,
     /// Root mean square of the patches' residuals, one per channel.
     #[schemars(inner(range(min = 0)))]
@@ -55,8 +56,8 @@ struct PatchRecord {
 }
 
 impl CalibrationRecord {
-    /// The record of a calibration by `patches` in `grid` rows and columns between `corners`, px, whose normal is at an angle of
-    /// cosine `cos` to the sun; `by` says what they are.
+    /// The record of a calibration by `patches` in `grid` rows and columns between `corners`, px, whose
+    /// normal is at an angle of cosine `cos` to the sun; `by` says what they are.
     #[must_use]
     pub fn new(
         by: &'static str,

@@ -1,4 +1,5 @@
-//! Values of facets in a sample: `[facet][channel]` for one picture, `[picture][facet][channel]` for several, under a light each.
+//! Values of facets in a sample: `[facet][channel]` for one picture, `[picture][facet][channel]` for several,
+//! under a light each.
 
 use std::ops::RangeInclusive;
 

@@ -78,7 +78,8 @@ const PARTS_OF_CONFIDENCE: f64 = 1e4;
 const PARTS_OF_DEGREE: f64 = 1e2;
 const PARTS_OF_DEPTH: f64 = 1e3;
 
-/// A line that says where a fold is and how far it is open, or why there is none, and where a chart is, which `--regions` reads.
+/// A line that says where a fold is and how far it is open, or why there is none, and where a chart is, which
+/// `--regions` reads.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.

@@ -29,8 +29,8 @@ impl From<&Development> for DevelopmentRecord {
 /// `{"white_balance_gains": [r, g, b], "camera_to_linear_srgb": [[..], [..], [..]]}`.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it holds something else, [`Error::Numeric`] if
-/// it cannot be undone.
+/// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it holds something else,
+/// [`Error::Numeric`] if it cannot be undone.
 ///
 /// # Example
 /// ```

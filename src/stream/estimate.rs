@@ -25,7 +25,8 @@ use crate::plot::spectra::Curve;
 use crate::solve::Termination;
 use crate::spectrum::formats::Measured;
 
-/// The estimated spectrum of a sheet. An estimate that another program makes needs wavelengths and reflectance alone.
+/// The estimated spectrum of a sheet. An estimate that another program makes needs wavelengths and
+/// reflectance alone.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct EstimateRecord {
     /// As `vestimate --method` names it: interreflection, park or khan.
@@ -56,14 +57,16 @@ pub struct EstimateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
-    /// Bihemispherical albedo, one number per wavelength, of a photographed sheet that is not taken to be Lambertian: the share of light from all
-    /// directions that it reflects into all directions. `reflectance` is the 45°:0° reflectance factor.
+    /// Bihemispherical albedo, one number per wavelength, of a photographed sheet that is not taken to be
+    /// Lambertian: the share of light from all directions that it reflects into all directions. `reflectance`
+    /// is the 45°:0° reflectance factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
     #[serde(alias = "total_reflectance")]
     pub bihemispherical_albedo: Option<Vec<f64>>,
-    /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it reflects and what it sends out itself under
-    /// the light of the scene, as an instrument with this light says.
+    /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it
+    /// reflects and what it sends out itself under the light of the scene, as an instrument with this light
+    /// says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor: Option<Vec<f64>>,
@@ -86,8 +89,8 @@ pub struct EstimateRecord {
     /// The light, where nobody stated it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<InferredLightRecord>,
-    /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this sample's among them; absent of
-    /// a sample that was estimated alone.
+    /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this
+    /// sample's among them; absent of a sample that was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joined: Vec<String>,
     /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
@@ -99,7 +102,8 @@ pub struct EstimateRecord {
     /// What was not tried, or not determined by the facets of a photograph.
     #[serde(default, skip_serializing_if = "Vec::is_empty", skip_deserializing)]
     skipped: Vec<SkippedRecord>,
-    /// Covariance of the reflectance, `[wavelength][wavelength]`; with `vestimate --save covariance=FILE.npy`.
+    /// Covariance of the reflectance, `[wavelength][wavelength]`; with
+    /// `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
     /// What facets were taken to be worth, by a method that weighs them.
@@ -303,7 +307,8 @@ impl EstimateRecord {
         self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 
-    /// As a file of spectra has it, under that name; of a sheet that fluoresces also its total radiance factor, as `NAME total`.
+    /// As a file of spectra has it, under that name; of a sheet that fluoresces also its total radiance
+    /// factor, as `NAME total`.
     pub fn measured(&self, name: String) -> impl Iterator<Item = Measured> {
         let wavelengths_nm = self.wavelengths_nm.clone();
         let total = self.total_radiance_factor.as_ref().map(|total| Measured {
@@ -334,7 +339,8 @@ impl EstimateRecord {
                 "the model misfits the facets by {rms:.0} times the noise; check angle, corners, light, camera and exposure"
             )
         });
-        // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do not speak of it.
+        // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do
+        // not speak of it.
         let is_real =
             self.fit.iter().flat_map(Quantities::iter).any(|(unknown, _)| unknown.is_of_photographs());
         let assumed = self.fit.iter().flat_map(Quantities::iter);

@@ -19,7 +19,8 @@ pub(super) enum FacetsRecord {
     List(ListRecord),
 }
 
-/// A grid of facets on each panel of a fold: panel by panel, row by row from the crease, column by column along it.
+/// A grid of facets on each panel of a fold: panel by panel, row by row from the crease, column by column
+/// along it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct GridRecord {
     /// Number of panels.
@@ -44,7 +45,8 @@ enum SpacingRecord {
     Graded,
 }
 
-/// Facets one after the other; those of the backs, if a surface reflects on both sides, after those of the fronts.
+/// Facets one after the other; those of the backs, if a surface reflects on both sides, after those of the
+/// fronts.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct ListRecord {
     /// Number of facets.

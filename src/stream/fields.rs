@@ -1,7 +1,7 @@
 //! A record as a bag of named fields, in the order they came.
 //!
-//! A field stays the text that it came as until somebody asks what it says: what passes through takes no more memory than its line,
-//! and comes out as it went in.
+//! A field stays the text that it came as until somebody asks what it says: what passes through takes no more
+//! memory than its line, and comes out as it went in.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,7 +13,8 @@ use serde_json::value::{RawValue, to_raw_value};
 
 use crate::error::{Error, Result};
 
-/// Largest number that is read of colours, spectra and exposures: sums, products and squares of such numbers stay finite.
+/// Largest number that is read of colours, spectra and exposures: sums, products and squares of such numbers
+/// stay finite.
 pub(super) const LARGEST: f64 = 1e30;
 
 /// What to do where a part of a scene is missing.
@@ -22,8 +23,8 @@ pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
 /// Most fields of a record; those of the tools are two dozen.
 const FIELDS_MAX: usize = 1000;
 
-/// Most values that are read of one field: numbers of full length fill the longest line before. Short ones, `1,1,1`, take many times
-/// the memory of their text.
+/// Most values that are read of one field: numbers of full length fill the longest line before. Short ones,
+/// `1,1,1`, take many times the memory of their text.
 const VALUES_MAX: usize = 1 << 26;
 
 /// The fields of one record.
@@ -85,8 +86,8 @@ impl Fields {
         self.get(name)?.ok_or_else(|| Error::field(name, format!("missing; {remedy}")))
     }
 
-    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere, or to what is nested too deeply
-    /// or too large to be read.
+    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere, or
+    /// to what is nested too deeply or too large to be read.
     pub(super) fn at(&self, path: &str) -> Option<Value> {
         let mut parts = path.split('.');
         let first = self.raw(parts.next()?)?;
@@ -228,7 +229,8 @@ pub(super) fn problem(error: &serde_json::Error) -> String {
     text.strip_suffix(&place).unwrap_or(&text).to_owned()
 }
 
-/// Checks that all numbers of a field are finite: JSON has no NaN or infinity, and a null in their place would hide them.
+/// Checks that all numbers of a field are finite: JSON has no NaN or infinity, and a null in their place
+/// would hide them.
 ///
 /// # Errors
 /// [`Error::Field`] if one is not.

@@ -7,7 +7,8 @@ use super::fields::finite;
 use crate::error::Result;
 use crate::estimate::fluorescence::Fluorescence;
 
-/// Light that the sheet sends out where it takes in light of shorter wavelengths, under the light of the scene.
+/// Light that the sheet sends out where it takes in light of shorter wavelengths, under the light of the
+/// scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FluorescenceRecord {
     /// Probability that there is any.

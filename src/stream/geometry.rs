@@ -27,7 +27,8 @@ pub(super) struct FoldRecord {
     /// Angle between the panels, degrees; 180 is a flat sheet.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
     angle_deg: f64,
-    /// Standard deviation of that angle, degrees, where it is known, such as that of an angle found in a photograph.
+    /// Standard deviation of that angle, degrees, where it is known, such as that of an angle found in a
+    /// photograph.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     angle_sd_deg: Option<f64>,
@@ -73,7 +74,8 @@ impl Scene {
         self.fields.set("geometry", GeometryRecord::Fold(FoldRecord { angle_sd_deg: Some(sd_deg), ..fold }))
     }
 
-    /// How exactly the angle of the fold is known: its standard deviation, degrees; none if nobody said so, or there is no fold.
+    /// How exactly the angle of the fold is known: its standard deviation, degrees; none if nobody said so,
+    /// or there is no fold.
     ///
     /// # Errors
     /// [`Error::Field`] if the geometry is missing or unknown, or no angle is known so.

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::Fields;
 use crate::error::Result;
 
-/// Flags that change no record, long and short, and whether a value follows: with others a run has the same history.
+/// Flags that change no record, long and short, and whether a value follows: with others a run has the same
+/// history.
 const NO_MATTER: [(&str, &str, bool); 6] = [
     ("--output", "-o", true),
     ("--resume", "--resume", true),
@@ -36,8 +37,8 @@ impl Fields {
         Ok(self.get("history")?.unwrap_or_default())
     }
 
-    /// Adds the line that says which tool, of which version, with which arguments, made or changed this record. Arguments that
-    /// change no record are left out.
+    /// Adds the line that says which tool, of which version, with which arguments, made or changed this
+    /// record. Arguments that change no record are left out.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `history` is not an array.

@@ -16,7 +16,8 @@ const MAX_BYTES: u64 = 64 << 20;
 /// Reads a JSON file, or standard input for `-`; `example` shows what it should hold.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds something else.
+/// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds
+/// something else.
 pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> {
     parse(path, &text(path, example)?, example)
 }

@@ -8,8 +8,8 @@ use super::Fields;
 const LISTED: usize = 6;
 
 impl Fields {
-    /// All single values under the object at a dotted `path` (empty: the whole record), with their dotted names; of long lists how many
-    /// items they have.
+    /// All single values under the object at a dotted `path` (empty: the whole record), with their dotted
+    /// names; of long lists how many items they have.
     ///
     /// # Example
     /// ```

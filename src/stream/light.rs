@@ -29,10 +29,12 @@ pub(super) struct SunRecord {
     #[serde(default = "one")]
     #[schemars(range(min = 0, max = 1))]
     sun: f64,
-    /// Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the sun's if there is one.
+    /// Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the
+    /// sun's if there is one.
     #[schemars(range(min = 0))]
     sky: f64,
-    /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is not read.
+    /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is
+    /// not read.
     #[serde(skip_deserializing)]
     #[schemars(inner(range(min = 0, max = 1)))]
     panel_irradiance: [f64; 2],
@@ -75,7 +77,8 @@ enum SourceRecord {
     },
     /// A lamp or a window of some size, alike bright all over and in all directions.
     Area {
-        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the vertices.
+        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the
+        /// vertices.
         corners: [[f64; 3]; 4],
         /// Irradiance of a plane that faces its middle squarely at that distance.
         #[schemars(range(min = 0))]

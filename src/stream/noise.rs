@@ -52,8 +52,8 @@ impl NoiseRecord {
 }
 
 impl Sample {
-    /// What facets are worth: noise as it is given, else as the sample says it, else by what no reflectance explains; and an
-    /// error of the model as it is given, else the usual one.
+    /// What facets are worth: noise as it is given, else as the sample says it, else by what no reflectance
+    /// explains; and an error of the model as it is given, else the usual one.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `facet_sd` does not hold numbers.

@@ -1,4 +1,5 @@
-//! Arrays as NPY files, read: nothing is taken in before the header agrees with what is needed and with the file's length.
+//! Arrays as NPY files, read: nothing is taken in before the header agrees with what is needed and with the
+//! file's length.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read};
@@ -14,10 +15,12 @@ use crate::error::{Error, Result};
 const SQUARE_MAX: u64 = 20_000;
 /// Longest header that is read, as by NumPy.
 const HEADER_MAX: u64 = 10_000;
-/// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each that is within others.
+/// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each that
+/// is within others.
 const BRACKETS_MAX: usize = 8;
 
-/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what it names.
+/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what
+/// it names.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Array`] if it is not such a matrix.

@@ -48,7 +48,8 @@ pub struct StandInRecord {
     pub camera: String,
     /// Why the other one stands in for it.
     pub why: String,
-    /// How far off the other one's sensitivities are in the mean of such cases, root mean square, green's peak being 1.
+    /// How far off the other one's sensitivities are in the mean of such cases, root mean square, green's
+    /// peak being 1.
     #[schemars(range(min = 0))]
     #[serde(alias = "curve_error")]
     pub sensitivity_error: f64,

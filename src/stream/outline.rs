@@ -1,5 +1,5 @@
-//! The form of the stream for people: every field of every record, one after the other, from the schemas. What several fields hold alike
-//! is listed once.
+//! The form of the stream for people: every field of every record, one after the other, from the schemas.
+//! What several fields hold alike is listed once.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,8 @@ pub struct RecordOutline {
 /// A field of a record, or one form that it can have.
 #[derive(Clone, Debug)]
 pub struct FieldOutline {
-    /// Names from the outermost on: `estimate.fit.sky`; `[]` is each of a list, `NAME` any name, or any of those just listed.
+    /// Names from the outermost on: `estimate.fit.sky`; `[]` is each of a list, `NAME` any name, or any of
+    /// those just listed.
     pub path: String,
     /// Type and range: `[number from 0 to 1]`; `either` and `or` before its forms.
     pub holds: String,

@@ -27,7 +27,8 @@ pub struct ImageRecord {
     /// SHA-256 checksum of the file, as sha256sum prints it; absent of a pipe.
     #[serde(skip_serializing_if = "Option::is_none")]
     sha256: Option<String>,
-    /// When the picture was taken: date and time by the camera's clock, with the difference from UTC if it is known.
+    /// When the picture was taken: date and time by the camera's clock, with the difference from UTC if it is
+    /// known.
     #[serde(skip_serializing_if = "Option::is_none")]
     taken: Option<String>,
     /// Width of the upright picture, px.
@@ -42,10 +43,12 @@ pub struct ImageRecord {
     black_level: Levels,
     /// The stored number that is 1.
     white_level: Levels,
-    /// The stored number at which each channel ends below the white level, and from which on its pixels are clipped; null for a channel that goes on.
+    /// The stored number at which each channel ends below the white level, and from which on its pixels are
+    /// clipped; null for a channel that goes on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     ends_at: Vec<Option<f64>>,
-    /// The darkest stored numbers of each channel, where they are alike in all, as if black had not been subtracted.
+    /// The darkest stored numbers of each channel, where they are alike in all, as if black had not been
+    /// subtracted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     darkest: Vec<f64>,
     /// Of a RAW file: what was read of the sensor.
@@ -77,7 +80,8 @@ pub struct ImageRecord {
     /// ISO sensitivity.
     #[serde(skip_serializing_if = "Option::is_none")]
     iso: Option<u32>,
-    /// By these three, value of a perfect white diffuser under 1000 lx; absent where the numbers are not as the sensor counted them.
+    /// By these three, value of a perfect white diffuser under 1000 lx; absent where the numbers are not as
+    /// the sensor counted them.
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     white_per_klx: Option<f64>,
@@ -205,7 +209,8 @@ impl From<&[f64]> for Levels {
 /// What was read of a RAW file's sensor.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct SensorRecord {
-    /// Letters of the colour filters from the area's top left corner, row by row: RGGB; absent without filters.
+    /// Letters of the colour filters from the area's top left corner, row by row: RGGB; absent without
+    /// filters.
     #[serde(skip_serializing_if = "Option::is_none")]
     mosaic: Option<String>,
     /// Left column, top row, width and height of the area read, px of the whole sensor as stored.
@@ -388,7 +393,8 @@ impl Sample {
         Ok(record.map(Making::from).unwrap_or_default())
     }
 
-    /// Value of a perfect white diffuser under 1000 lx in the photograph, by the camera's settings; none if they are not known.
+    /// Value of a perfect white diffuser under 1000 lx in the photograph, by the camera's settings; none if
+    /// they are not known.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if the record of the photograph is not one.

@@ -8,7 +8,8 @@ use super::{Kept, Reader, Record, Sample, Scene, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
-/// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep memory flat.
+/// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep
+/// memory flat.
 pub(super) const AHEAD: usize = 16;
 
 /// What a tool does to the records that pass through it.
@@ -42,8 +43,8 @@ pub(super) type Made<A> = (Record, Option<A>);
 /// A record that is as it should be, or a sample with the context of its scene.
 type Step<T> = Item<(Arc<<T as Transform>::Context>, Sample), Result<Made<<T as Transform>::Aside>>>;
 
-/// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order, each as soon as
-/// it is made. Samples that `kept` has are not made again.
+/// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order,
+/// each as soon as it is made. Samples that `kept` has are not made again.
 ///
 /// # Errors
 /// From the stream itself or from a scene; samples carry their own.

@@ -61,7 +61,8 @@ struct ExpectedRmse {
 pub struct NewPlan<'a> {
     /// Angle between the panels of a fold, degrees.
     pub angle_deg: Option<f64>,
-    /// The scene of the picture together with which this one will be estimated, and the angle of its fold, degrees.
+    /// The scene of the picture together with which this one will be estimated, and the angle of its fold,
+    /// degrees.
     pub with_photograph: Option<(&'a Scene, Option<f64>)>,
     /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
     pub reflectances: &'a str,
@@ -73,7 +74,8 @@ pub struct NewPlan<'a> {
     pub fitted_sd: Vec<(&'static Unknown, f64)>,
 }
 
-/// The record of a plan: RMSE to expect of the reflectances, mean and worst, and the standard deviations of what is fitted along.
+/// The record of a plan: RMSE to expect of the reflectances, mean and worst, and the standard deviations of
+/// what is fitted along.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if a number is not finite or the scene has no name.

@@ -1,6 +1,8 @@
-//! Spectra as the rawtoaces project of the Academy Software Foundation keeps them: cameras, illuminants, training data.
+//! Spectra as the rawtoaces project of the Academy Software Foundation keeps them: cameras, illuminants,
+//! training data.
 //!
-//! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the spectra, `data.main` has their values at each wavelength in nm.
+//! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the spectra, `data.main` has their values at
+//! each wavelength in nm.
 
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -42,7 +44,8 @@ pub fn specs() -> Specs {
     Specs::with_json(read)
 }
 
-/// The camera that `spec` names: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in `.json`.
+/// The camera that `spec` names: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in
+/// `.json`.
 ///
 /// # Errors
 /// As [`crate::spectrum::camera`]; [`Error::Record`] with the line if a file is not of rawtoaces' form.

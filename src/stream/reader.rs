@@ -90,12 +90,13 @@ impl Reader {
         Self { first: Some(scene), ..self }
     }
 
-    /// The next record, none at the end. A line that holds none, unless it is the first or the last and cut, is a sample that carries an
-    /// error; so is every sample of a scene that cannot be read.
+    /// The next record, none at the end. A line that holds none, unless it is the first or the last and cut,
+    /// is a sample that carries an error; so is every sample of a scene that cannot be read.
     ///
     /// # Errors
-    /// [`Error::Record`] with file and line for a stream that begins with no record, ends before its first or within one, or has a line that
-    /// is too long; [`Error::EmptyPipe`] for a pipe with nothing in it; [`Error::Located`] for a scene that is not this version's.
+    /// [`Error::Record`] with file and line for a stream that begins with no record, ends before its first or
+    /// within one, or has a line that is too long; [`Error::EmptyPipe`] for a pipe with nothing in it;
+    /// [`Error::Located`] for a scene that is not this version's.
     pub fn read(&mut self) -> Result<Option<Record>> {
         if let Some(scene) = self.first.take() {
             return Ok(Some(Record::Scene(scene)));
@@ -153,7 +154,8 @@ impl Reader {
         }
     }
 
-    /// What stands in the stream for a line that holds no record: nobody knows what of, but it is counted as a sample that failed.
+    /// What stands in the stream for a line that holds no record: nobody knows what of, but it is counted as
+    /// a sample that failed.
     fn lost(&mut self, line: &[u8], error: &Error) -> Result<Record> {
         if is_scene(line) {
             self.lost_scene = Some(self.line);
@@ -235,7 +237,8 @@ impl Reader {
     }
 }
 
-/// Adds the rest of a line, its end with it. `read_until` would end the program where there is no room for it.
+/// Adds the rest of a line, its end with it. `read_until` would end the program where there is no room for
+/// it.
 fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
     while !line.ends_with(b"\n") {
         let piece = source.fill_buf()?;
@@ -256,7 +259,8 @@ fn is_record(line: &[u8]) -> bool {
     without_mark(line).trim_ascii_start().starts_with(b"{")
 }
 
-/// Whether a line that cannot be read says that it is a scene, or, having lost its beginning, holds what only a scene does.
+/// Whether a line that cannot be read says that it is a scene, or, having lost its beginning, holds what only
+/// a scene does.
 fn is_scene(line: &[u8]) -> bool {
     let line = String::from_utf8_lossy(line);
     if OF_SCENES.iter().any(|name| line.contains(name)) {

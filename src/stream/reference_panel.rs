@@ -46,7 +46,8 @@ impl Scene {
     /// The card, if a panel is one.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is on a panel that there is not, or its reflectance is not on the scene's wavelengths.
+    /// [`Error::Field`] if it is on a panel that there is not, or its reflectance is not on the scene's
+    /// wavelengths.
     pub fn reference_panel(&self) -> Result<Option<ReferencePanel>> {
         let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else { return Ok(None) };
         if card.panel > 1 {

@@ -8,17 +8,20 @@
 //!  "white":  [[700, 400], [800, 400], [800, 480], [700, 480]]}
 //! ```
 //! Corners are `[x, y]` in px from the top left corner of the upright picture: of a panel in the order of
-//! [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), of a chart in that of [`CHART_CORNERS`](crate::image::CHART_CORNERS), of a
-//! white card in any order round it. Panels count from 0 in the order in which the scene has them. All fields may be absent or null.
-//! - `image`: the photograph's file name, with or without its ending and without its folder. A list of regions needs it; in a
-//!   single object it is a remark.
+//! [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), of a chart in that of
+//! [`CHART_CORNERS`](crate::image::CHART_CORNERS), of a white card in any order round it. Panels count from 0
+//! in the order in which the scene has them. All fields may be absent or null.
+//! - `image`: the photograph's file name, with or without its ending and without its folder. A list of
+//!   regions needs it; in a single object it is a remark.
 //! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
 //! - `chart_confidence`: the same of a chart that it found; such a chart is used where it can be.
-//! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as `vextract --find` found them by its corners;
-//!   `panel`: width of its panels along the crease and their depth, in any unit, if they are not square. `vkernel` reads these.
+//! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as
+//!   `vextract --find` found them by its corners; `panel`: width of its panels along the crease and their
+//!   depth, in any unit, if they are not square. `vkernel` reads these.
 //! - `found`: false of a photograph in which it found none, and `reason`, why.
-//! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same shape but
-//!   another size, such as the original of a preview, corners are scaled; one of another shape is refused.
+//! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same
+//!   shape but another size, such as the original of a preview, corners are scaled; one of another shape is
+//!   refused.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -78,8 +81,8 @@ pub struct Regions {
     pub missing: Option<String>,
 }
 
-/// Where panels are in a picture: `panel0`, `panel1`, .. have four corners each, [x, y], px of the upright picture, in the order of
-/// `vextract --panel0`.
+/// Where panels are in a picture: `panel0`, `panel1`, .. have four corners each, [x, y], px of the upright
+/// picture, in the order of `vextract --panel0`.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct RegionsRecord {
     /// Name of the picture's file.

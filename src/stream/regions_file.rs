@@ -1,5 +1,5 @@
-//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one per photograph, or a stream of vforward,
-//! whose samples have them in their field `regions`.
+//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one per photograph, or
+//! a stream of vforward, whose samples have them in their field `regions`.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -26,8 +26,8 @@ impl RegionsFile {
     /// Reads a file of regions, or standard input for `-`.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON; [`Error::Regions`], with the field, if
-    /// it is not as this module says.
+    /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON;
+    /// [`Error::Regions`], with the field, if it is not as this module says.
     ///
     /// # Example
     /// ```
@@ -79,7 +79,8 @@ impl RegionsFile {
     /// The regions of the photograph `image`, scaled to its upright `size`, px.
     ///
     /// # Errors
-    /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of another shape.
+    /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of
+    /// another shape.
     pub fn of(&self, image: &Path, size: [usize; 2]) -> Result<Regions> {
         let names = [image.file_name(), image.file_stem()];
         let mut names = names.into_iter().flatten().filter_map(|name| Some(composed(name.to_str()?)));

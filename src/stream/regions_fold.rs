@@ -18,7 +18,8 @@ pub enum NoAngle {
 }
 
 impl Regions {
-    /// The angle that the corners tell, whatever is stated beside them, of panels of these depths over their width, if that is known.
+    /// The angle that the corners tell, whatever is stated beside them, of panels of these depths over their
+    /// width, if that is known.
     ///
     /// # Errors
     /// [`NoAngle`], if they do not tell it.

@@ -1,7 +1,8 @@
 //! `--resume FILE`: what an interrupted run wrote is kept, the rest appended.
 //!
-//! A run writes what it would write anyway; [`Resumed`] compares the lines that the file has and appends the others, so that
-//! in the end the file is what one run makes. Tools whose work is dear take it from [`Kept`] instead of doing it again.
+//! A run writes what it would write anyway; [`Resumed`] compares the lines that the file has and appends the
+//! others, so that in the end the file is what one run makes. Tools whose work is dear take it from [`Kept`]
+//! instead of doing it again.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -76,11 +77,12 @@ pub struct Resumed {
 }
 
 impl Resumed {
-    /// Opens a file, or makes it, and keeps other runs out of it; `has_history` says whether its scenes tell what made them.
+    /// Opens a file, or makes it, and keeps other runs out of it; `has_history` says whether its scenes tell
+    /// what made them.
     ///
     /// # Errors
-    /// [`Error::Usage`] for standard output, [`Error::File`] if it cannot be read or written, [`Error::Record`] if it ends in
-    /// something else than part of a record.
+    /// [`Error::Usage`] for standard output, [`Error::File`] if it cannot be read or written,
+    /// [`Error::Record`] if it ends in something else than part of a record.
     pub fn open(path: &Path, has_history: bool) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
         if path == Path::new("-") {

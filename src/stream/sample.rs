@@ -29,8 +29,9 @@ pub struct ReflectanceRecord {
     /// How it was found between samples, where it was: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
-    /// What a sheet that fluoresces sends out of white's light under the scene's, one number from 0 per wavelength: its reflectance, and what it
-    /// makes of light of other wavelengths; without bounces. Absent of a sheet that does not fluoresce.
+    /// What a sheet that fluoresces sends out of white's light under the scene's, one number from 0 per
+    /// wavelength: its reflectance, and what it makes of light of other wavelengths; without bounces. Absent
+    /// of a sheet that does not fluoresce.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor: Option<Vec<f64>>,
@@ -77,7 +78,8 @@ impl ReflectanceRecord {
 }
 
 impl Sample {
-    /// The sample's name; a number is one, too. One sample without a name is no reason to stop with all others.
+    /// The sample's name; a number is one, too. One sample without a name is no reason to stop with all
+    /// others.
     #[must_use]
     pub fn id(&self) -> String {
         self.fields.text_at("id").ok().flatten().unwrap_or_else(|| UNNAMED.to_owned())
@@ -96,7 +98,8 @@ impl Sample {
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1, or what it sends out in all one of numbers from 0.
+    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1, or what it sends out in all one of
+    /// numbers from 0.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
         let truth: Option<ReflectanceRecord> = self.fields.get("truth")?;
         if let Some(ReflectanceRecord { wavelengths_nm, reflectance, total_radiance_factor, .. }) = &truth {
@@ -126,7 +129,8 @@ impl Sample {
         self.fields.get("error")
     }
 
-    /// A field that is made of the facets; a sample that carries an error has none, whatever an earlier run left there.
+    /// A field that is made of the facets; a sample that carries an error has none, whatever an earlier run
+    /// left there.
     pub(super) fn made<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>> {
         match self.error()? {
             Some(_) => Ok(None),

@@ -36,7 +36,8 @@ pub(super) struct SampleRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     image: Option<ImageRecord>,
-    /// Mean value of every facet, linear, white that faces the sun being the exposure. Absent beside an error.
+    /// Mean value of every facet, linear, white that faces the sun being the exposure. Absent beside an
+    /// error.
     #[serde(skip_serializing_if = "Option::is_none")]
     facet_rgb: Option<ColoursRecord>,
     /// Standard deviation of the same, from 0.
@@ -74,8 +75,8 @@ pub(super) struct SampleRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vestimate"))]
     estimate: Option<EstimateRecord>,
-    /// Scores of the estimate by name: rmse, ciede2000, pd, gfc, `angle_deg`, metamerism; `ciede2000_A` and the like under further
-    /// illuminants.
+    /// Scores of the estimate by name: rmse, ciede2000, pd, gfc, `angle_deg`, metamerism; `ciede2000_A` and
+    /// the like under further illuminants.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vscore"))]
     metrics: Option<Named<f64>>,

@@ -21,7 +21,8 @@ use crate::geometry::{Fold, Light, LightSource};
 use crate::response::Response;
 use crate::surfaces::SurfaceResponse;
 
-/// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream belong to it.
+/// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream
+/// belong to it.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "scene")]
 #[schemars(extend("x-writer" = "vkernel"))]
@@ -37,9 +38,10 @@ pub(super) struct SceneRecord {
     facets: FacetsRecord,
     /// Where light comes from.
     light: LightRecord,
-    /// What all bounces make of light, for every reflectance r at once. On a fold under sun and uniform sky, irradiance 1 on a panel becomes
-    /// `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same with `r·poles[k]·residues[i][k]` on that of the other panel; on
-    /// any other surface, and on a fold among other sources, one gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
+    /// What all bounces make of light, for every reflectance r at once. On a fold under sun and uniform sky,
+    /// irradiance 1 on a panel becomes `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same
+    /// with `r·poles[k]·residues[i][k]` on that of the other panel; on any other surface, and on a fold among
+    /// other sources, one gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
     response: ResponseRecord,
     #[serde(flatten)]
     further: FurtherRecord,
@@ -67,7 +69,8 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vextract"))]
     camera: Option<CameraRecord>,
-    /// Spectra of the light: one for all sources, one for each that is no sky, or, of one source, one for each picture.
+    /// Spectra of the light: one for all sources, one for each that is no sky, or, of one source, one for
+    /// each picture.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
     illuminants: Option<Vec<SpectrumRecord>>,
@@ -75,7 +78,8 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract, vestimate"))]
     illuminant_unknown: Option<bool>,
-    /// Whether nobody stated the illuminant: of daylight that is assumed, the colour is an unknown of the estimate.
+    /// Whether nobody stated the illuminant: of daylight that is assumed, the colour is an unknown of the
+    /// estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     daylight_assumed: Option<bool>,
@@ -87,7 +91,8 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     reference_panel: Option<ReferencePanel>,
-    /// Groups of facets, of a surface that is not a fold, whose reflectance is known; all others are the sheet.
+    /// Groups of facets, of a surface that is not a fold, whose reflectance is known; all others are the
+    /// sheet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     materials: Option<Vec<Material>>,

@@ -8,15 +8,16 @@ use crate::error::{Error, Result};
 
 /// A record takes the place of as many as its line has of these bytes.
 pub(super) const PLACE_BYTES: usize = 1 << 20;
-/// Scenes that samples may name, if none is as large as [`PLACE_BYTES`]; a larger one takes the place of several.
+/// Scenes that samples may name, if none is as large as [`PLACE_BYTES`]; a larger one takes the place of
+/// several.
 const PLACES_MAX: usize = 64;
 
 const REMEDY: &str = "put the line of its scene above it";
 
 /// The scene above a sample, and those before that as far as memory goes, each with what a tool keeps of it.
 ///
-/// A sample names its scene in the field `scene`, and need not stand right below it: records may be grouped by their kind. One that names
-/// none belongs to the scene above it.
+/// A sample names its scene in the field `scene`, and need not stand right below it: records may be grouped
+/// by their kind. One that names none belongs to the scene above it.
 ///
 /// # Example
 /// ```
@@ -96,7 +97,8 @@ impl<T> Scenes<T> {
     /// What is kept of a sample's scene; none if no scene came before it.
     ///
     /// # Errors
-    /// [`Error::Field`] if the sample names another scene than those that are kept, or one of two that have the same name.
+    /// [`Error::Field`] if the sample names another scene than those that are kept, or one of two that have
+    /// the same name.
     pub fn of(&mut self, sample: &Sample) -> Result<Option<&T>> {
         self.run += 1;
         let Some(last) = self.above.back() else { return Ok(None) };

@@ -15,8 +15,8 @@ const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 /// Names of schemas: of the stream, and, with their kind after it, of its records.
 const NAME: &str = "urn:vfold:1";
 
-/// Schema of one line of the stream, indented: those of all kinds of records are in its `$defs` and stand for themselves as well. A record
-/// of another kind is allowed, as the tools pass it on.
+/// Schema of one line of the stream, indented: those of all kinds of records are in its `$defs` and stand for
+/// themselves as well. A record of another kind is allowed, as the tools pass it on.
 ///
 /// # Example
 /// ```

@@ -92,8 +92,8 @@ impl From<&Summary> for CountsRecord {
     }
 }
 
-/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the same of each group of
-/// samples that share the value of a field, if they are grouped `by` one.
+/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the
+/// same of each group of samples that share the value of a field, if they are grouped `by` one.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if it has no form in JSON.
@@ -128,8 +128,8 @@ impl Sample {
         Ok(metrics.map(|Named(metrics)| metrics.into_iter().map(score).collect()))
     }
 
-    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations; `exact` if they come from a
-    /// covariance, else they are the largest possible.
+    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations;
+    /// `exact` if they come from a covariance, else they are the largest possible.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

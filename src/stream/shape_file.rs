@@ -4,8 +4,8 @@
 //! {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "facets": [[0, 1, 2, 3]],
 //!  "groups": [{"name": "floor", "facets": [0, 1]}], "two_sided": false}
 //! ```
-//! Facets are lists of three or four vertices, counted from 0, counter-clockwise seen from the reflecting side; a group has its
-//! first facet and their number. Groups and `two_sided` may be absent.
+//! Facets are lists of three or four vertices, counted from 0, counter-clockwise seen from the reflecting
+//! side; a group has its first facet and their number. Groups and `two_sided` may be absent.
 
 use std::path::Path;
 
@@ -41,7 +41,8 @@ struct GroupRecord {
 /// As [`Shape::new`].
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Shape`] or [`Error::Record`] with its name if it holds no surface.
+/// [`Error::File`] if it cannot be read, [`Error::Shape`] or [`Error::Record`] with its name if it holds no
+/// surface.
 ///
 /// # Example
 /// ```

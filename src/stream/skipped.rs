@@ -34,7 +34,8 @@ impl Scene {
         Ok(self.fields.get("skipped")?.unwrap_or_default())
     }
 
-    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it before.
+    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it
+    /// before.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `skipped` is not a list.

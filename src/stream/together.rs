@@ -18,13 +18,15 @@ pub struct Member<C> {
 
 /// A tool that can take samples together.
 pub trait Together: Transform {
-    /// Takes two samples or more that belong together, and adds to each; what is made beside them, one for each.
+    /// Takes two samples or more that belong together, and adds to each; what is made beside them, one for
+    /// each.
     ///
     /// # Errors
     /// Any: all of them go out with it in their `error` field, and the run goes on.
     fn samples(&self, members: &mut [Member<Self::Context>]) -> Result<Vec<Self::Aside>>;
 
-    /// Whether samples, each of which is [made](Transform::is_made), were taken together by an interrupted run, and no other with them.
+    /// Whether samples, each of which is [made](Transform::is_made), were taken together by an interrupted
+    /// run, and no other with them.
     fn are_made(&self, together: &[Sample]) -> bool;
 }
 
@@ -50,9 +52,10 @@ struct Stream<C> {
 /// What is made of a group, or what it is to be made of.
 type Task<T> = Item<Vec<Member<<T as Transform>::Context>>, Result<Vec<Made<<T as Transform>::Aside>>>>;
 
-/// Passes all records of `reader` through `transform`, samples of one `group` together, wherever they stand in the stream: all are read
-/// before the first is written, and each is written as soon as it and those before it are made. A sample of no group, and one that is alone
-/// in its own, passes as through [`super::pipe`]. Groups that `kept` has are not made again.
+/// Passes all records of `reader` through `transform`, samples of one `group` together, wherever they stand
+/// in the stream: all are read before the first is written, and each is written as soon as it and those
+/// before it are made. A sample of no group, and one that is alone in its own, passes as through
+/// [`super::pipe`]. Groups that `kept` has are not made again.
 ///
 /// # Errors
 /// From the stream itself, from a scene or from `group`; samples carry their own.

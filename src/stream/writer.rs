@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::progress::Progress;
 
-/// Where a tool's records go: standard output, a file that appears when it is whole, or one that grows line by line.
+/// Where a tool's records go: standard output, a file that appears when it is whole, or one that grows line
+/// by line.
 pub struct Output {
     sink: Sink,
     /// Fields that are also written as arrays.
@@ -38,12 +39,13 @@ impl Output {
         Ok(Self::into(sink, saves))
     }
 
-    /// The file of an interrupted run, or a new one: records that it has are compared, others appended. Without a history in its
-    /// scenes, one of the samples that it has is made again to tell another command's file.
+    /// The file of an interrupted run, or a new one: records that it has are compared, others appended.
+    /// Without a history in its scenes, one of the samples that it has is made again to tell another
+    /// command's file.
     ///
     /// # Errors
-    /// [`Error::Usage`] for standard output, [`Error::File`] for a folder or a file that another run is writing, [`Error::Record`] if it is
-    /// not a stream.
+    /// [`Error::Usage`] for standard output, [`Error::File`] for a folder or a file that another run is
+    /// writing, [`Error::Record`] if it is not a stream.
     pub fn resume(path: &Path, saves: &[(String, PathBuf)], has_history: bool) -> Result<Self> {
         Ok(Self::into(Sink::Resumed(Resumed::open(path, has_history)?), saves))
     }
@@ -109,7 +111,8 @@ impl Output {
     /// Writes the fields of a record. A reader gets them at once: the next may be long in coming.
     ///
     /// # Errors
-    /// [`Error::Output`] or [`Error::File`] if it cannot be written, [`Error::Record`] if a resumed file has another in its place.
+    /// [`Error::Output`] or [`Error::File`] if it cannot be written, [`Error::Record`] if a resumed file has
+    /// another in its place.
     pub fn fields(&mut self, fields: &Fields) -> Result<()> {
         self.saves.record(fields)?;
         let mut line = serde_json::to_vec(fields).map_err(|e| Error::field(fields.kind(), e))?;
@@ -160,8 +163,9 @@ impl Output {
         }
     }
 
-    /// Makes all that was written last, and tells which samples failed: flushes, and gives files their names. Only once every record is written, so that a
-    /// full disk does not leave arrays of records that are nowhere.
+    /// Makes all that was written last, and tells which samples failed: flushes, and gives files their names.
+    /// Only once every record is written, so that a full disk does not leave arrays of records that are
+    /// nowhere.
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.

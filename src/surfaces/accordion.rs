@@ -12,23 +12,26 @@ const CREASES_MAX: usize = 1000;
 /// The V of [`Fold`] is the accordion of one crease.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accordion {
-    /// Opening angle of the valleys, facets and sizes of the panels: those with even numbers have the depth of panel 0.
+    /// Opening angle of the valleys, facets and sizes of the panels: those with even numbers have the depth
+    /// of panel 0.
     pub valley: Fold,
     /// Number of creases, one less than panels.
     pub creases: usize,
     /// Angle between two panels at a ridge on the reflecting side's back, degrees in (0, 180].
     pub ridge_deg: f64,
-    /// By how much a panel turns away from the other, from its valley to its other end, along an arc of a circle, degrees in
-    /// (−180, 180); negative makes a trough.
+    /// By how much a panel turns away from the other, from its valley to its other end, along an arc of a
+    /// circle, degrees in (−180, 180); negative makes a trough.
     pub bow_deg: f64,
 }
 
 impl Accordion {
-    /// The surface. Panels are groups `panel 0`, … from left to right; facets go by panel, then by row from the valley outwards,
-    /// then by column along y. Valleys open towards z; a bent panel is one flat strip per row.
+    /// The surface. Panels are groups `panel 0`, … from left to right; facets go by panel, then by row from
+    /// the valley outwards, then by column along y. Valleys open towards z; a bent panel is one flat strip
+    /// per row.
     ///
     /// # Errors
-    /// No crease or too many, an angle out of its range, too many facets, or panels that pass through each other.
+    /// No crease or too many, an angle out of its range, too many facets, or panels that pass through each
+    /// other.
     ///
     /// # Example
     /// ```
@@ -109,8 +112,8 @@ impl Accordion {
         profiles
     }
 
-    /// The rows of a panel as met from left to right: down to the valley on even panels, up from it on odd ones. Ends where the
-    /// panel ends.
+    /// The rows of a panel as met from left to right: down to the valley on even panels, up from it on odd
+    /// ones. Ends where the panel ends.
     fn walk(&self, panel: usize, at: &mut [f64; 2], heading: &mut f64) -> Vec<[f64; 2]> {
         let mut edges = self.valley.row_edges()[panel % 2].clone();
         let depth = edges[edges.len() - 1];
@@ -166,8 +169,8 @@ fn strips_cross(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
     parted(one, other) && parted(other, one)
 }
 
-/// Turns the profile so that both its ends, the origin and `end`, lie equally high, and puts the middle between them and the
-/// lowest point at 0.
+/// Turns the profile so that both its ends, the origin and `end`, lie equally high, and puts the middle
+/// between them and the lowest point at 0.
 fn level(profiles: &mut [Vec<[f64; 2]>], end: [f64; 2]) {
     let length = end[0].hypot(end[1]);
     let (cos, sin) = (end[0] / length, end[1] / length);
@@ -215,7 +218,8 @@ mod tests {
     fn panels_do_not_pass_through_each_other() {
         let valley = Fold::new(20.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();
         let shape = |creases, ridge_deg, bow_deg| Accordion { valley, creases, ridge_deg, bow_deg }.shape();
-        // Half of the bow is by how much the chord of either panel leans over: a trough closes where it is half of the angle.
+        // Half of the bow is by how much the chord of either panel leans over: a trough closes where it is
+        // half of the angle.
         assert!(shape(1, 90.0, -19.0).is_ok());
         let closed = shape(1, 90.0, -21.0).unwrap_err().to_string();
         assert!(closed.starts_with("--bow-deg: panels 0 and 1 pass through"), "{closed}");
@@ -226,7 +230,8 @@ mod tests {
         assert!(shape(40, 40.0, 0.0).unwrap_err().to_string().starts_with("--ridge-deg: panels"));
     }
 
-    /// The pages of a book leave the gutter steeply and then flatten out: both ends lie lower than those of a flat V.
+    /// The pages of a book leave the gutter steeply and then flatten out: both ends lie lower than those of a
+    /// flat V.
     #[test]
     fn a_positive_bow_is_an_open_book() {
         let height = |bow_deg: f64| accordion(1, bow_deg).profiles()[1][4][1];

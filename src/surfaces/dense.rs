@@ -13,8 +13,8 @@ pub struct DenseExchange {
 }
 
 impl DenseExchange {
-    /// From K of eq. (10) between patches of these `areas`, each in the facet that `facet_of` says: `areaᵢ·kernelᵢⱼ =
-    /// areaⱼ·kernelⱼᵢ`, which makes `√A·K·√A⁻¹` symmetric.
+    /// From K of eq. (10) between patches of these `areas`, each in the facet that `facet_of` says:
+    /// `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ`, which makes `√A·K·√A⁻¹` symmetric.
     ///
     /// # Example
     /// ```
@@ -31,7 +31,8 @@ impl DenseExchange {
         let root_areas: Vec<f64> = areas.iter().map(|area| area.sqrt()).collect();
         let scaled = |i: usize, j: usize| root_areas[i] * kernel[(i, j)] / root_areas[j];
         let count = areas.len();
-        // Rounding, and what is left of noise in K, must not break the symmetry that Lanczos' method relies on.
+        // Rounding, and what is left of noise in K, must not break the symmetry that Lanczos' method relies
+        // on.
         let symmetric = DMatrix::from_fn(count, count, |i, j| 0.5 * (scaled(i, j) + scaled(j, i)));
         Self { symmetric, root_areas, facet_of }
     }

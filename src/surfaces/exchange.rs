@@ -2,8 +2,9 @@
 
 /// The exchange of light between the patches of a surface.
 ///
-/// Vectors hold one number per patch, in coordinates in which the exchange is symmetric: the root of the patch's area times its
-/// irradiance. Patches are where the bounces are solved; every one lies in a facet, where colour is measured.
+/// Vectors hold one number per patch, in coordinates in which the exchange is symmetric: the root of the
+/// patch's area times its irradiance. Patches are where the bounces are solved; every one lies in a facet,
+/// where colour is measured.
 pub trait Exchange: Sync {
     /// Root of the area of every patch, in any unit, positive.
     fn root_areas(&self) -> &[f64];

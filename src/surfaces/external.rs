@@ -9,12 +9,13 @@ use crate::error::{Error, Result};
 const RECIPROCITY: f64 = 1e-6;
 
 impl DenseExchange {
-    /// From K of eq. (10) between facets, one patch each: entry ij is the share of the light of facet i that reaches facet j.
-    /// Areas, in any unit, follow from the kernel where they are not given.
+    /// From K of eq. (10) between facets, one patch each: entry ij is the share of the light of facet i that
+    /// reaches facet j. Areas, in any unit, follow from the kernel where they are not given.
     ///
     /// # Errors
-    /// [`Error::Field`] for an entry that cannot be a share, a facet that hands on all its light or more, an area that is not positive, or
-    /// where `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ` does not hold within a share of 1e-6.
+    /// [`Error::Field`] for an entry that cannot be a share, a facet that hands on all its light or more, an
+    /// area that is not positive, or where `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ` does not hold within a share of
+    /// 1e-6.
     ///
     /// # Example
     /// ```
@@ -68,7 +69,8 @@ fn check_reciprocity(kernel: &DMatrix<f64>, areas: &[f64]) -> Result<()> {
 
 /// Areas relative to the first facet of each set of facets that see each other.
 ///
-/// Each follows from the facet already known with which it exchanges most, as in Prim's minimum spanning tree.
+/// Each follows from the facet already known with which it exchanges most, as in Prim's minimum spanning
+/// tree.
 fn areas_of(kernel: &DMatrix<f64>) -> Vec<f64> {
     let count = kernel.nrows();
     let both = |i: usize, j: usize| kernel[(i, j)].min(kernel[(j, i)]);

@@ -1,8 +1,8 @@
 //! Light on a surface of which some parts are of known reflectance, in one waveband.
 //!
 //! With R the known reflectances and x = rE the exitance of the unknown parts, the known ones receive
-//! `E_k = (I − T_kk·R)⁻¹(b_k + T_ku·x)`: so they drop out of eq. (24), and an exchange and a light are left for the unknown
-//! parts alone, with their own poles.
+//! `E_k = (I − T_kk·R)⁻¹(b_k + T_ku·x)`: so they drop out of eq. (24), and an exchange and a light are left
+//! for the unknown parts alone, with their own poles.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,8 +11,8 @@ use crate::error::{Error, Result};
 use crate::response::{Excited, ModeSet};
 use crate::solve::dot;
 
-/// What one light becomes: facets of reflectance r send out `known + Σ_k r·residue_k/(1 − r·pole_k)`, those of known
-/// reflectance as well.
+/// What one light becomes: facets of reflectance r send out `known + Σ_k r·residue_k/(1 − r·pole_k)`, those
+/// of known reflectance as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithKnown {
     /// Radiance of every facet times π, were the unknown parts black.
@@ -22,7 +22,8 @@ pub struct WithKnown {
 }
 
 impl ReducedExchange {
-    /// Poles and residues of every light in a waveband, parts having these `reflectances`, in [0, 1], and none where it is unknown.
+    /// Poles and residues of every light in a waveband, parts having these `reflectances`, in [0, 1], and
+    /// none where it is unknown.
     ///
     /// # Errors
     /// [`Error::Numeric`] if light does not leave the surface.

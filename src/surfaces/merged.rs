@@ -12,7 +12,8 @@ const CORNERS_MAX: usize = 6;
 
 /// The same surface with neighbours in one plane joined along whole edges, where the result is convex.
 ///
-/// Edges are tried one after the other in the order of corners, so that a grid of facets becomes strips, and strips one polygon.
+/// Edges are tried one after the other in the order of corners, so that a grid of facets becomes strips, and
+/// strips one polygon.
 ///
 /// # Example
 /// ```
@@ -75,7 +76,8 @@ fn joined_along(edge: usize, all: &[Polygon]) -> Option<Vec<Polygon>> {
     )
 }
 
-/// `a` with `b` beyond its side number `edge`, which ends in `to`, if both lie in a plane and the result is convex.
+/// `a` with `b` beyond its side number `edge`, which ends in `to`, if both lie in a plane and the result is
+/// convex.
 fn join(a: &Polygon, edge: usize, b: &Polygon, to: &Vec3) -> Option<Polygon> {
     if a.normal().cross(&b.normal()).norm() > NONE || a.normal().dot(&b.normal()) < 0.0 {
         return None;

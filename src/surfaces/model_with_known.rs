@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::forward::{FacetModel, Source, Terms, seen_bands};
 
 impl FacetModel {
-    /// A surface of parts, of which `parts` says the reflectance per waveband of those that are known, under the lights of
-    /// `exchange`, for each of which there is a camera's response.
+    /// A surface of parts, of which `parts` says the reflectance per waveband of those that are known, under
+    /// the lights of `exchange`, for each of which there is a camera's response.
     ///
     /// # Errors
     /// As [`ReducedExchange::with_known`].

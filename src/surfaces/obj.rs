@@ -43,14 +43,16 @@ pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
     models.map_err(|e| e.of_file(path))
 }
 
-/// What the file says; the parser computes with indices before it knows whether they are in bounds, and may panic.
+/// What the file says; the parser computes with indices before it knows whether they are in bounds, and may
+/// panic.
 fn parse(bytes: &[u8]) -> tobj::LoadResult {
     let no_materials = |_: &Path| Ok(Default::default());
     let read = || tobj::load_obj_buf(&mut &bytes[..], &LoadOptions::default(), no_materials);
     catch_unwind(read).unwrap_or(Err(LoadError::FaceVertexOutOfBounds))
 }
 
-/// The line of a face with a number of more digits than any index: the parser would take three times it modulo 2⁶⁴.
+/// The line of a face with a number of more digits than any index: the parser would take three times it
+/// modulo 2⁶⁴.
 fn line_of_no_index(bytes: &[u8]) -> Option<usize> {
     const DIGITS_MAX: usize = 10;
     let is_long = |digits: &[u8]| digits.len() > DIGITS_MAX;

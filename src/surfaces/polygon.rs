@@ -126,8 +126,8 @@ impl Polygon {
         (corners.len() >= 3 && area > 0.0).then_some(Self { corners, normal: self.normal, area })
     }
 
-    /// The point at `u`, `v` in [0, 1] and the area element there, with the corners at (0,0), (1,0), (1,1), (0,1); a triangle's
-    /// third corner is at both of the latter.
+    /// The point at `u`, `v` in [0, 1] and the area element there, with the corners at (0,0), (1,0), (1,1),
+    /// (0,1); a triangle's third corner is at both of the latter.
     ///
     /// Only for polygons with three or four corners.
     #[must_use]

@@ -14,11 +14,12 @@ const LEAST_WEIGHT: f64 = 0.1;
 /// Functions that weigh less are rounding.
 const ROUNDING: f64 = 1e-16;
 
-/// The exchange between functions that are each zero outside one part, by Galerkin's method: right for every reflectance of the
-/// parts, so that what is left to do in a waveband has little to do with the number of patches.
+/// The exchange between functions that are each zero outside one part, by Galerkin's method: right for every
+/// reflectance of the parts, so that what is left to do in a waveband has little to do with the number of
+/// patches.
 ///
-/// The functions span what the light is after every number of bounces, cut up by parts: Lanczos' method, had it to tell the
-/// parts apart.
+/// The functions span what the light is after every number of bounces, cut up by parts: Lanczos' method, had
+/// it to tell the parts apart.
 #[derive(Clone, Debug)]
 pub struct ReducedExchange {
     /// Function by function, symmetric.
@@ -34,15 +35,17 @@ pub struct ReducedExchange {
 }
 
 impl ReducedExchange {
-    /// Reduces `exchange` under `lights`, each one direct irradiance per patch, on a surface of which `part_of_facet` says the part
-    /// of every facet, from 0, until the residual in the system of eq. (24) is at most `tolerance`, relative to each light, where
-    /// all reflectances are 1.
+    /// Reduces `exchange` under `lights`, each one direct irradiance per patch, on a surface of which
+    /// `part_of_facet` says the part of every facet, from 0, until the residual in the system of eq. (24) is
+    /// at most `tolerance`, relative to each light, where all reflectances are 1.
     ///
     /// # Source
-    /// Galerkin's method on a Krylov space, as in Lanczos' (Golub and Van Loan, *Matrix Computations*, section 10.3).
+    /// Galerkin's method on a Krylov space, as in Lanczos' (Golub and Van Loan, *Matrix Computations*,
+    /// section 10.3).
     ///
     /// # Errors
-    /// [`Error::Numeric`] if a light does not fall on the surface, or none leaves it, or the tolerance is not reached.
+    /// [`Error::Numeric`] if a light does not fall on the surface, or none leaves it, or the tolerance is not
+    /// reached.
     pub fn new(
         exchange: &(impl Exchange + ?Sized),
         part_of_facet: &[usize],
@@ -78,7 +81,8 @@ struct Functions {
 }
 
 impl Functions {
-    /// The light after every number of bounces, cut up by parts, as long as what is new in it weighs more than `least`.
+    /// The light after every number of bounces, cut up by parts, as long as what is new in it weighs more
+    /// than `least`.
     fn of(
         exchange: &(impl Exchange + ?Sized),
         part_of: &[usize],

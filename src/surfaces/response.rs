@@ -4,22 +4,24 @@ use super::Exchange;
 use crate::error::{Error, Result};
 use crate::response::{Excited, ModeSet};
 
-/// What the bounces make of one light, as poles and residues for every facet: with one reflectance r, facet i receives
-/// `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.
+/// What the bounces make of one light, as poles and residues for every facet: with one reflectance r, facet i
+/// receives `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceResponse {
     modes: ModeSet,
 }
 
 impl SurfaceResponse {
-    /// Reduces `exchange` under a direct `irradiance`, one number per patch, to poles and residues whose residual in the system of
-    /// eq. (15) is at most `tolerance`, relative to the light, for every reflectance in [0, 1].
+    /// Reduces `exchange` under a direct `irradiance`, one number per patch, to poles and residues whose
+    /// residual in the system of eq. (15) is at most `tolerance`, relative to the light, for every
+    /// reflectance in [0, 1].
     ///
     /// # Returns
     /// The response and the residual that it reached.
     ///
     /// # Source
-    /// Deeb et al., eqs. (16) and (26) to (28), by Lanczos' method as in [`crate::response::Response::solve`].
+    /// Deeb et al., eqs. (16) and (26) to (28), by Lanczos' method as in
+    /// [`crate::response::Response::solve`].
     ///
     /// # Errors
     /// [`Error::Numeric`] if no light falls on the surface, or none leaves it.

@@ -26,8 +26,8 @@ struct Facet {
     polygon: Polygon,
 }
 
-/// A surface of flat facets. Facets reflect on the side from which their corners run counter-clockwise, and cast shadows
-/// with both; lengths are in any unit.
+/// A surface of flat facets. Facets reflect on the side from which their corners run counter-clockwise, and
+/// cast shadows with both; lengths are in any unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     vertices: Vec<[f64; 3]>,
@@ -37,16 +37,16 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// A surface with these faces, lists of corners as indices into `vertices`. Groups are ranges of faces in order; a face in none is
-    /// part of the surface all the same.
+    /// A surface with these faces, lists of corners as indices into `vertices`. Groups are ranges of faces in
+    /// order; a face in none is part of the surface all the same.
     ///
     /// # Returns
-    /// The surface, and a line for everything that was left out (faces without area, faces given twice) or that is odd (edges
-    /// of more than two faces).
+    /// The surface, and a line for everything that was left out (faces without area, faces given twice) or
+    /// that is odd (edges of more than two faces).
     ///
     /// # Errors
-    /// [`Error::Shape`] if no face is left or too many are, a face has more than four corners, is not flat or not convex, a
-    /// corner does not exist, or a coordinate is not finite.
+    /// [`Error::Shape`] if no face is left or too many are, a face has more than four corners, is not flat or
+    /// not convex, a corner does not exist, or a coordinate is not finite.
     ///
     /// # Example
     /// ```
@@ -93,7 +93,8 @@ impl Shape {
         Ok((Self { vertices, facets, groups, two_sided: false }, remarks))
     }
 
-    /// The same surface reflecting on both sides: as many facets again, the backs, in groups called `… (back)`.
+    /// The same surface reflecting on both sides: as many facets again, the backs, in groups called
+    /// `… (back)`.
     ///
     /// # Errors
     /// [`Error::Shape`] if these are too many.

@@ -72,8 +72,8 @@ impl Sight {
         Self { boxes, tree, gap: GAP * size }
     }
 
-    /// The facet that is met first from `eye` on in a direction; of two in one place, such as both sides of a sheet, the one that is met on its
-    /// reflecting side.
+    /// The facet that is met first from `eye` on in a direction; of two in one place, such as both sides of a
+    /// sheet, the one that is met on its reflecting side.
     #[must_use]
     pub fn first(&self, eye: &Vec3, direction: &Vec3) -> Option<Met> {
         let ray = Ray::new((*eye).into(), *direction);
@@ -85,7 +85,8 @@ impl Sight {
         })
     }
 
-    /// Whether the whole of a facet of a panel is seen from `eye`: from between its rows and columns nothing stands before it.
+    /// Whether the whole of a facet of a panel is seen from `eye`: from between its rows and columns nothing
+    /// stands before it.
     #[must_use]
     pub fn sees_all(&self, eye: &Vec3, panel: &Panel, [u, v]: [[f64; 2]; 2]) -> bool {
         let [start, end, _, outer] = panel.corners;
@@ -154,8 +155,9 @@ mod tests {
         }
     }
 
-    /// From above nothing is hidden. Fourteen degrees to the right the outer right panel, which leans by ten, shows its back and hides the
-    /// valley; from low on the right only the top of the outer left panel is seen over it.
+    /// From above nothing is hidden. Fourteen degrees to the right the outer right panel, which leans by ten,
+    /// shows its back and hides the valley; from low on the right only the top of the outer left panel is
+    /// seen over it.
     #[test]
     fn a_panel_hides_what_is_behind_it() {
         let shape = w();

@@ -26,7 +26,8 @@ pub struct ShapeView {
 }
 
 impl ShapeView {
-    /// A view of a surface; where `viewpoint` does not say otherwise, from the side of its first light, the y axis upright.
+    /// A view of a surface; where `viewpoint` does not say otherwise, from the side of its first light, the y
+    /// axis upright.
     ///
     /// # Errors
     /// As [`Viewpoint::camera`].
@@ -39,16 +40,16 @@ impl ShapeView {
         Ok(Self { frame, camera, sight: Sight::new(shape), panels })
     }
 
-    /// The numbers of the panels that show their reflecting side, and their corners in the picture: crease end 0, crease end 1, outer end 1,
-    /// outer end 0. Others may hide parts of them.
+    /// The numbers of the panels that show their reflecting side, and their corners in the picture: crease
+    /// end 0, crease end 1, outer end 1, outer end 0. Others may hide parts of them.
     #[must_use]
     pub fn corners(&self) -> Vec<(usize, [Point; 4])> {
         let seen = |(k, panel): &(usize, Panel)| Some((*k, self.camera.project_all(panel.corners)?));
         self.panels.iter().filter_map(seen).collect()
     }
 
-    /// Takes a picture of the light on the facets (facet by channel), of up to three channels, before a black background. Facets seen from
-    /// behind are black.
+    /// Takes a picture of the light on the facets (facet by channel), of up to three channels, before a black
+    /// background. Facets seen from behind are black.
     #[must_use]
     pub fn take(&self, light: &DMatrix<f64>) -> Picture {
         Picture::take(self.frame, &self.camera, |eye, sight| match self.sight.first(&eye, &sight) {
@@ -103,7 +104,8 @@ mod tests {
     use crate::geometry::{FacetGrid, Fold, Vec3};
     use crate::surfaces::Accordion;
 
-    /// Every pixel shows the facet that a search without tree or projection finds through its four corners, if they find one.
+    /// Every pixel shows the facet that a search without tree or projection finds through its four corners,
+    /// if they find one.
     #[test]
     fn pixels_inside_a_facet_have_its_very_colour() {
         let valley = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();

@@ -1,8 +1,10 @@
-//! What a sheet that is not Lambertian sends to the eye more than a Lambertian one of the same albedo, all over a fold.
+//! What a sheet that is not Lambertian sends to the eye more than a Lambertian one of the same albedo, all
+//! over a fold.
 //!
-//! Eq. (4) with a reflection that depends on the directions: light that leaves one panel is followed towards each place of the other. What is
-//! reflected once is exact, and what is reflected twice is integrated over the directions at each [point](points); only what is reflected
-//! more often goes through flat [patches]. Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
+//! Eq. (4) with a reflection that depends on the directions: light that leaves one panel is followed towards
+//! each place of the other. What is reflected once is exact, and what is reflected twice is integrated over
+//! the directions at each [point](points); only what is reflected more often goes through flat [patches].
+//! Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
 
 mod frame;
 pub mod patches;
@@ -19,14 +21,17 @@ use frame::Frame;
 use patches::Patches;
 use points::Points;
 
-/// Radiance of every facet towards the eye beyond that of a Lambertian sheet of the same albedo: shapes by facets by albedos.
+/// Radiance of every facet towards the eye beyond that of a Lambertian sheet of the same albedo: shapes by
+/// facets by albedos.
 ///
 /// # Arguments
-/// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: where the camera stands, in the fold's unit.
+/// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: where the camera
+///   stands, in the fold's unit.
 /// - `shapes`: of the sheet's reflection; `albedos`: for which the radiance is computed.
 ///
 /// # Returns
-/// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has radiance 1.
+/// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has
+/// radiance 1.
 ///
 /// # Source
 /// Deeb et al., eq. (4), without its Lambertian assumption.

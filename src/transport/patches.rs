@@ -1,8 +1,8 @@
 //! Light that is reflected three times and more, between flat patches.
 //!
 //! `L(i → k)`, what patch i of one panel sends to patch k of the other, obeys
-//! `L(i → k) = f(sun, i → k) E + Σⱼ f(j → i → k) π F(i, j) L(j → i)`, F the form factors. Patches repeat along the crease: what lies between two directions
-//! depends on the row and on the columns' differences.
+//! `L(i → k) = f(sun, i → k) E + Σⱼ f(j → i → k) π F(i, j) L(j → i)`, F the form factors. Patches repeat
+//! along the crease: what lies between two directions depends on the row and on the columns' differences.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -34,7 +34,8 @@ const PLACES: usize = 4;
 const REFLECTIONS: usize = 40;
 /// Light that is let go, relative to what the sun sends.
 const NEGLIGIBLE: f64 = 5e-5;
-/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little and smooth, but matters in dark sheets too.
+/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little and smooth,
+/// but matters in dark sheets too.
 const NODES: usize = 7;
 
 /// The patches of both panels, with all directions between them.
@@ -85,11 +86,13 @@ impl Patches {
         }
     }
 
-    /// What the eye sees of light that was reflected three times or more: patches of both panels by nodes of albedo, between which
+    /// What the eye sees of light that was reflected three times or more: patches of both panels by nodes of
+    /// albedo, between which
     /// [`shares`] interpolates.
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
-        // the widest vectors that the processor has: each of their numbers is summed for itself, so that sums are the same with all
+        // the widest vectors that the processor has: each of their numbers is summed for itself, so that sums
+        // are the same with all
         Arch::new().dispatch(Radiances { patches: self, shape })
     }
 
@@ -270,7 +273,8 @@ impl Panel {
         Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
 
-    /// Light of the sun sent by each patch to each of the other panel, from the reflection along each direction.
+    /// Light of the sun sent by each patch to each of the other panel, from the reflection along each
+    /// direction.
     #[inline(always)]
     fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
         let lit = (PI * self.lit) as f32;
@@ -322,8 +326,8 @@ fn direction(i: usize, k: usize) -> usize {
     k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
 }
 
-/// Directions from the patches of each row to those of the other panel: means over the light between both, which lies between the
-/// directions of their middles only where they are far from each other.
+/// Directions from the patches of each row to those of the other panel: means over the light between both,
+/// which lies between the directions of their middles only where they are far from each other.
 fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
     let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
     let unit = frame.width / COLS as f64;
@@ -356,8 +360,8 @@ fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
     to.iter().flat_map(of_row).collect()
 }
 
-/// Pairs of directions from a row of patches between which the sheet reflects differently: light goes both ways alike, and the same if both
-/// are mirrored along the crease.
+/// Pairs of directions from a row of patches between which the sheet reflects differently: light goes both
+/// ways alike, and the same if both are mirrored along the crease.
 struct Pairs {
     distinct: Vec<(usize, usize)>,
     /// Which of these each direction makes with each: from which, towards which.

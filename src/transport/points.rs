@@ -1,8 +1,9 @@
 //! Light that is reflected once or twice, at points of both panels.
 //!
-//! Seen from a point, a direction is the angle ψ in the plane across the crease, from the perpendicular to the other panel, and the sine v of
-//! the angle out of that plane: `dω = dψ dv`, and the cosine of incidence is `√(1 − v²) cos(ψ − θ)` in a fold opened by θ. The sun is far: what
-//! comes along a direction depends on that alone, so that Gauss rules in ψ and v converge fast wherever the point is, at the crease too.
+//! Seen from a point, a direction is the angle ψ in the plane across the crease, from the perpendicular to
+//! the other panel, and the sine v of the angle out of that plane: `dω = dψ dv`, and the cosine of incidence
+//! is `√(1 − v²) cos(ψ − θ)` in a fold opened by θ. The sun is far: what comes along a direction depends on
+//! that alone, so that Gauss rules in ψ and v converge fast wherever the point is, at the crease too.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -98,8 +99,8 @@ impl Sight {
         Self { lit: [here.lit(), other.lit()], from_sun, directions }
     }
 
-    /// Twice reflected per unit of π times the other panel's irradiance: by body and body, once by each, by surface and surface; and by
-    /// two reflections of 1/sr.
+    /// Twice reflected per unit of π times the other panel's irradiance: by body and body, once by each, by
+    /// surface and surface; and by two reflections of 1/sr.
     fn twice(&self, shape: &Shape) -> [f64; 4] {
         let mut sums = [0.0; 4];
         for Way { at_other, at_point, weight } in &self.directions {

@@ -8,7 +8,8 @@ use crate::kernel::quadrature::{Lagrange, Rule};
 /// Places of a facet, in either direction, over which its mean is taken.
 const PLACES: usize = 3;
 
-/// Weights of a grid's values in the means of facets, away from the crease and along it, alike on both panels.
+/// Weights of a grid's values in the means of facets, away from the crease and along it, alike on both
+/// panels.
 pub(super) struct Pooling {
     out: Array2<f64>,
     along: Array2<f64>,
@@ -50,7 +51,8 @@ impl Pooling {
         Self { out: means(&row_edges, out_nodes, out), along: means(&col_edges, along_nodes, along) }
     }
 
-    /// Facets by whatever else there is, of places by the same; places in the order panel, away from the crease, along it.
+    /// Facets by whatever else there is, of places by the same; places in the order panel, away from the
+    /// crease, along it.
     pub fn pool(&self, values: &Array2<f64>) -> Array2<f64> {
         let [rows, out] = [self.out.nrows(), self.out.ncols()];
         let [cols, along] = [self.along.nrows(), self.along.ncols()];

@@ -1,4 +1,5 @@
-//! A fresh folder in which shell lines run with the five tools first on PATH: those of the tests, or those in the folder `TOOLS`.
+//! A fresh folder in which shell lines run with the five tools first on PATH: those of the tests, or those in
+//! the folder `TOOLS`.
 
 use std::fs::OpenOptions;
 use std::io::{self, Write};
@@ -41,7 +42,8 @@ impl Workdir {
         Ended::from(run.unwrap())
     }
 
-    /// Whether a line runs, as it does where a program is installed; if not, says what is left out. `tests/run` brings what it can.
+    /// Whether a line runs, as it does where a program is installed; if not, says what is left out.
+    /// `tests/run` brings what it can.
     #[allow(dead_code)] // for the tests that need more than the tools
     pub fn can(&self, line: &str, otherwise: &str) -> bool {
         let can = self.sh(line).status == 0;
@@ -79,7 +81,8 @@ pub fn left_out(what: &str) {
 }
 
 impl Ended {
-    /// Whether all records were written, and nothing was said but how many samples failed, and why the first did: a line from each tool.
+    /// Whether all records were written, and nothing was said but how many samples failed, and why the first
+    /// did: a line from each tool.
     #[allow(dead_code)] // for the tests in which samples fail
     pub fn says_what_failed(&self) -> bool {
         let lines = self.stderr.lines().count();

@@ -1,6 +1,8 @@
-//! Inputs that fuzzing kept: one of each kind that a reader tells apart, and every one that ever broke something.
+//! Inputs that fuzzing kept: one of each kind that a reader tells apart, and every one that ever broke
+//! something.
 //!
-//! `targets` has what is done with them; `sheen/` does it with new ones, under the guidance of what they reach.
+//! `targets` has what is done with them; `sheen/` does it with new ones, under the guidance of what they
+//! reach.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -22,8 +24,8 @@ fn kept(target: &str) -> Vec<PathBuf> {
     files
 }
 
-/// So many cases, the same in every run, or as many as the environment asks for, others in every run: chance looks for faults where
-/// somebody waits for what it finds.
+/// So many cases, the same in every run, or as many as the environment asks for, others in every run: chance
+/// looks for faults where somebody waits for what it finds.
 fn cases(few: u32) -> ProptestConfig {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
     let rng_seed = if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(0) };

@@ -1,6 +1,6 @@
-//! All extremes at once, through the tools: every combination gives what a dense solver gives and an estimate that is no more
-//! certain than it is right. Nothing but a sun that leaves a panel in the shade is refused, in one line, and no sheet but one that is black
-//! or drowned in noise goes without an estimate.
+//! All extremes at once, through the tools: every combination gives what a dense solver gives and an estimate
+//! that is no more certain than it is right. Nothing but a sun that leaves a panel in the shade is refused,
+//! in one line, and no sheet but one that is black or drowned in noise goes without an estimate.
 
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -11,9 +11,10 @@ use crate::measured::{SPECTRA, tells_failures_alone};
 
 /// Facets are off by no more than that share of the brightest.
 const FACET_ERROR: f64 = 1e-9;
-/// The root mean square of an estimate's errors in units of its standard deviations, with noise and without. Spectra of no
-/// known class (all black, all white) are further from what was expected than Munsell chips, two of three of which are within
-/// one; and where there is no noise it counts that tables of three digits are rougher than any spectrum that was expected.
+/// The root mean square of an estimate's errors in units of its standard deviations, with noise and without.
+/// Spectra of no known class (all black, all white) are further from what was expected than Munsell chips,
+/// two of three of which are within one; and where there is no noise it counts that tables of three digits
+/// are rougher than any spectrum that was expected.
 const HONEST: [f64; 2] = [6.0, 20.0];
 
 /// Runs the four tools; prints what `corners.py` does.

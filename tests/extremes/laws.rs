@@ -8,8 +8,8 @@ use vfold::response::{ModeLight, Response};
 const ANGLES: [f64; 6] = [0.1, 1.0, 10.0, 120.0, 179.0, 179.9];
 const PANELS: [(f64, f64); 3] = [(1.0, 1.0), (1000.0, 1.0), (1.0, 1000.0)];
 
-/// Form factor of one panel to the other, for [`PANELS`]: A. Feingold, *Proc. R. Soc. A* 292 (1966), p. 51, as corrected in J. R.
-/// Howell's catalogue of configuration factors (C-16), with 50 digits by mpmath.
+/// Form factor of one panel to the other, for [`PANELS`]: A. Feingold, *Proc. R. Soc. A* 292 (1966), p. 51,
+/// as corrected in J. R. Howell's catalogue of configuration factors (C-16), with 50 digits by mpmath.
 const PANEL_FACTORS: [(f64, [f64; 3]); 7] = [
     (0.1, [0.998_261_391_654_143_6, 0.999_126_469_464_638_8, 0.512_115_704_727_333_2]),
     (1.0, [0.982_997_178_574_648_8, 0.991_265_180_587_520_4, 0.115_940_259_741_160_62]),

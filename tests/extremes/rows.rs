@@ -1,5 +1,5 @@
-//! Every extreme that has bounds, a row each. What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D
-//! Mark II and D65.
+//! Every extreme that has bounds, a row each. What a row does not say is 45°, square panels of 10 x 10
+//! facets, a Canon EOS 5D Mark II and D65.
 
 /// One extreme and the bounds that hold there.
 pub struct Row {
@@ -15,8 +15,8 @@ pub struct Row {
     pub sheets: [&'static str; 2],
     /// How far facets are off at most, as a share of the brightest.
     pub facets: f64,
-    /// RMSE of the estimate, and the root mean square of its errors in units of their standard deviations; none where it must
-    /// be refused.
+    /// RMSE of the estimate, and the root mean square of its errors in units of their standard deviations;
+    /// none where it must be refused.
     pub estimate: Option<[f64; 2]>,
 }
 
@@ -46,7 +46,8 @@ const fn seen(what: &'static str, seen: &'static str, rmse: f64, deviations: f64
 
 #[rustfmt::skip]
 pub const ROWS: [Row; 35] = [
-    // one red sheet, of which its facets tell next to nothing: how far off, the kinds that are frequent decide
+    // one red sheet, of which its facets tell next to nothing: how far off, the kinds that are frequent
+    // decide
     fold("angle 0.1°", "--angle-deg 0.1", 0.25),
     fold("angle 1°", "--angle-deg 1", 0.05),
     fold("angle 5°", "--angle-deg 5", 0.02),

@@ -1,4 +1,5 @@
-//! Every row, measured; `EXTREMES=write` makes a page of them, without it the page is checked to state the bounds that hold.
+//! Every row, measured; `EXTREMES=write` makes a page of them, without it the page is checked to state the
+//! bounds that hold.
 
 use std::fs;
 

@@ -1,5 +1,5 @@
-//! Samples of which one field, at any depth, is not what it should be: they pass, with an error where the field is needed, and no
-//! tool stops for them.
+//! Samples of which one field, at any depth, is not what it should be: they pass, with an error where the
+//! field is needed, and no tool stops for them.
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,5 @@
-//! CGATS and IES TM-27 files that are none, files that spectra are written to, and the directory of own spectra.
+//! CGATS and IES TM-27 files that are none, files that spectra are written to, and the directory of own
+//! spectra.
 
 use crate::{assert_refused, case};
 

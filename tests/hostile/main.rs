@@ -1,4 +1,5 @@
-//! Bad input gets one clear line and the right exit status: no panic, no file, no half line; nor do machines that fail leave any.
+//! Bad input gets one clear line and the right exit status: no panic, no file, no half line; nor do machines
+//! that fail leave any.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used, clippy::panic)]

@@ -84,7 +84,8 @@ fn names_that_are_no_utf_8() {
     assert!(run.status == 0 && run.stderr.lines().count() == 1 && run.stderr.contains("UTF-8"), "{run:?}");
 }
 
-/// With as few files as may be open at once a run ends as it should, or says in one line that there are too many.
+/// With as few files as may be open at once a run ends as it should, or says in one line that there are too
+/// many.
 #[test]
 fn few_files_may_be_open() {
     let folder = Workdir::new();

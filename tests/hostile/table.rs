@@ -1,6 +1,7 @@
 //! Every kind of hostile input for every tool.
 //!
-//! The other files of this folder have more of each kind. Closed pipes leave no trace, everything else one line.
+//! The other files of this folder have more of each kind. Closed pipes leave no trace, everything else one
+//! line.
 
 use crate::common::Workdir;
 use crate::{Case, TOOLS, assert_refused, case, limited};

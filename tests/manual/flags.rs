@@ -9,7 +9,8 @@ use crate::common::Workdir;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscore"];
 
-/// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and vfold-measure.
+/// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and
+/// vfold-measure.
 const OTHERS: [&str; 12] = [
     "--bench",
     "--features",

@@ -24,7 +24,8 @@ fn drawn(picture: &str) -> Vec<Arrow> {
     picture.lines().filter_map(arrows).collect::<Vec<Vec<_>>>().concat()
 }
 
-/// The modules that a source file uses, neither in comments nor in its own tests; `error` for what the crate exports of it.
+/// The modules that a source file uses, neither in comments nor in its own tests; `error` for what the crate
+/// exports of it.
 fn imports(source: &str) -> BTreeSet<String> {
     let code = source.split("#[cfg(test)]").next().unwrap();
     let code: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap()).collect();

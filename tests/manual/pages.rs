@@ -1,5 +1,5 @@
-//! The manual is that of the tools as they are: man pages, completions and schemas that are checked in are what `--generate` prints,
-//! and every example of `--help` and of vfold-stream(5) runs as it stands.
+//! The manual is that of the tools as they are: man pages, completions and schemas that are checked in are
+//! what `--generate` prints, and every example of `--help` and of vfold-stream(5) runs as it stands.
 
 use std::fs;
 use std::path::Path;
@@ -76,7 +76,8 @@ fn every_shell_loads_its_completions() {
     }
 }
 
-/// How each shell completes `FLAG BEGIN` of a tool: built-in names, and files, of which the folder has one that begins so, too.
+/// How each shell completes `FLAG BEGIN` of a tool: built-in names, and files, of which the folder has one
+/// that begins so, too.
 const NAMES: [(&str, &str); 3] = [
     (
         "bash",

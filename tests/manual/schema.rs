@@ -1,4 +1,5 @@
-//! Records of all five tools fit the schemas that `--generate schema` prints, and spoilt ones do not; jsonschema for Python judges.
+//! Records of all five tools fit the schemas that `--generate schema` prints, and spoilt ones do not;
+//! jsonschema for Python judges.
 
 use crate::common::Workdir;
 

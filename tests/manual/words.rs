@@ -1,4 +1,5 @@
-//! Names are the field's words: jargon that was replaced does not come back in identifiers, file names, flags, help or fields of records.
+//! Names are the field's words: jargon that was replaced does not come back in identifiers, file names,
+//! flags, help or fields of records.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -69,7 +69,8 @@ fn an_ideal_fold_has_the_exact_solution() {
     }
 }
 
-/// What a lamp changes of the sun's light, against the same fold as any surface, in the columns at the middle of the crease.
+/// What a lamp changes of the sun's light, against the same fold as any surface, in the columns at the middle
+/// of the crease.
 #[test]
 fn a_lamp_near_by_is_that_of_the_exact_solution() {
     let grid = FacetGrid { rows: 5, cols: 5 };
@@ -137,8 +138,8 @@ fn photograph(name: &str) -> Option<(Value, Array2<f64>)> {
     Some((sidecar, Array2::from_shape_vec((200, 3), means).unwrap()))
 }
 
-/// Weight of each wavelength in each channel: a perfect diffuser that faces light of this spectrum has the `white_rgb` of the sidecar if
-/// the light is the sun.
+/// Weight of each wavelength in each channel: a perfect diffuser that faces light of this spectrum has the
+/// `white_rgb` of the sidecar if the light is the sun.
 fn weights(sidecar: &Value, spectrum: &[f64]) -> Array2<f64> {
     let curves: Vec<Vec<f64>> =
         sidecar["camera_sensitivities_rgb"].as_array().unwrap().iter().map(numbers).collect();

@@ -1,4 +1,5 @@
-//! Calibration by a chart: a path-traced photograph whose exposure is known, and charts with errors as real ones have.
+//! Calibration by a chart: a path-traced photograph whose exposure is known, and charts with errors as real
+//! ones have.
 
 use std::fs::File;
 use std::path::Path;
@@ -120,7 +121,8 @@ fn imperfect_chart(camera: &Camera, expected: &[[f64; 3]], stream: u64) -> Vec<P
     expected.iter().enumerate().map(patch).collect()
 }
 
-/// Least squares with some powers of what was measured, every patch with its `weight`; evaluated at `measured`.
+/// Least squares with some powers of what was measured, every patch with its `weight`; evaluated at
+/// `measured`.
 fn least_squares(patches: &[Patch], powers: &[i32], weight: fn(f64) -> f64, measured: f64) -> f64 {
     let weight = |row: usize| weight(patches[row].expected[0]);
     let term = |row: usize, col: usize| weight(row) * patches[row].measured[0].powi(powers[col]);
@@ -130,8 +132,8 @@ fn least_squares(patches: &[Patch], powers: &[i32], weight: fn(f64) -> f64, meas
     powers.iter().zip(&coefficients).map(|(power, coefficient)| coefficient * measured.powi(*power)).sum()
 }
 
-/// Rms error, percent, at shares of white over 300 charts: of the calibration, of the paper's words taken literally, and of a
-/// polynomial through the origin fitted to relative errors.
+/// Rms error, percent, at shares of white over 300 charts: of the calibration, of the paper's words taken
+/// literally, and of a polynomial through the origin fitted to relative errors.
 fn errors_percent(camera: impl Fn(&[f64; 3]) -> Camera, shares: [f64; 3]) -> [[f64; 3]; 3] {
     let sidecar = sidecar();
     let (expected, white) = (expected(&sidecar), numbers::<3>(&sidecar["white_rgb"]));

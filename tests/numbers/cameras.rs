@@ -49,8 +49,8 @@ fn a_matrix_that_is_no_cameras_predicts_nothing() {
     assert_eq!(predictor.predict("Nikon", &[[f64::NAN; 3]; 3]), None);
 }
 
-/// A simulated photograph of the chart in the sun by each camera, which the prior does not know; patches are off by 2 %, and the frame has
-/// noise. Means over the cameras.
+/// A simulated photograph of the chart in the sun by each camera, which the prior does not know; patches are
+/// off by 2 %, and the frame has noise. Means over the cameras.
 #[test]
 fn a_chart_makes_a_camera() {
     let grid = WavelengthGrid::default();

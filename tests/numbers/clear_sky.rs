@@ -1,4 +1,5 @@
-//! The cloudless sky against pvlib 0.16.1, as `tests/data/clear-sky/make.py` took it: `spectrl2` and the places of the sun by `spa_python`.
+//! The cloudless sky against pvlib 0.16.1, as `tests/data/clear-sky/make.py` took it: `spectrl2` and the
+//! places of the sun by `spa_python`.
 
 use serde_json::Value;
 use vfold::spectrum::{ClearSky, Outside, Spectrum, Sun, WavelengthGrid, illuminant};

@@ -7,8 +7,8 @@ use rand_distr::{Distribution, StandardNormal};
 use vfold::colorimetry::{Colorimeter, Colour, ErrorBars, Observer};
 use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};
 
-/// CIELAB of the patches on 400..700 nm by 5 (D65, 10°), and CIEDE2000 to 0.9 r + 0.02: NumPy for the trapezoid rule,
-/// colour-science 0.4.7 for the tables, `XYZ_to_Lab` and `delta_E`.
+/// CIELAB of the patches on 400..700 nm by 5 (D65, 10°), and CIEDE2000 to 0.9 r + 0.02: NumPy for the
+/// trapezoid rule, colour-science 0.4.7 for the tables, `XYZ_to_Lab` and `delta_E`.
 const CC24: [([f64; 3], f64); 24] = [
     ([36.773152, 13.896395, 14.572348], 2.610982),
     ([65.791920, 13.414130, 17.689984], 1.336949),
@@ -36,7 +36,8 @@ const CC24: [([f64; 3], f64); 24] = [
     ([21.438237, -0.083986, -0.946868], 3.894215),
 ];
 
-/// sRGB for the 2° observer: colour-science 0.4.7, Bradford adaptation to D65, `XYZ_to_sRGB`; cyan is out of gamut.
+/// sRGB for the 2° observer: colour-science 0.4.7, Bradford adaptation to D65, `XYZ_to_sRGB`; cyan is out of
+/// gamut.
 const SRGB: [(&str, &str, [f64; 3]); 8] = [
     ("D65", "cc24:red", [0.697624, 0.185229, 0.226743]),
     ("D65", "cc24:foliage", [0.339097, 0.421481, 0.247585]),
@@ -76,8 +77,8 @@ fn swatches_are_the_srgb_of_colour_science() {
     }
 }
 
-/// From D65 to A and to FL11 between a patch and half of it mixed with another: NumPy for the trapezoid rule and the correction,
-/// colour-science 0.4.7 for tables, `XYZ_to_Lab` and `delta_E`.
+/// From D65 to A and to FL11 between a patch and half of it mixed with another: NumPy for the trapezoid rule
+/// and the correction, colour-science 0.4.7 for tables, `XYZ_to_Lab` and `delta_E`.
 #[rustfmt::skip]
 const METAMERISM: [(&str, &str, [f64; 2]); 3] = [
     ("cc24:red", "cc24:orange", [2.4941191873105497, 1.1576279587490024]),
@@ -107,7 +108,8 @@ fn metamerism_is_that_of_numpy_and_colour_science() {
     }
 }
 
-/// Draws of reflectances with neighbouring wavebands off together, an independent way to the spread of their colours.
+/// Draws of reflectances with neighbouring wavebands off together, an independent way to the spread of their
+/// colours.
 #[test]
 fn error_bars_of_colours_are_those_of_a_simulation() {
     const DRAWS: usize = 20_000;

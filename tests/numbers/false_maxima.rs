@@ -20,7 +20,8 @@ const SETS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/reflecta
 const SETTINGS: [(&str, &str, Exposure); 2] =
     [("canon-5d-mark-ii", "D65", Exposure::Known(1.0)), ("nikon-d5100", "A", Exposure::Free)];
 
-/// An estimate has ended in a false maximum if it is further from the truth than the one that sets out from there, by 0.01 of RMSE and twice.
+/// An estimate has ended in a false maximum if it is further from the truth than the one that sets out from
+/// there, by 0.01 of RMSE and twice.
 #[test]
 fn few_estimates_end_in_a_false_maximum() {
     let grid = WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap();

@@ -1,5 +1,5 @@
-//! Facet means of photographs whose answer is known: path-traced pictures with the radiosity solution beside them,
-//! and pictures whose means have a closed form.
+//! Facet means of photographs whose answer is known: path-traced pictures with the radiosity solution beside
+//! them, and pictures whose means have a closed form.
 
 use std::path::{Path, PathBuf};
 
@@ -119,8 +119,8 @@ fn standard_errors_are_those_that_occur() {
     }
 }
 
-/// The camera's white balance and matrix taken back from linear sRGB: libjpeg's pixels give 0.59 and 0.48 % rms and
-/// a blue 0.28 % too low on panel 0: 8 bits, noise and halved chroma.
+/// The camera's white balance and matrix taken back from linear sRGB: libjpeg's pixels give 0.59 and 0.48 %
+/// rms and a blue 0.28 % too low on panel 0: 8 bits, noise and halved chroma.
 #[test]
 fn a_jpeg_gives_the_radiosity_solution_behind_its_curve_and_matrix() {
     let mut photo = rendered(PHOTOS, "f_srgb_blue_flower_50.jpg");
@@ -134,8 +134,9 @@ fn a_jpeg_gives_the_radiosity_solution_behind_its_curve_and_matrix() {
     assert_accuracy(&photo, [0.6, 0.5], 0.3, 0.3);
 }
 
-/// A trapezoid whose outer side is 100 px where the crease is 160 px: y(v) = 270 - 240/(1 + 0.6 v), whose mean over
-/// a facet is 270 - 400 ln((1 + 0.6 v1)/(1 + 0.6 v0))/(v1 - v0). Pixels weighted alike would be off by 0.017.
+/// A trapezoid whose outer side is 100 px where the crease is 160 px: y(v) = 270 - 240/(1 + 0.6 v), whose
+/// mean over a facet is 270 - 400 ln((1 + 0.6 v1)/(1 + 0.6 v0))/(v1 - v0). Pixels weighted alike would be off
+/// by 0.017.
 #[test]
 fn a_ramp_in_perspective_has_the_mean_over_the_sheet() {
     let folder = tempfile::tempdir().unwrap();
@@ -152,8 +153,8 @@ fn a_ramp_in_perspective_has_the_mean_over_the_sheet() {
     }
 }
 
-/// One channel of light linear in panel coordinates, seen by a grid of pixel centres: any facet's mean is the value
-/// at its middle, whatever the perspective, the division and the margin.
+/// One channel of light linear in panel coordinates, seen by a grid of pixel centres: any facet's mean is the
+/// value at its middle, whatever the perspective, the division and the margin.
 #[test]
 fn a_ramp_on_the_sheet_has_its_middle_value() {
     let panels = [
@@ -179,7 +180,8 @@ fn a_ramp_on_the_sheet_has_its_middle_value() {
             let (row, col) = (k / cols % rows, k % cols);
             let want = light((col as f64 + 0.5) / cols as f64, (row as f64 + 0.5) / rows as f64);
             let got = facet.mean.as_ref().unwrap()[0];
-            // runs of pixels share one place: 1/(12 x 16²) of what light and perspective change across the whole panel
+            // runs of pixels share one place: 1/(12 x 16²) of what light and perspective change across the
+            // whole panel
             let limit = if rows * cols == 1 { 3e-5 } else { 5e-6 };
             assert!((got - want).abs() < limit, "facet {k} of {rows} x {cols}: {got} {want}");
             // the plain spread over a whole panel would make it 5e-4
@@ -306,8 +308,8 @@ fn panels_of(sidecar: &Value, scale: f64) -> [Homography; 2] {
     })
 }
 
-/// The photograph shrunk until a facet is 2.7 to 3.1 px by 4.5 to 5.5 px (panel 0) or 1.9 by 5.5 px (panel 1), each pixel the mean
-/// of 64 of the renderer's: against its radiosity solution.
+/// The photograph shrunk until a facet is 2.7 to 3.1 px by 4.5 to 5.5 px (panel 0) or 1.9 by 5.5 px (panel
+/// 1), each pixel the mean of 64 of the renderer's: against its radiosity solution.
 #[test]
 fn facets_of_three_pixels_are_right() {
     let mut photo = rendered(PHOTOS, "a_ideal_magenta_50.exr");
@@ -317,8 +319,8 @@ fn facets_of_three_pixels_are_right() {
     assert_accuracy(&photo, [0.06, 0.25], 0.5, 0.05);
 }
 
-/// The photograph as a lens would bend it, each pixel the mean of 16 points: against the radiosity solution. Taken for straight, it
-/// is off by more.
+/// The photograph as a lens would bend it, each pixel the mean of 16 points: against the radiosity solution.
+/// Taken for straight, it is off by more.
 #[test]
 fn a_bent_photograph_gives_the_radiosity_solution() {
     let mut photo = rendered(PHOTOS, "a_ideal_magenta_50.exr");

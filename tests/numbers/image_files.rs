@@ -51,8 +51,8 @@ fn assert_same_picture(got: &Photograph, want: &Photograph, tolerance: f64, what
 const GRADIENT: &str =
     "--pattern fill:topleft=.1,.2,.3:topright=.9,.2,.3:bottomleft=.1,.8,.3:bottomright=.5,.5,.9 48x32 3";
 
-/// What sets a picture of each orientation upright, by EXIF's definition of where its first row and column belong;
-/// Pillow's `exif_transpose` does the same. (`oiiotool` 2.4's own `--reorient` mixes up 5 and 7.)
+/// What sets a picture of each orientation upright, by EXIF's definition of where its first row and column
+/// belong; Pillow's `exif_transpose` does the same. (`oiiotool` 2.4's own `--reorient` mixes up 5 and 7.)
 const UPRIGHT: [&str; 8] = [
     "",
     "--flop",

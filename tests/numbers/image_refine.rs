@@ -130,8 +130,8 @@ fn an_edge_between_colours_that_are_equally_bright_is_found() {
     }
 }
 
-/// Behind a side the sheet's shadow falls on the table and ends a few pixels further out, where the step is greater: the side stays at
-/// the end of the sheet.
+/// Behind a side the sheet's shadow falls on the table and ends a few pixels further out, where the step is
+/// greater: the side stays at the end of the sheet.
 #[test]
 fn the_end_of_a_shadow_is_not_the_end_of_the_sheet() {
     let beyond = |x: f64, y: f64| (x - 153.0) * 105.4 / 105.9 - (y - 45.0) * 10.6 / 105.9;

@@ -1,5 +1,6 @@
-//! TIFF in every layout that the specification has for a picture: the numbers that `OpenImageIO` reads, or a refusal with the reason.
-//! `TIFF=write` makes a page of what came out; without it the page is checked to say so.
+//! TIFF in every layout that the specification has for a picture: the numbers that `OpenImageIO` reads, or a
+//! refusal with the reason. `TIFF=write` makes a page of what came out; without it the page is checked to say
+//! so.
 
 use std::collections::BTreeMap;
 use std::fs;

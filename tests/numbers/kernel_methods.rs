@@ -39,8 +39,9 @@ fn spread(estimates: &[Vec<f64>], entry: usize) -> (f64, f64) {
     (mean, (squares / (count - 1.0)).sqrt())
 }
 
-/// The mean of 100 estimates is within five of its standard errors of the exact entry, all errors measured from the
-/// estimates themselves. Facets that meet at the crease have no finite variance when sampled by area: they are left out there.
+/// The mean of 100 estimates is within five of its standard errors of the exact entry, all errors measured
+/// from the estimates themselves. Facets that meet at the crease have no finite variance when sampled by
+/// area: they are left out there.
 #[test]
 fn both_samplings_are_unbiased() {
     for (fold, sampling) in folds().iter().flat_map(|fold| [(fold, Sampling::Area), (fold, Sampling::Cosine)])
@@ -105,7 +106,8 @@ fn a_seed_repeats_on_any_number_of_threads() {
     }
 }
 
-/// Row sum and radii of eq. (2) at facet centres, 10 x 10 facets, found with NumPy's `eigvalsh` on the dense matrix.
+/// Row sum and radii of eq. (2) at facet centres, 10 x 10 facets, found with NumPy's `eigvalsh` on the dense
+/// matrix.
 #[test]
 fn midpoint_radii() {
     for (angle_deg, want) in [(30.0, 4.47), (45.0, 1.93), (60.0, 1.06), (90.0, 0.43)] {
@@ -149,7 +151,8 @@ fn the_spectral_radius_is_that_of_the_dense_matrix() {
     }
 }
 
-/// Exact kernels keep every law, from nearly shut to flat; the report says which law a kernel at facet centres breaks.
+/// Exact kernels keep every law, from nearly shut to flat; the report says which law a kernel at facet
+/// centres breaks.
 #[test]
 fn laws_tell_the_methods_apart() {
     let wide = [1.0, 20.0, 90.0, 179.0, 180.0].map(|angle_deg| fold(angle_deg, 6, 30));

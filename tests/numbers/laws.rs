@@ -127,7 +127,8 @@ proptest! {
         }
     }
 
-    /// What reaches a facet is what reaches its parts, and a facet's own light is the mean of its parts' light.
+    /// What reaches a facet is what reaches its parts, and a facet's own light is the mean of its parts'
+    /// light.
     #[test]
     fn parts_of_facets_exchange_what_the_facets_do(fold in folds(), split in 2_usize..4) {
         let FacetGrid { rows, cols } = fold.facets();
@@ -176,8 +177,8 @@ proptest! {
         prop_assert!(worst_relative(&short, &dense) < 1e-10, "{}", worst_relative(&short, &dense));
     }
 
-    /// The model behind the tools: what it sees is reflectance times dense irradiance, under sun and sky together, for one
-    /// sheet and for a sheet beside a card on either panel.
+    /// The model behind the tools: what it sees is reflectance times dense irradiance, under sun and sky
+    /// together, for one sheet and for a sheet beside a card on either panel.
     #[test]
     fn the_facet_model_sees_the_dense_solution(
         fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0,
@@ -190,8 +191,9 @@ proptest! {
         }
     }
 
-    /// Eqs. (11) to (14): what it sees of the first bounces is their sum in the dense system, and what it leaves out is what
-    /// one more bounce becomes in eq. (15). As few bounces as needed are no more than that.
+    /// Eqs. (11) to (14): what it sees of the first bounces is their sum in the dense system, and what it
+    /// leaves out is what one more bounce becomes in eq. (15). As few bounces as needed are no more than
+    /// that.
     #[test]
     fn the_facet_model_counts_bounces(
         fold in any_folds(), lean in -0.9..0.9, sky in 0.0..1.0, r in 0.01..=1.0, card in 0.01..=1.0, count in 0_u32..20,
@@ -265,8 +267,8 @@ proptest! {
         prop_assert!(worst_relative(&short, &dense) < 1e-9, "{}", worst_relative(&short, &dense));
     }
 
-    /// A sheet inside a uniform sky that reflects everything is as bright as the sky, wherever one looks: the white
-    /// furnace. The sun is left out.
+    /// A sheet inside a uniform sky that reflects everything is as bright as the sky, wherever one looks: the
+    /// white furnace. The sun is left out.
     #[test]
     fn a_white_fold_in_a_sky_disappears(fold in any_folds()) {
         let lit = irradiance(&response(&fold), ModeLight::Sky(1.0), 1.0, 1.0);
@@ -287,7 +289,8 @@ proptest! {
         prop_assert!((absorbed + leaving - received).abs() < 1e-10 * received);
     }
 
-    /// Eq. (14): every bounce adds light, and what n bounces leave out shrinks as the largest row sum to the n.
+    /// Eq. (14): every bounce adds light, and what n bounces leave out shrinks as the largest row sum to the
+    /// n.
     #[test]
     fn bounce_after_bounce_approaches_the_response(fold in any_folds(), r in 0.05_f64..=1.0) {
         let k: DMatrix<f64> = r * matrix(&fold);
@@ -321,8 +324,8 @@ proptest! {
         prop_assert!((e0 - half.sin()).abs() < 1e-15 && (e1 - half.sin()).abs() < 1e-15);
     }
 
-    /// What the camera sees of sun and sky together is what it sees of each: the second helping of sky adds as much as
-    /// the first.
+    /// What the camera sees of sun and sky together is what it sees of each: the second helping of sky adds
+    /// as much as the first.
     #[test]
     fn sun_and_sky_superpose(fold in any_folds(), sky in 0.01..2.0, r in 0.0..=1.0, lean in -0.9..0.9) {
         let response = response(&fold);
@@ -372,7 +375,8 @@ fn a_hard_tridiagonal_matrix() {
     assert!(worst_relative(&irradiance(&response(&fold), EVEN, 0.5, 0.5), &dense) < 1e-12);
 }
 
-/// Flat and facing the sun, a perfect white diffuser gives 1 in the camera's strongest channel; a sky adds its share.
+/// Flat and facing the sun, a perfect white diffuser gives 1 in the camera's strongest channel; a sky adds
+/// its share.
 #[test]
 fn white_facing_the_sun_is_one() {
     let flat = Fold::new(180.0, 1.0, 1.0, FacetGrid { rows: 2, cols: 2 }).unwrap();

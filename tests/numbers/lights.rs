@@ -43,8 +43,8 @@ fn light(shape: &Shape, source: LightSource) -> DirectLight {
     DirectLight::of(&source, shape, &patches, &kernel)
 }
 
-/// A wall receives 0.396 of what the open ground does (R. G. Hopkinson, P. Petherbridge, J. Longmore, *Daylighting*, 1966, has 0.396;
-/// the integral is (π/6 + 4/9)/(7π/9)).
+/// A wall receives 0.396 of what the open ground does (R. G. Hopkinson, P. Petherbridge, J. Longmore,
+/// *Daylighting*, 1966, has 0.396; the integral is (π/6 + 4/9)/(7π/9)).
 #[test]
 fn an_overcast_sky_lights_ground_and_wall() {
     let DirectLight { irradiance, standard_error } =
@@ -70,7 +70,8 @@ fn rays_see_of_a_uniform_sky_what_the_kernel_leaves_over() {
     }
 }
 
-/// A square under the back of another: that of two parallel unit squares a unit apart is 0.19982 of its view (Howell, C-11).
+/// A square under the back of another: that of two parallel unit squares a unit apart is 0.19982 of its view
+/// (Howell, C-11).
 #[test]
 fn backs_hide_the_sky() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
@@ -118,7 +119,8 @@ fn is_hidden(panels: &[Panel; 2], point: Vec3, towards: Vec3) -> bool {
     })
 }
 
-/// Means over the facets of a fold of what `irradiance` gives a point of a panel with that normal, at so many points along each side.
+/// Means over the facets of a fold of what `irradiance` gives a point of a panel with that normal, at so many
+/// points along each side.
 fn facet_means(fold: &Fold, points: usize, irradiance: impl Fn(Vec3, Vec3) -> f64) -> Vec<f64> {
     let shape = fold.shape().unwrap();
     let place = |n: usize| (n as f64 + 0.5) / points as f64;
@@ -206,8 +208,8 @@ fn windows_light_a_fold() {
     }
 }
 
-/// The Cornell box, where its published measurements are at hand, with a lamp in its middle: all light that does not leave by the open
-/// front falls on a wall, and what walls do not absorb leaves in the end.
+/// The Cornell box, where its published measurements are at hand, with a lamp in its middle: all light that
+/// does not leave by the open front falls on a wall, and what walls do not absorb leaves in the end.
 #[test]
 fn the_cornell_box_keeps_its_energy() {
     let path = "../shared/data/scenes/cornell_box_empty.json";

@@ -1,4 +1,5 @@
-//! The bounces on undivided panels against patches with exact form factors, and the error estimate against finer solutions.
+//! The bounces on undivided panels against patches with exact form factors, and the error estimate against
+//! finer solutions.
 
 use vfold::geometry::{FacetGrid, Fold, Spacing};
 use vfold::kernel::mesh::{Mesh, respond};
@@ -34,8 +35,8 @@ fn patches_converge_to_the_undivided_panels() {
         let [coarse, middle, fine] = [20, 40, 80].map(patches);
         let (auto, _) = respond(&fold, 1e-5).unwrap();
         let auto = irradiance(&auto, 0.5);
-        // Errors fall by a constant factor from mesh to mesh, which Aitken's process takes to the limit; facets whose error
-        // changes sign on the way have none.
+        // Errors fall by a constant factor from mesh to mesh, which Aitken's process takes to the limit;
+        // facets whose error changes sign on the way have none.
         let errors: Vec<f64> = (0..fine.len())
             .filter_map(|k| {
                 let (first, second) = (middle[k] - coarse[k], fine[k] - middle[k]);
@@ -50,7 +51,8 @@ fn patches_converge_to_the_undivided_panels() {
     }
 }
 
-/// Folds from narrow to wide open, long and short, of unequal panels, with facets that narrow towards the crease.
+/// Folds from narrow to wide open, long and short, of unequal panels, with facets that narrow towards the
+/// crease.
 fn folds() -> Vec<Fold> {
     let plain = [5.0, 12.0, 15.0, 30.0, 36.0, 45.0, 90.0, 150.0].map(|angle_deg| (angle_deg, 1.0, 1.0));
     let oblong = [(45.0, 3.0, 1.0), (60.0, 1.0, 4.0)];

@@ -17,7 +17,8 @@ use vfold::scene::{FoldSetting, PhotographedFold, Picture};
 use vfold::solve::posterior::Model;
 use vfold::stream::{Reader, Record};
 
-/// Of every number: what its column leaves out as not depending on it, difference quotients of all residuals know.
+/// Of every number: what its column leaves out as not depending on it, difference quotients of all residuals
+/// know.
 #[test]
 fn derivatives_are_those_of_the_residuals() {
     let mut reader = Reader::open("tests/corpus/streams/photograph.ndjson").unwrap();

@@ -54,7 +54,8 @@ fn facet_pairs_from_0_1_to_179_degrees() {
     }
 }
 
-/// Form factor from rectangle `[x0, x1, s0, s1]` of panel 0 to one of panel 1, put together from square facets.
+/// Form factor from rectangle `[x0, x1, s0, s1]` of panel 0 to one of panel 1, put together from square
+/// facets.
 fn rectangles(angle_deg: f64, a: [f64; 4], b: [f64; 4]) -> f64 {
     let whole = |unit: f64| a.iter().chain(&b).all(|edge| (edge / unit - (edge / unit).round()).abs() < 1e-9);
     let unit = [1.0, 0.5, 0.25, 0.1].into_iter().find(|unit| whole(*unit)).unwrap();

@@ -1,4 +1,5 @@
-//! Simulated sensors: mosaics measured where their sites are, and noise that demosaicing, scaling and JPEG spread.
+//! Simulated sensors: mosaics measured where their sites are, and noise that demosaicing, scaling and JPEG
+//! spread.
 
 use std::path::Path;
 
@@ -164,8 +165,8 @@ fn scaled(random: &mut ChaCha8Rng) -> Photograph {
     })
 }
 
-/// A demosaiced picture as a JPEG of quality 95, in sRGB. Its rounding moves a grey picture's colours by up to 0.1 %: the noise
-/// must be larger than that.
+/// A demosaiced picture as a JPEG of quality 95, in sRGB. Its rounding moves a grey picture's colours by up
+/// to 0.1 %: the noise must be larger than that.
 fn jpeg(random: &mut ChaCha8Rng) -> Photograph {
     let photograph = demosaiced(random);
     let folder = tempfile::tempdir().unwrap();

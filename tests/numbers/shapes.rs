@@ -1,4 +1,5 @@
-//! Surfaces whose facets hide each other, against irradiances found by random walks, closed forms, and the fold's own formulas.
+//! Surfaces whose facets hide each other, against irradiances found by random walks, closed forms, and the
+//! fold's own formulas.
 //!
 //! `tests/data/shapes` has the surfaces with what random walks, two million per facet, found on them.
 
@@ -85,8 +86,8 @@ fn all_light_in_a_closed_box_stays_there() {
     }
 }
 
-/// A mesh so large exchanges light by clusters. Every patch sees nothing but the surface: with reflectance r, and as much light of its own as
-/// any other, it gets 1/(1 − r) times that.
+/// A mesh so large exchanges light by clusters. Every patch sees nothing but the surface: with reflectance r,
+/// and as much light of its own as any other, it gets 1/(1 − r) times that.
 #[test]
 fn a_large_closed_box_keeps_all_its_light() {
     let n = 41;
@@ -110,7 +111,8 @@ fn a_large_closed_box_keeps_all_its_light() {
     }
 }
 
-/// From within a sphere, which is curved everywhere and a caster of every facet, any part sees of every other its share of the whole area.
+/// From within a sphere, which is curved everywhere and a caster of every facet, any part sees of every other
+/// its share of the whole area.
 #[test]
 fn all_parts_of_a_sphere_see_each_other_alike() {
     let (rows, cols) = (32, 100);
@@ -140,7 +142,8 @@ fn all_parts_of_a_sphere_see_each_other_alike() {
     }
 }
 
-/// Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*, C-11 and C-14: unit squares face to face and at a right angle.
+/// Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*, C-11 and C-14: unit squares face to
+/// face and at a right angle.
 #[test]
 fn faces_of_a_cube_have_textbook_factors() {
     let row = kernel(&box_within([1.0, 1.0, 1.0], 1)).matrix_row(0);
@@ -203,14 +206,15 @@ fn irradiances(solved: &Solved, r: f64) -> Vec<f64> {
     (0..response.facets()).map(|facet| response.irradiance(facet, r)).collect()
 }
 
-/// How far every facet is off, relative to itself or, in the dark, to a tenth of the mean: what `facet_mean_error` is about.
+/// How far every facet is off, relative to itself or, in the dark, to a tenth of the mean: what
+/// `facet_mean_error` is about.
 fn errors(found: &[f64], want: &[f64]) -> Vec<f64> {
     let dark = 0.1 * want.iter().sum::<f64>() / want.len() as f64;
     found.iter().zip(want).map(|(found, want)| (found - want).abs() / want.max(dark)).collect()
 }
 
-/// Both lights, reflectances 0.2, 0.5 and 0.9: facet means within 0.3 % rms of random walks, and each within what is stated but for four
-/// standard errors of the walks.
+/// Both lights, reflectances 0.2, 0.5 and 0.9: facet means within 0.3 % rms of random walks, and each within
+/// what is stated but for four standard errors of the walks.
 #[test]
 fn irradiances_are_those_of_the_random_walks() {
     for name in ["corner", "w_60_60", "w_60_100"] {
@@ -256,8 +260,8 @@ fn open_box(n: usize) -> Shape {
     Shape::new(shape.vertices().to_vec(), faces, vec![]).unwrap().0
 }
 
-/// Each facet is within the error that is stated of a solution with a quarter of it, whose own error counts as well. Slanted light, and
-/// shadows that end inside facets, but for a single V.
+/// Each facet is within the error that is stated of a solution with a quarter of it, whose own error counts
+/// as well. Slanted light, and shadows that end inside facets, but for a single V.
 #[test]
 fn stated_errors_hold_beside_finer_solutions() {
     let w = |angle_deg: f64, ridge_deg: f64, n: usize| {
@@ -312,7 +316,8 @@ fn shadows_end_where_the_reference_has_them() {
     }
 }
 
-/// A screen half-way between two squares that hides all of one from the other, or all but what is seen past its side.
+/// A screen half-way between two squares that hides all of one from the other, or all but what is seen past
+/// its side.
 #[test]
 fn a_screen_hides_what_is_behind_it() {
     let square = |z: f64, x: [f64; 2]| [[x[0], 0.0, z], [x[1], 0.0, z], [x[1], 1.0, z], [x[0], 1.0, z]];
@@ -328,7 +333,8 @@ fn a_screen_hides_what_is_behind_it() {
     let open = factor(None);
     assert!((open - 0.199_824_895_698_387).abs() < 1e-7);
     assert_eq!(factor(Some([0.0, 1.0])).to_bits(), 0.0_f64.to_bits());
-    // Lines past either side of half a screen are each other's mirror image, and cross no other line that is free.
+    // Lines past either side of half a screen are each other's mirror image, and cross no other line that is
+    // free.
     let (left, right) = (factor(Some([0.0, 0.5])), factor(Some([0.5, 1.0])));
     assert!((left - right).abs() < 1e-4 && (left + right - open).abs() < 2e-4, "{left} {right} {open}");
 }
@@ -342,7 +348,8 @@ fn what_is_not_needed_is_counted() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// No facet hands on more light than it has, what two hand each other agrees, and neither size nor place matters.
+    /// No facet hands on more light than it has, what two hand each other agrees, and neither size nor place
+    /// matters.
     #[test]
     fn accordions_obey_the_laws(
         angle_deg in 20.0..150.0, ridge_deg in 30.0..170.0, creases in 1_usize..4, bow_deg in -40.0..60.0, size in 1e-3..1e3,

@@ -1,4 +1,5 @@
-//! Sheets that are not Lambertian: facets of folds against path-traced photographs and against light transport of its own.
+//! Sheets that are not Lambertian: facets of folds against path-traced photographs and against light
+//! transport of its own.
 //!
 //! The numbers come from `tests/data/sheets/make.py`.
 

@@ -1,5 +1,5 @@
-//! Laws that any surface, light and reflectance obey, on kernels of no particular shape: any numbers with reciprocity and row
-//! sums below 1 are one. The dense solution of eq. (15) checks poles and residues.
+//! Laws that any surface, light and reflectance obey, on kernels of no particular shape: any numbers with
+//! reciprocity and row sums below 1 are one. The dense solution of eq. (15) checks poles and residues.
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -164,7 +164,8 @@ proptest! {
         prop_assert!((ours.column(0) - &dense).amax() < 1e-10 * dense.amax().max(1e-6));
     }
 
-    /// Parts of known reflectance beside an unknown one, by the dense solution of every waveband; derivatives by differences.
+    /// Parts of known reflectance beside an unknown one, by the dense solution of every waveband; derivatives
+    /// by differences.
     #[test]
     fn known_parts_drop_out(
         surface in surfaces(),

@@ -1,4 +1,5 @@
-//! Licences of the crates whose code is in the programs: `share/LICENSES/THIRD-PARTY.md` lists them, `deny.toml` allows them.
+//! Licences of the crates whose code is in the programs: `share/LICENSES/THIRD-PARTY.md` lists them,
+//! `deny.toml` allows them.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

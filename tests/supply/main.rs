@@ -1,5 +1,5 @@
-//! What vfold is made of, and what it promises: its crates, their licences, the oldest Rust they build with; and `docs/guarantees.md`,
-//! which names the tests that hold each promise.
+//! What vfold is made of, and what it promises: its crates, their licences, the oldest Rust they build with;
+//! and `docs/guarantees.md`, which names the tests that hold each promise.
 
 // a test stops at the first surprise
 #![allow(clippy::unwrap_used)]

@@ -1,4 +1,5 @@
-//! What Cargo knows of the crates in `Cargo.lock`, `raw` among its features, for the machine of the Debian package.
+//! What Cargo knows of the crates in `Cargo.lock`, `raw` among its features, for the machine of the Debian
+//! package.
 
 use std::collections::BTreeSet;
 use std::process::Command;

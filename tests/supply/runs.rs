@@ -3,7 +3,8 @@
 use super::common::Workdir;
 use super::path;
 
-/// Every tool once, with all that it can be asked to write; homes and folders for temporary files are there to be looked into.
+/// Every tool once, with all that it can be asked to write; homes and folders for temporary files are there
+/// to be looked into.
 const ALL_TOOLS: &str = "
 mkdir home tmp work
 export HOME=$PWD/home TMPDIR=$PWD/tmp XDG_CONFIG_HOME=$PWD/home/c XDG_CACHE_HOME=$PWD/home/k XDG_DATA_HOME=$PWD/home/d
@@ -42,8 +43,9 @@ fn nothing_is_left_but_what_was_asked_for() {
     assert_eq!((run.status, run.stdout.as_str()), (0, WRITTEN), "{}", run.stderr);
 }
 
-/// 300 MB of samples go through a tool that may have 200 MB of addresses, threads and program included. One arena: those of glibc
-/// reserve 128 MB of addresses each, and where they cannot, every allocation is a call of the system.
+/// 300 MB of samples go through a tool that may have 200 MB of addresses, threads and program included. One
+/// arena: those of glibc reserve 128 MB of addresses each, and where they cannot, every allocation is a call
+/// of the system.
 #[test]
 fn streams_are_longer_than_memory() {
     let run = Workdir::new().sh("

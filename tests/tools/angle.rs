@@ -1,4 +1,5 @@
-//! The angle of a fold from a photograph alone: `--find` prints it, vkernel takes it, vestimate believes it as far as it is known.
+//! The angle of a fold from a photograph alone: `--find` prints it, vkernel takes it, vestimate believes it
+//! as far as it is known.
 
 use serde_json::Value;
 

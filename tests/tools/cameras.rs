@@ -118,7 +118,8 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     assert!(scene(&named.stdout)["camera"]["stands_in"].is_null());
 }
 
-/// A picture of the 24 patches as a compact camera sees them in direct sun, the gains of its channels and the exposure not being told.
+/// A picture of the 24 patches as a compact camera sees them in direct sun, the gains of its channels and the
+/// exposure not being told.
 const CHART: &str = r#"
     vkernel --angle-deg 180 --facets 1x1 |
         vforward --reflectance cc24 --camera canon-powershot-s90 --illuminant sun:40deg --save facet_rgb=chart.npy > /dev/null
@@ -192,7 +193,8 @@ fn charts_that_make_no_camera() {
 
 const BLUE_FIRST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/spectra/camera_blue_first.csv");
 
-/// The same curves in columns in another order and called otherwise, as CSV and as rawtoaces' JSON: the camera is the same.
+/// The same curves in columns in another order and called otherwise, as CSV and as rawtoaces' JSON: the
+/// camera is the same.
 #[test]
 fn channels_are_found_by_name_in_any_order() {
     let folder = Workdir::new();
@@ -229,7 +231,8 @@ fn channels_are_found_by_name_in_any_order() {
     );
 }
 
-/// Columns whose names say no colour are taken as they stand, which is said; so is that all were scaled to one peak.
+/// Columns whose names say no colour are taken as they stand, which is said; so is that all were scaled to
+/// one peak.
 #[test]
 fn what_a_cameras_file_leaves_open_is_said() {
     let folder = Workdir::new();

@@ -1,4 +1,5 @@
-//! The contract of the command line, the same for all five tools: exit status, help, whole files, pipes, pass-through.
+//! The contract of the command line, the same for all five tools: exit status, help, whole files, pipes,
+//! pass-through.
 
 use proptest::prelude::*;
 use serde_json::{Value, json};

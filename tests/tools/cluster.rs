@@ -1,10 +1,12 @@
-//! `examples/cluster`: many processes and machines make the bytes of one process, also when a worker is killed.
+//! `examples/cluster`: many processes and machines make the bytes of one process, also when a worker is
+//! killed.
 //!
 //! A test whose scheduler is not installed says so and passes; `tests/run` installs them.
 
 use crate::common::Workdir;
 
-/// Six photographs, `photos.txt`, what one process makes of them, and a vestimate or vextract that is killed the first time.
+/// Six photographs, `photos.txt`, what one process makes of them, and a vestimate or vextract that is killed
+/// the first time.
 const SETUP: &str = concat!(
     "cluster='",
     env!("CARGO_MANIFEST_DIR"),

@@ -1,7 +1,8 @@
-//! From a computed picture of an ideal fold to one with all effects: estimates and error bars change little by little.
+//! From a computed picture of an ideal fold to one with all effects: estimates and error bars change little
+//! by little.
 //!
-//! The picture that is exactly the one that was stated is one of its own: it tells more than any other, and its estimate lies within the bars of
-//! the next.
+//! The picture that is exactly the one that was stated is one of its own: it tells more than any other, and
+//! its estimate lies within the bars of the next.
 
 use serde_json::Value;
 
@@ -15,7 +16,8 @@ struct Estimate {
     sd: Vec<f64>,
 }
 
-/// A sheet of which gloss, roughness and sky, what is off in angle, tilt and daylight are so large a part of what is usual.
+/// A sheet of which gloss, roughness and sky, what is off in angle, tilt and daylight are so large a part of
+/// what is usual.
 fn estimate(folder: &Workdir, sheet: &str, part: f64) -> Estimate {
     let [angle, tilt, sky] = [55.0 + 1.2 * part, 2.0 * part, 0.12 * part];
     let [daylight, specular_weight, roughness] = [6504.0 - 1204.0 * part, 0.4 * part, 15.0 * part];

@@ -1,4 +1,5 @@
-//! A picture of the Cornell box, from its published geometry, camera and reflectances, where they are at hand.
+//! A picture of the Cornell box, from its published geometry, camera and reflectances, where they are at
+//! hand.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -1,5 +1,6 @@
-//! How often error bars hold the truth, on sets that the prior was not made of, through cameras and in lights that are not those of the
-//! examples. The table is printed (`cargo test --test tools coverage -- --nocapture`).
+//! How often error bars hold the truth, on sets that the prior was not made of, through cameras and in lights
+//! that are not those of the examples. The table is printed
+//! (`cargo test --test tools coverage -- --nocapture`).
 
 use std::fs;
 
@@ -21,12 +22,14 @@ const SETS: [&str; 6] = [
 const SETTINGS: [(&str, &str); 4] =
     [("nikon_d700", "A"), ("sony_ilce_7m4", "D50"), ("fujifilm_x_t3", "FL11"), ("canon_eos_r5", "LED-V1")];
 const NOISES: [&str; 3] = ["0", "1e-3", "1e-2"];
-/// Shares of true values within one and two standard deviations: of every set, and of all of them. Paints, which are like the chips, have bars
-/// that are too wide at the largest noise, so that those of sets unlike any class are wide enough.
+/// Shares of true values within one and two standard deviations: of every set, and of all of them. Paints,
+/// which are like the chips, have bars that are too wide at the largest noise, so that those of sets unlike
+/// any class are wide enough.
 const OF_A_SET: [(f64, f64); 2] = [(0.6, 0.84), (0.86, 0.987)];
 const OF_ALL: [(f64, f64); 2] = [(0.6, 0.8), (0.88, 0.97)];
 
-/// Shares within one and two standard deviations of all wavebands, of 400 to 420 nm and of 680 to 700 nm, and the mean RMSE.
+/// Shares within one and two standard deviations of all wavebands, of 400 to 420 nm and of 680 to 700 nm, and
+/// the mean RMSE.
 struct Row {
     shares: [[f64; 2]; 3],
     rmse: f64,

@@ -121,8 +121,8 @@ fn suns_and_skies_of_the_command_line() {
     }
 }
 
-/// The ColorChecker in the sun of a clear day, 40° from the zenith, photographed without chart or card and told nothing of the light: as
-/// good as if it had been told.
+/// The ColorChecker in the sun of a clear day, 40° from the zenith, photographed without chart or card and
+/// told nothing of the light: as good as if it had been told.
 #[test]
 fn daylight_that_nobody_told_is_an_unknown() {
     let run = Workdir::new().sh(r#"
@@ -149,7 +149,8 @@ done < names
     let sun = samples.iter().filter(|one| one["estimate"]["fit"]["sun_cct_k"]["supported"] == true);
     for one in sun {
         let value = one["estimate"]["fit"]["sun_cct_k"]["value"].as_f64().unwrap();
-        // a clear sun's spectrum is not quite that of a CIE daylight; since the exposure has a prior, one of 24 is off by 252 K
+        // a clear sun's spectrum is not quite that of a CIE daylight; since the exposure has a prior, one of
+        // 24 is off by 252 K
         assert!((value - 5200.0).abs() < 260.0, "{}: {value}", one["id"]);
     }
 }

@@ -17,7 +17,8 @@ vkernel --angle-deg 180 --facets 1x1 |
 "#
 );
 
-/// Every method and mode that sums in parallel or works on many samples; what it writes beside its records is `file`.
+/// Every method and mode that sums in parallel or works on many samples; what it writes beside its records is
+/// `file`.
 const RUNS: [&str; 24] = [
     "vkernel --tolerance 1e-4",
     "vkernel --facets 24x24 --tolerance 1e-3 --save kernel=file",

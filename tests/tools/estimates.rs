@@ -1,5 +1,5 @@
-//! Estimates through the tools at the ends of the range of reflectances, and what is said of their errors; published figures are in
-//! `tests/numbers/published`.
+//! Estimates through the tools at the ends of the range of reflectances, and what is said of their errors;
+//! published figures are in `tests/numbers/published`.
 
 #[path = "../../benches/common/many_spectra.rs"]
 mod many_spectra;

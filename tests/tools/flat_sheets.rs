@@ -1,4 +1,5 @@
-//! Park's and Khan's estimators against another solver's numbers; those of the paper are in `tests/numbers/published`.
+//! Park's and Khan's estimators against another solver's numbers; those of the paper are in
+//! `tests/numbers/published`.
 
 use serde_json::Value;
 
@@ -18,7 +19,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Lawson and Hanson's least distance problem by SciPy: `tests/data/flat/make.py`. Orange, blue and magenta lie on a bound.
+/// Lawson and Hanson's least distance problem by SciPy: `tests/data/flat/make.py`. Orange, blue and magenta
+/// lie on a bound.
 #[test]
 fn estimates_are_those_of_another_solver() {
     let cases: Value = serde_json::from_str(include_str!("../data/flat/flat_sheets.json")).unwrap();

@@ -1,4 +1,5 @@
-//! Sheets that fluoresce, beside folds of measured ones that were computed elsewhere wavelength by wavelength, every bounce exciting the sheet.
+//! Sheets that fluoresce, beside folds of measured ones that were computed elsewhere wavelength by
+//! wavelength, every bounce exciting the sheet.
 
 use std::fs;
 
@@ -110,7 +111,8 @@ fn a_matrix_without_fluorescence_is_a_reflectance() {
     assert!(bulb > 0.005 && day > 2.0 * bulb, "{bulb} {day}");
 }
 
-/// Of direct light the matrix makes what `--fluorescence` says for that light; of bounces more, as they excite the sheet again.
+/// Of direct light the matrix makes what `--fluorescence` says for that light; of bounces more, as they
+/// excite the sheet again.
 #[test]
 fn direct_light_is_what_a_part_of_white_says() {
     let folder = Workdir::new();
@@ -154,7 +156,8 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
     }
 }
 
-/// A white sheet with a brightener, and the same without what fluoresces: emission about 440 nm, Gaussian in wavelengths.
+/// A white sheet with a brightener, and the same without what fluoresces: emission about 440 nm, Gaussian in
+/// wavelengths.
 const WHITE: &str = "
 python3 - <<'END'
 from math import exp

@@ -107,7 +107,8 @@ fn brightness_is_no_precision() {
     }
 }
 
-/// What one or two channels see may be spectra of many kinds: the largest error of all patches, in standard deviations a waveband.
+/// What one or two channels see may be spectra of many kinds: the largest error of all patches, in standard
+/// deviations a waveband.
 #[test]
 fn few_channels_are_no_precision() {
     let folder = Workdir::new();

@@ -38,7 +38,8 @@ fn together(paths: &[PathBuf]) -> Outcome {
     outcome(&PathBuf::from(records.join("+").replace(".ndjson", "")), &samples[0], &truth, <[f64]>::to_vec)
 }
 
-/// One painted sheet at two angles and from two sides: path traced, with all that real sheets and cameras have.
+/// One painted sheet at two angles and from two sides: path traced, with all that real sheets and cameras
+/// have.
 #[test]
 fn photographs_of_one_sheet_tell_more_together() {
     let paths = ["all_green_paint", "pairs/green_paint_72", "pairs/green_paint_side"]
@@ -64,7 +65,8 @@ fn photographs_of_one_sheet_tell_more_together() {
     }
 }
 
-/// Shell lines that photograph a glossy sheet at two angles, as `sheet-45.ndjson` and `sheet-72.ndjson`, and another as `other-45.ndjson`.
+/// Shell lines that photograph a glossy sheet at two angles, as `sheet-45.ndjson` and `sheet-72.ndjson`, and
+/// another as `other-45.ndjson`.
 const GLOSSY: &str = r#"
 photograph() {
     vkernel --angle-deg $2 > scene.json
@@ -108,7 +110,8 @@ fn two_angles_tell_gloss_and_exposure_apart() {
     assert!([0, 2].iter().all(|n| (both[*n] - again[*n]).abs() < 1e-12));
 }
 
-/// A second picture promises more than the first alone, of which all real sheets have the plan, and one by lamplight the most.
+/// A second picture promises more than the first alone, of which all real sheets have the plan, and one by
+/// lamplight the most.
 #[test]
 fn a_plan_says_which_second_picture_helps_most() {
     let run = Workdir::new().sh(
@@ -137,8 +140,9 @@ fn a_plan_says_which_second_picture_helps_most() {
     assert!(run.stderr.contains("one panel is deeper than the other"), "{}", run.stderr);
 }
 
-/// Sheets that are rough and glossy, photographed at 45 degrees by daylight, again, at another angle and by lamplight: what becomes of the
-/// error when a second photograph is beside the first. The sheets are simulated by the model that estimates them.
+/// Sheets that are rough and glossy, photographed at 45 degrees by daylight, again, at another angle and by
+/// lamplight: what becomes of the error when a second photograph is beside the first. The sheets are
+/// simulated by the model that estimates them.
 #[test]
 fn error_bars_hold_with_a_second_photograph() {
     let run = Workdir::new().sh(
@@ -181,8 +185,8 @@ fn error_bars_hold_with_a_second_photograph() {
     println!(
         "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
     );
-    // that a second photograph brings the spectrum nearer, as plans promise, is not seen in eight sheets; a sheet so glossy is none of the matt
-    // ones, which are rarer than they were taken to be
+    // that a second photograph brings the spectrum nearer, as plans promise, is not seen in eight sheets; a
+    // sheet so glossy is none of the matt ones, which are rarer than they were taken to be
     assert!([alone, again, angle].iter().all(|[rmse, within]| *rmse < 0.04 && *within > 0.9));
     // photographs by day and by lamp have other unknowns, of which those of the sheet are the same
     assert!(lamp[0] < 0.045 && lamp[1] > 0.9);
@@ -270,8 +274,8 @@ fn noise_that_was_given_counts() {
     assert!(noisy > 1.1 * usual && doubted > 1.1 * usual, "{usual} {noisy} {doubted}");
 }
 
-/// However often a run was killed and wherever its file was cut; sheets that are there are not estimated again, but for one of which a
-/// photograph is missing.
+/// However often a run was killed and wherever its file was cut; sheets that are there are not estimated
+/// again, but for one of which a photograph is missing.
 #[test]
 fn joint_estimates_go_on() {
     let run = Workdir::new().sh(&format!(

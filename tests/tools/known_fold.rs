@@ -39,7 +39,8 @@ fn own_truths(all: &[Value]) -> Vec<Vec<f64>> {
     all.iter().map(|sample| numbers(&sample["truth"]["reflectance"])).collect()
 }
 
-/// In light that is unknown nearly as near as in one that is stated; where it is stated, the exposure is known.
+/// In light that is unknown nearly as near as in one that is stated; where it is stated, the exposure is
+/// known.
 #[test]
 fn chips_are_nearer_beside_a_known_fold() {
     let run = |light: &str, flags: &str| {

@@ -1,11 +1,12 @@
-//! Where a photograph's numbers end and begin, and whether they are a camera's own: what the file does not say, its pixels show.
+//! Where a photograph's numbers end and begin, and whether they are a camera's own: what the file does not
+//! say, its pixels show.
 
 use serde_json::Value;
 
 use crate::common::{Ended, Workdir};
 
-/// Takes `photo.exr`, an orange sheet with the noise of 20000 electrons at 1 and a little of reading them; where it is goes to
-/// `corners.json`.
+/// Takes `photo.exr`, an orange sheet with the noise of 20000 electrons at 1 and a little of reading them;
+/// where it is goes to `corners.json`.
 const TAKEN: &str = "vkernel --angle-deg 45 -o scene.json
     vforward scene.json --reflectance cc24:orange --camera canon-5d-mark-ii --illuminant D65 --photon-noise 7.07e-3 --noise-sd 3e-4 \
         --seed 1 --render photo.exr --render-size 480x360 -q | tail -n 1 > corners.json";

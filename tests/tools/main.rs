@@ -1,5 +1,5 @@
-//! The five tools as they are used, on command lines and in pipelines, beside what is known of the answer, and with the programs that
-//! people use them with.
+//! The five tools as they are used, on command lines and in pipelines, beside what is known of the answer,
+//! and with the programs that people use them with.
 
 // a test stops at the first surprise, and prints what it measured
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]

@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use crate::common::{Workdir, is_there};
 
-/// A simulated photograph, noise of 20000 electrons at white, `$1`: flags of vkernel; `$2`: flags of vforward, the sheet among them. Leaves
-/// sheet.tif and corners.json, the true corners.
+/// A simulated photograph, noise of 20000 electrons at white, `$1`: flags of vkernel; `$2`: flags of
+/// vforward, the sheet among them. Leaves sheet.tif and corners.json, the true corners.
 const TAKE: &str = "take() { vkernel --angle-deg 45 $1 | vforward -q $2 --illuminant sun:40deg --exposure 0.85 --photon-noise 0.007 \\
     --seed 1 --render sheet.tif --render-size 180x135 | tail -n 1 > corners.json; }
 measure() { vkernel --angle-deg 45 | vextract -q sheet.tif --camera canon-5d-mark-ii --illuminant sun:40deg --regions corners.json; }";

@@ -1,8 +1,10 @@
-//! Photographs of folds that are taken for ideal ones, whatever they are: vestimate says so where that explains nothing.
+//! Photographs of folds that are taken for ideal ones, whatever they are: vestimate says so where that
+//! explains nothing.
 
 use crate::common::{Ended, Workdir};
 
-/// A photograph of a sheet, one panel of which is shorter; its scene with another angle, and its record in that.
+/// A photograph of a sheet, one panel of which is shorter; its scene with another angle, and its record in
+/// that.
 const SHORT: &str = r#"
     vkernel --angle-deg 50 --panel1-depth 0.7 --facets 6x3 -o scene.json
     vforward scene.json --reflectance cc24:orange --exposure 0.5 --noise-sd 1e-3 --render p.tif --render-size 320x240 -q -o simulated.ndjson

@@ -1,7 +1,8 @@
-//! Rendered photographs with known answers through the tools: fold and light from the sidecar, facets, spectrum, score.
+//! Rendered photographs with known answers through the tools: fold and light from the sidecar, facets,
+//! spectrum, score.
 //!
-//! All of `../shared/photos` where that folder is there, else the copies under `tests/data/photos`. The table is printed
-//! with `cargo test --test tools photographs -- --nocapture`.
+//! All of `../shared/photos` where that folder is there, else the copies under `tests/data/photos`. The table
+//! is printed with `cargo test --test tools photographs -- --nocapture`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,10 +14,11 @@ use crate::common::{Workdir, is_there};
 const COPIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
 const ALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/photos");
 
-/// What a picture must reach: facet means, percent rms; RMSE and CIEDE2000 with the exposure known, with it free, and with the
-/// light fitted as well of which nothing is told. Scores are half as large again as measured; an exposure that somebody states is believed
-/// to 2 %, which is what the colours of the fifth are off by where it is known. Where it is free they are off by a level of 0.001, within the bars,
-/// since photographs of ideal folds are estimated as all photographs are.
+/// What a picture must reach: facet means, percent rms; RMSE and CIEDE2000 with the exposure known, with it
+/// free, and with the light fitted as well of which nothing is told. Scores are half as large again as
+/// measured; an exposure that somebody states is believed to 2 %, which is what the colours of the fifth are
+/// off by where it is known. Where it is free they are off by a level of 0.001, within the bars, since
+/// photographs of ideal folds are estimated as all photographs are.
 struct Bounds {
     picture: &'static str,
     facets_percent: f64,
@@ -25,8 +27,8 @@ struct Bounds {
     fitted: [f64; 2],
 }
 
-// CIEDE2000 of `d` with its exposure known was 0.118: classes of spectra are as frequent under an ideal fold as among the spectra that are known, which
-// makes its RMSE less there, and more where the exposure is free
+// CIEDE2000 of `d` with its exposure known was 0.118: classes of spectra are as frequent under an ideal fold
+// as among the spectra that are known, which makes its RMSE less there, and more where the exposure is free
 #[rustfmt::skip]
 const BOUNDS: [Bounds; 8] = [
     Bounds { picture: "a", facets_percent: 0.2, known: [0.0155, 0.041], free: [0.0122, 0.165], fitted: [0.0149, 0.601] },
@@ -49,7 +51,8 @@ struct Measured {
     /// The same taken with an angle 2° wrong that is fitted too, and how far off it is found, degrees.
     turned: [f64; 2],
     angle_error_deg: f64,
-    /// The light as found, where there is more than a sun on the bisecting plane; then the scores if it is not fitted.
+    /// The light as found, where there is more than a sun on the bisecting plane; then the scores if it is
+    /// not fitted.
     light: Option<String>,
 }
 
@@ -82,8 +85,8 @@ fn photographs_give_their_spectra() {
     }
 }
 
-/// The chart faces the light, the panels do not. Corners off by an eighth of a patch, a D65 scene in the light of D50 and
-/// another chart's reflectances change the exposure by little.
+/// The chart faces the light, the panels do not. Corners off by an eighth of a patch, a D65 scene in the
+/// light of D50 and another chart's reflectances change the exposure by little.
 #[test]
 fn a_chart_in_the_picture_makes_the_exposure_known() {
     let path = Path::new(ALL).join("e_chart_purple_45.json");

@@ -1,7 +1,8 @@
-//! `share/picker.html` in a real browser: corners clicked in a preview come out in px of the photograph, and the command that the
-//! page shows measures it.
+//! `share/picker.html` in a real browser: corners clicked in a preview come out in px of the photograph, and
+//! the command that the page shows measures it.
 //!
-//! tests/run installs Chromium and playwright-core and says where they are; without them the test says that it is left out.
+//! tests/run installs Chromium and playwright-core and says where they are; without them the test says that
+//! it is left out.
 
 use serde_json::{Value, json};
 

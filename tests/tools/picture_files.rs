@@ -1,4 +1,5 @@
-//! Files of pictures as other programs write them, through `vextract`: two halves of known colours, the facets of either panel.
+//! Files of pictures as other programs write them, through `vextract`: two halves of known colours, the
+//! facets of either panel.
 
 use serde_json::Value;
 
@@ -126,7 +127,8 @@ fn pipes_are_read_as_the_files_they_carry() {
     }
 }
 
-/// A picture that is replaced while a run rests is measured again, which is said; the file is that of one run.
+/// A picture that is replaced while a run rests is measured again, which is said; the file is that of one
+/// run.
 #[test]
 fn replaced_pictures_are_measured_again() {
     let folder = Workdir::new();

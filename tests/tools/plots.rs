@@ -1,4 +1,5 @@
-//! Drawings, as another program reads them: text that is text in SVG, the right colours in PNG, the right numbers in maps.
+//! Drawings, as another program reads them: text that is text in SVG, the right colours in PNG, the right
+//! numbers in maps.
 
 use roxmltree::Document;
 use serde_json::Value;
@@ -49,7 +50,8 @@ fn swatches_have_the_colours_of_the_sheets() {
     assert!(svg.contains(&colour), "{colour}");
 }
 
-/// Maps show what the estimate leaves: their mean square is the one that the estimator found on its own way, by compressed data.
+/// Maps show what the estimate leaves: their mean square is the one that the estimator found on its own way,
+/// by compressed data.
 #[test]
 fn residuals_are_those_of_the_estimator() {
     let folder = Workdir::new();
@@ -136,7 +138,8 @@ fn many_samples_are_drawn_as_a_batch() {
     assert!(rest.contains("all.png") && rest.contains("760 x"), "{rest}");
 }
 
-/// Row sums of the matrix that `--save kernel` writes, as NumPy adds them up; direct light is the sine of half the angle.
+/// Row sums of the matrix that `--save kernel` writes, as NumPy adds them up; direct light is the sine of
+/// half the angle.
 #[test]
 fn kernels_are_drawn_with_their_numbers() {
     let folder = Workdir::new();

@@ -1,4 +1,5 @@
-//! `share/python/vfold.py` reads what the tools write and measures what they measure, and colour-science judges it as vscore does.
+//! `share/python/vfold.py` reads what the tools write and measures what they measure, and colour-science
+//! judges it as vscore does.
 
 use crate::common::Workdir;
 

@@ -379,8 +379,8 @@ fn changed_bytes_never_panic() {
     }
 }
 
-/// Olympus and Panasonic write TIFF under marks of their own, older Canon and Minolta cameras something else. All are known by their first
-/// bytes; without them ORF, RW2, CRW and MRW files were called no pictures.
+/// Olympus and Panasonic write TIFF under marks of their own, older Canon and Minolta cameras something else.
+/// All are known by their first bytes; without them ORF, RW2, CRW and MRW files were called no pictures.
 #[test]
 fn files_that_begin_in_a_way_of_their_own_are_raw() {
     let folder = tempfile::tempdir().unwrap();

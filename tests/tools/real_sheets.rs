@@ -1,5 +1,6 @@
-//! Photographs of sheets as they are, glossy, rough, bowed, under a real sky and through a real lens, with the defaults of every tool: the
-//! truth is what an instrument of 45:0 says. The table is printed with `cargo test --test tools real_sheets -- --nocapture`.
+//! Photographs of sheets as they are, glossy, rough, bowed, under a real sky and through a real lens, with
+//! the defaults of every tool: the truth is what an instrument of 45:0 says. The table is printed with
+//! `cargo test --test tools real_sheets -- --nocapture`.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -102,7 +103,8 @@ fn sheets_under_other_skies_give_their_spectra() {
         }
     };
     let right = all.iter().zip(&skies).filter(|(one, path)| one.day.as_deref() == Some(kind(path))).count();
-    // of the two in which the sun gives half of the light or more the facets leave it open whether the day is hazy
+    // of the two in which the sun gives half of the light or more the facets leave it open whether the day is
+    // hazy
     assert!(right + 2 >= all.len(), "{:?}", all.iter().map(|one| &one.day).collect::<Vec<_>>());
 }
 
@@ -117,7 +119,8 @@ fn sheets_on_other_grounds_give_their_spectra() {
     assert!(mean(&every, |one| one.within_two_sd) > 0.85);
 }
 
-/// Within twice their noise its facets are those of an ideal fold of another spectrum, 0.08 off, which says little of itself.
+/// Within twice their noise its facets are those of an ideal fold of another spectrum, 0.08 off, which says
+/// little of itself.
 #[test]
 fn a_little_gloss_is_not_taken_for_bounces() {
     let run = Workdir::new().sh("
@@ -138,7 +141,8 @@ fn a_little_gloss_is_not_taken_for_bounces() {
     assert!(ideal_residual < 2.0 && residual < 1.0 && rmse < 0.04 && rmse < 0.6 * ideal, "{found:?}");
 }
 
-/// Their shapes are among those of the prior, so that this tests the way from the picture to the spectrum, not the prior.
+/// Their shapes are among those of the prior, so that this tests the way from the picture to the spectrum,
+/// not the prior.
 #[test]
 fn measured_materials_give_their_reflectance() {
     let Some(materials) = sidecars("materials") else { return };
@@ -157,7 +161,8 @@ fn measured_materials_give_their_reflectance() {
 #[test]
 fn measured_materials_left_out_in_turn() {
     let Some(materials) = sidecars("materials") else { return };
-    // with their exposure 0.035 while numbers were looked at with these in view; photographs of `train` ask for a smaller discrepancy, these do not
+    // with their exposure 0.035 while numbers were looked at with these in view; photographs of `train` ask
+    // for a smaller discrepancy, these do not
     for (exposure, most) in [(Some(1.0), 0.0405), (None, 0.06)] {
         let all: Vec<Outcome> =
             materials.iter().map(|path| left_out_of_what_is_known(path, exposure)).collect();
@@ -212,8 +217,9 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     })
 }
 
-/// An oracle that knows how a material reflects over the directions, one shape for all wavelengths, and how much at 45:0: what its facets are
-/// off from the photograph's, no estimate from them can know of the 45:0 reflectance.
+/// An oracle that knows how a material reflects over the directions, one shape for all wavelengths, and how
+/// much at 45:0: what its facets are off from the photograph's, no estimate from them can know of the 45:0
+/// reflectance.
 #[test]
 fn materials_facets_do_not_tell_all_that_an_instrument_says() {
     let Some(materials) = sidecars("materials") else { return };
@@ -282,8 +288,8 @@ vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{pane
     )
 }
 
-/// What vforward makes of a sheet of which the renderer was told the same: facets away from the crease within 0.6 % of its photograph's, the
-/// noise of which is 0.1 %.
+/// What vforward makes of a sheet of which the renderer was told the same: facets away from the crease within
+/// 0.6 % of its photograph's, the noise of which is 0.1 %.
 #[test]
 fn simulated_sheets_look_as_the_renderers_do() {
     for (name, flags) in [

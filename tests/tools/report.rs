@@ -1,4 +1,5 @@
-//! `vscore --report`: one file that needs no other, says what the records say, and is harmless whatever samples are called.
+//! `vscore --report`: one file that needs no other, says what the records say, and is harmless whatever
+//! samples are called.
 
 use roxmltree::Document;
 use serde_json::Value;
@@ -244,7 +245,8 @@ fn a_photograph_needs_no_truth() {
     assert!(picture.attribute("alt").unwrap().contains("a_ideal_magenta_50"));
     assert_eq!(table(&page, "Measurement").iter().find(|row| row[0] == "width, px").unwrap()[1], "640");
     assert!(table(&page, "Spectrum")[1][2].is_empty());
-    // what to think of it, its spectrum and its colour come first, then the photograph; the rest is folded away
+    // what to think of it, its spectrum and its colour come first, then the photograph; the rest is folded
+    // away
     let section = page.descendants().find(|node| node.attribute("class") == Some("sample")).unwrap();
     let parts: Vec<_> = section.children().filter(roxmltree::Node::is_element).collect();
     let names: Vec<&str> = parts.iter().map(|part| part.tag_name().name()).collect();
@@ -314,7 +316,8 @@ fn pictures_are_those_of_the_command_line() {
     refused("three.ndjson --report out.html --overlay over-{}.png", 1, "over-white.png");
 }
 
-/// Nothing that a stream says makes a report read a file, be it named in a history or by a sample's name; a pipe is not waited for.
+/// Nothing that a stream says makes a report read a file, be it named in a history or by a sample's name; a
+/// pipe is not waited for.
 #[test]
 fn a_stream_names_no_pictures() {
     let folder = Workdir::new();

@@ -1,5 +1,5 @@
-//! What would be wrong in silence is refused or said: previews, crease ends that differ, pictures that were developed, a light that
-//! nobody named.
+//! What would be wrong in silence is refused or said: previews, crease ends that differ, pictures that were
+//! developed, a light that nobody named.
 
 use crate::common::{Ended, Workdir};
 

@@ -1,5 +1,6 @@
-//! Files of spectra: what other programs write, in all their encodings and layouts, and colour-science and Argyll CMS, who read and write
-//! them. Where one of those two is missing its tests pass without a check, and `tests/run` says so.
+//! Files of spectra: what other programs write, in all their encodings and layouts, and colour-science and
+//! Argyll CMS, who read and write them. Where one of those two is missing its tests pass without a check, and
+//! `tests/run` says so.
 
 use crate::common::Workdir;
 
@@ -17,7 +18,8 @@ fn check(needed: &str, script: &str) {
     assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
 }
 
-/// The same table as programs write it in countries with a decimal point, with a decimal comma, and as it is copied from them.
+/// The same table as programs write it in countries with a decimal point, with a decimal comma, and as it is
+/// copied from them.
 #[test]
 fn separators_and_decimal_marks_change_nothing() {
     check(
@@ -95,8 +97,8 @@ END
     );
 }
 
-/// Lines of a lamp on uneven wavelengths, and a table of ten samples that a spectrophotometer's program wrote: both come with
-/// colour-science.
+/// Lines of a lamp on uneven wavelengths, and a table of ten samples that a spectrophotometer's program
+/// wrote: both come with colour-science.
 #[test]
 fn files_of_others_are_read_as_by_colour_science() {
     check(
@@ -127,7 +129,8 @@ END
 const RESOURCES: &str =
     r#"import colour, os; print(os.path.join(os.path.dirname(colour.__file__), "io", "tests", "resources"))"#;
 
-/// One table in every format and in every encoding that `iconv` of the GNU C library makes: the reflectances are the same.
+/// One table in every format and in every encoding that `iconv` of the GNU C library makes: the reflectances
+/// are the same.
 #[test]
 fn encodings_and_line_ends_change_nothing() {
     check(
@@ -162,7 +165,8 @@ fn encodings_and_line_ends_change_nothing() {
     );
 }
 
-/// What pandas (`to_csv`), R (`write.csv`) and spreadsheets put around a table: the reflectances are those of the plain table.
+/// What pandas (`to_csv`), R (`write.csv`) and spreadsheets put around a table: the reflectances are those of
+/// the plain table.
 #[test]
 fn layouts_of_spreadsheets_and_data_frames_are_read() {
     check(
@@ -281,7 +285,8 @@ END
     );
 }
 
-/// Names that a spreadsheet would run, that turn the writing or that look like a unit: none is in what is written, and all come back.
+/// Names that a spreadsheet would run, that turn the writing or that look like a unit: none is in what is
+/// written, and all come back.
 #[test]
 fn written_tables_are_safe_to_open() {
     check(
@@ -302,7 +307,8 @@ fn written_tables_are_safe_to_open() {
     );
 }
 
-/// XYZ that Argyll computes from the file, D50 and the 2° observer; it sums bands of 5 nm with tables of its own.
+/// XYZ that Argyll computes from the file, D50 and the 2° observer; it sums bands of 5 nm with tables of its
+/// own.
 #[test]
 fn argyll_reads_what_is_written() {
     check(

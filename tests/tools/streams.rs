@@ -1,12 +1,12 @@
-//! Streams that were sorted, damaged or converted on their way: every sample is taken in its own scene or refused, and a bad line costs
-//! its own record.
+//! Streams that were sorted, damaged or converted on their way: every sample is taken in its own scene or
+//! refused, and a bad line costs its own record.
 
 use serde_json::Value;
 
 use crate::common::{Ended, Workdir};
 
-/// Two scenes in unlike light with two samples each, in the order in which the tools write them: `stream.ndjson`. `by-kind.ndjson` has
-/// both scenes first, `shuffled.ndjson` then the samples in turn.
+/// Two scenes in unlike light with two samples each, in the order in which the tools write them:
+/// `stream.ndjson`. `by-kind.ndjson` has both scenes first, `shuffled.ndjson` then the samples in turn.
 const TWO_LIGHTS: &str = "
 vkernel --angle-deg 50 --facets 6x6 --id shade | vforward --reflectance cc24:orange cc24:red --illuminant D75 > shade
 vkernel --angle-deg 50 --facets 6x6 --id sun | vforward --reflectance cc24:orange cc24:red --illuminant D50 > sun

@@ -1,11 +1,12 @@
-//! Pages of benches/results say what the tools print: some cells of each, as nearly as a page may be behind. `benches/all` makes the pages.
+//! Pages of benches/results say what the tools print: some cells of each, as nearly as a page may be behind.
+//! `benches/all` makes the pages.
 
 use std::fs;
 
 use crate::common::Workdir;
 
-/// How far what the tools print may be from a page, relative to it: pages are measured once after several changes of prior or estimator, of
-/// which each moves figures by a few per cent.
+/// How far what the tools print may be from a page, relative to it: pages are measured once after several
+/// changes of prior or estimator, of which each moves figures by a few per cent.
 const BEHIND: f64 = 0.1;
 
 /// A cell of a page: the heading above its table, how its row begins, its column from 0, and the samples and

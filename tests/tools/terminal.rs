@@ -1,4 +1,5 @@
-//! Manners on a terminal, which Python's pty plays: progress, plots and colours, and none of them where there is no terminal.
+//! Manners on a terminal, which Python's pty plays: progress, plots and colours, and none of them where there
+//! is no terminal.
 
 use crate::common::{Ended, Workdir};
 

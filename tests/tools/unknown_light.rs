@@ -124,7 +124,8 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
     assert!(!scene.contains("illuminants") && scene.contains("illuminant_unknown"));
 }
 
-/// Computed sheets and a photograph, in light that is told rightly and wrongly: another light is named where it is wrong alone.
+/// Computed sheets and a photograph, in light that is told rightly and wrongly: another light is named where
+/// it is wrong alone.
 #[test]
 fn a_light_that_is_told_wrongly_is_doubted() {
     let run = Workdir::new().sh(&format!(

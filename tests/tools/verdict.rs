@@ -1,5 +1,5 @@
-//! What vestimate thinks of its estimates: of README's own photograph as it is, and told what is not so. The table is printed with
-//! `cargo test --test tools verdict -- --nocapture`.
+//! What vestimate thinks of its estimates: of README's own photograph as it is, and told what is not so. The
+//! table is printed with `cargo test --test tools verdict -- --nocapture`.
 
 use serde_json::Value;
 
@@ -113,7 +113,8 @@ fn a_wrong_angle_that_is_to_be_believed_is_doubtful() {
     assert_eq!(one.level, "good", "{one:?}");
 }
 
-/// The colour of the light and the camera's curves are no facet's business: the verdict names what it was told.
+/// The colour of the light and the camera's curves are no facet's business: the verdict names what it was
+/// told.
 #[test]
 fn what_facets_do_not_show_is_said_to_be_told() {
     let light = judged("D50 for D65", StatedScene { light: "D50", ..AS_IT_IS });

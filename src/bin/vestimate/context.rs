@@ -44,8 +44,8 @@ pub enum SceneMethod {
 }
 
 impl Context {
-    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one of them; if not, in the
-    /// light that it states, or perhaps in one of the others.
+    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one
+    /// of them; if not, in the light that it states, or perhaps in one of the others.
     pub fn new(
         scene: &Scene,
         method: SceneMethod,
@@ -88,7 +88,8 @@ impl Context {
     }
 }
 
-/// The fold among sources other than sun and uniform sky, as photographs of it are modelled; none if the scene is no fold, or a part of it is known.
+/// The fold among sources other than sun and uniform sky, as photographs of it are modelled; none if the
+/// scene is no fold, or a part of it is known.
 fn among_sources(scene: &Scene) -> Result<Option<FoldSetting>> {
     let is_whole = scene.fold_if_one()?.is_some() && scene.materials()?.is_empty();
     if is_whole { FoldSetting::of(scene).map(Some) } else { Ok(None) }

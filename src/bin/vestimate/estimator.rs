@@ -235,8 +235,8 @@ impl<'a> Estimator<'a> {
         map::estimate(&data, inference.prior, inference.start)
     }
 
-    /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow each other on the same
-    /// wavelengths share it.
+    /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow
+    /// each other on the same wavelengths share it.
     fn prior_on(&self, grid: &WavelengthGrid, spectra: Option<&PriorSpectra>) -> Result<Arc<Prior>> {
         let wavelengths_nm = grid.wavelengths_nm();
         let mut last = self.last_prior.lock().unwrap_or_else(PoisonError::into_inner);
@@ -257,7 +257,8 @@ impl<'a> Estimator<'a> {
         Ok(prior)
     }
 
-    /// What else a light may be: scenes that follow each other before the same camera share it, as to make it takes longer than an estimate.
+    /// What else a light may be: scenes that follow each other before the same camera share it, as to make it
+    /// takes longer than an estimate.
     fn shared(&self, others: Option<Others>) -> Option<Arc<Others>> {
         let others = others?;
         let mut last = self.last_others.lock().unwrap_or_else(PoisonError::into_inner);
@@ -272,7 +273,8 @@ impl<'a> Estimator<'a> {
     /// What an unknown light before a camera may be.
     ///
     /// # Errors
-    /// [`Error::Usage`] if flags ask for what is not found along with a light; lights that do not cover the wavelengths.
+    /// [`Error::Usage`] if flags ask for what is not found along with a light; lights that do not cover the
+    /// wavelengths.
     fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
         let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
         if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
@@ -320,7 +322,8 @@ impl<'a> Estimator<'a> {
         self.asked.args.fit.is_empty() || self.asks_for_auto()
     }
 
-    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were several.
+    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were
+    /// several.
     pub fn finish(
         &self,
         context: &Context,

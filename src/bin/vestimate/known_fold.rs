@@ -48,8 +48,8 @@ impl KnownFold {
     /// The one that the flags name, if they do.
     ///
     /// # Errors
-    /// A file that is not there or holds something else than one sample, or a SPEC that names no one reflectance; [`Error::Usage`] with a method that
-    /// weighs no lights.
+    /// A file that is not there or holds something else than one sample, or a SPEC that names no one
+    /// reflectance; [`Error::Usage`] with a method that weighs no lights.
     pub fn of(args: &Args) -> Result<Option<Self>> {
         let Some((path, spec)) = &args.known_fold else { return Ok(None) };
         if !args.has_prior() {
@@ -83,7 +83,8 @@ impl KnownFold {
         Ok(Some(Self { path: path.clone(), scene, sample, spectrum, last: Mutex::default() }))
     }
 
-    /// What it shows of the light of a scene of samples, which is that scene in an assumed one if it is one of `lights`; these as it leaves them.
+    /// What it shows of the light of a scene of samples, which is that scene in an assumed one if it is one
+    /// of `lights`; these as it leaves them.
     pub fn shown(
         &self,
         asked: &Asked,
@@ -190,8 +191,8 @@ impl KnownFold {
         Ok(lit)
     }
 
-    /// Refuses a sample that is computed where this was photographed, or the other way round, and one whose exposure is to be found along with this
-    /// one's, and was another.
+    /// Refuses a sample that is computed where this was photographed, or the other way round, and one whose
+    /// exposure is to be found along with this one's, and was another.
     ///
     /// # Errors
     /// [`Error::Field`] if both records say so.

@@ -183,8 +183,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     drawing.as_ref().map_or(Ok(()), Drawing::write)
 }
 
-/// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum fitted to them means nothing,
-/// and when they say nothing of what was to be fitted; where verdicts are said at the end, these say it.
+/// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum
+/// fitted to them means nothing, and when they say nothing of what was to be fitted; where verdicts are said
+/// at the end, these say it.
 fn warn(args: &Args, id: &str, estimate: &EstimateRecord, is_judged: bool) {
     if args.common.quiet || !args.has_prior() {
         return;

@@ -36,8 +36,8 @@ pub struct PlanArgs {
     /// Camera of a scene that has none [default: canon-5d-mark-ii]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
-    /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65];
-    /// unknown: forget what scenes say of theirs, and find it
+    /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward
+    /// [default: D65]; unknown: forget what scenes say of theirs, and find it
     #[arg(long, value_name = "SPEC", value_parser = cli::light)]
     pub illuminant: Vec<String>,
     /// Illuminant of its sky [default: that of the sun]
@@ -62,7 +62,8 @@ enum Sheets {
 }
 
 impl PlanArgs {
-    /// Writes a plan for every scene of `reader`, and no other record but samples that carry an error: one may stand for a scene that was lost.
+    /// Writes a plan for every scene of `reader`, and no other record but samples that carry an error: one
+    /// may stand for a scene that was lost.
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
         let mut first = None;
         while let Some(record) = reader.read()? {
@@ -87,7 +88,8 @@ impl PlanArgs {
     /// Whether the light of all scenes is to be found.
     ///
     /// # Errors
-    /// [`Error::Usage`] if it is to be found where there is nothing to find it from, or is given to scenes that have one.
+    /// [`Error::Usage`] if it is to be found where there is nothing to find it from, or is given to scenes
+    /// that have one.
     pub fn forgets_light(&self, has_kernel: bool) -> Result<bool> {
         let is_unknown = self.illuminant.iter().any(|spec| spec == UNKNOWN_LIGHT);
         if self.plan || has_kernel {

@@ -14,7 +14,8 @@ pub fn of_scene(scene: &Scene, photograph: &Photograph) -> Balance {
     Balance::of(photograph, white().ok().flatten().as_ref())
 }
 
-/// By the camera that was named, or that the photograph names, in the light that was given. A preview needs neither.
+/// By the camera that was named, or that the photograph names, in the light that was given. A preview needs
+/// neither.
 pub fn of_photograph(args: &Args, photograph: &Photograph) -> Balance {
     let white = || {
         let Some(camera) = camera::camera(args.camera.as_deref(), Some(photograph))? else { return Ok(None) };

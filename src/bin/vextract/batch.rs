@@ -11,7 +11,8 @@ use vfold::stream::{Kept, Output, Sample};
 use super::pictures::name;
 use super::sample::Setup;
 
-/// Forgets what an interrupted run measured from the first photograph on that was replaced since; which that is.
+/// Forgets what an interrupted run measured from the first photograph on that was replaced since; which that
+/// is.
 ///
 /// # Errors
 /// As [`Kept::sample`].
@@ -37,8 +38,9 @@ fn is_of(path: &Path) -> impl Fn(&Sample) -> bool {
     move |sample| composed(&sample.id()) == name
 }
 
-/// Measures photographs, of which the first is open already, and hands on their samples in order, each as soon as it is there.
-/// Those that `kept` has are not measured again. No more of them are in memory than there are threads.
+/// Measures photographs, of which the first is open already, and hands on their samples in order, each as
+/// soon as it is there. Those that `kept` has are not measured again. No more of them are in memory than
+/// there are threads.
 pub fn measure(
     setup: &Setup,
     images: &[PathBuf],

@@ -26,7 +26,8 @@ pub struct CalibrationArgs {
     /// Patches of the chart
     #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place", value_parser = cli::pair::<usize>)]
     chart_grid: (usize, usize),
-    /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the panels
+    /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the
+    /// panels
     #[arg(
         long,
         value_name = "X",
@@ -57,7 +58,8 @@ impl CalibrationArgs {
     /// What the flags say, spectra on the scene's wavelengths.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference; as [`Common::reflectances`].
+    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference;
+    /// as [`Common::reflectances`].
     pub fn resolved(&self, grid: &WavelengthGrid, common: &Common) -> Result<ResolvedCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
             return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
@@ -127,8 +129,8 @@ impl ResolvedCalibration {
     /// The calibration by what is marked in a photograph, if anything is.
     ///
     /// # Errors
-    /// [`Error::Picture`] if chart or card are clipped, turned, or nothing like what they should be; [`Error::Usage`] if there
-    /// are several ways to calibrate.
+    /// [`Error::Picture`] if chart or card are clipped, turned, or nothing like what they should be;
+    /// [`Error::Usage`] if there are several ways to calibrate.
     pub fn calibrate(
         &self,
         scene: &Scene,

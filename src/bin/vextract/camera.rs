@@ -6,7 +6,8 @@ use vfold::image::Photograph;
 use vfold::measure::{Camera, camera_of};
 use vfold::{Result, spectrum};
 
-/// The camera that was named, or else the [camera of](camera_of) the first photograph; none only if that cannot be read.
+/// The camera that was named, or else the [camera of](camera_of) the first photograph; none only if that
+/// cannot be read.
 pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<Camera>> {
     match named {
         Some(named) => Ok(Some(Camera::named(named))),
@@ -14,7 +15,8 @@ pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<
     }
 }
 
-/// What is to be said of a photograph of which EXIF says that another camera took it than the one whose curves it is measured with.
+/// What is to be said of a photograph of which EXIF says that another camera took it than the one whose
+/// curves it is measured with.
 pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<String> {
     let (make, model) = &photograph.info().camera.called();
     spectrum::is_other_camera(camera, make, model).then(|| {

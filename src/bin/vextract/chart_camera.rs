@@ -15,7 +15,8 @@ use super::{Args, light};
 /// Writes the camera of the one photograph.
 ///
 /// # Errors
-/// [`Error::Usage`] if there are several photographs or no chart, [`Error::Picture`] if the chart is too dark, clipped, turned or another one.
+/// [`Error::Usage`] if there are several photographs or no chart, [`Error::Picture`] if the chart is too
+/// dark, clipped, turned or another one.
 pub fn save(
     args: &Args,
     file: &Path,

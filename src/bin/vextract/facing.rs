@@ -7,11 +7,13 @@ use vfold::image::{DetectedChart, Homography, Lens, camera_pose};
 use vfold::scene::Setting;
 use vfold::stream::{Corners, Regions};
 
-/// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is taken to be off by 4 %.
+/// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is taken to be
+/// off by 4 %.
 const MOST_DEG: f64 = 15.0;
 
-/// By how much at least a found chart is turned from the sun, degrees, if that is more than the angle of this cosine allows: it is turned
-/// from the camera by the angle at which it is seen, and the camera from the sun as the fold shows it.
+/// By how much at least a found chart is turned from the sun, degrees, if that is more than the angle of this
+/// cosine allows: it is turned from the camera by the angle at which it is seen, and the camera from the sun
+/// as the fold shows it.
 ///
 /// # Errors
 /// As [`Homography::through`].

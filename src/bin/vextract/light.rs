@@ -7,7 +7,8 @@ use vfold::image::Photograph;
 use vfold::measure::{LightTaken, light_of};
 use vfold::spectrum::UNKNOWN_LIGHT;
 
-/// What was given, or, if no illuminant was, the light of the `first` photograph by what its camera wrote; and what is to be said of that.
+/// What was given, or, if no illuminant was, the light of the `first` photograph by what its camera wrote;
+/// and what is to be said of that.
 pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
     let mut optics = stated.clone();
     let (true, Some(photograph)) = (optics.illuminant.is_empty(), first) else { return (optics, None) };

@@ -11,8 +11,8 @@ use super::Args;
 /// Those of the command line, then those of the list.
 ///
 /// # Errors
-/// [`Error::Usage`] if no pictures are named, or list and scene both come from standard input; [`Error::File`] if the list cannot be
-/// read.
+/// [`Error::Usage`] if no pictures are named, or list and scene both come from standard input;
+/// [`Error::File`] if the list cannot be read.
 pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     let mut images = args.images.clone();
     if let Some(list) = &args.files_from {

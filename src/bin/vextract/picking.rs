@@ -21,7 +21,8 @@ const OPENERS: [&str; 2] = ["xdg-open", "open"];
 /// Prints what a person marks in the photograph, beginning with the fold that is found in it.
 ///
 /// # Errors
-/// [`Error::Usage`] for several photographs, as [`Reading::open`], [`write_preview`] and [`cli::ask_on_page`].
+/// [`Error::Usage`] for several photographs, as [`Reading::open`], [`write_preview`] and
+/// [`cli::ask_on_page`].
 pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
     let [path] = images else {
         let problem = format!("{} photographs do not go on one page", images.len());

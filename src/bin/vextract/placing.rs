@@ -14,7 +14,8 @@ pub struct PlacingArgs {
     /// Leave the corners where they are
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
-    /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side
+    /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the
+    /// shorter side
     #[arg(long, value_name = "K1,K2", value_parser = coefficients, allow_hyphen_values = true)]
     distortion: Option<[f64; 2]>,
 }

@@ -116,7 +116,8 @@ impl Setup<'_> {
         Ok(sample)
     }
 
-    /// The calibration by what is marked. A detected chart is left out with a message where a stated one would be an error.
+    /// The calibration by what is marked. A detected chart is left out with a message where a stated one
+    /// would be an error.
     fn calibrated(
         &self,
         regions: &Regions,
@@ -144,7 +145,8 @@ impl Setup<'_> {
             .map(|(calibration, record)| (calibration, record.with_confidence(Some(confidence)))))
     }
 
-    /// Sides along which no edge of the sheet lies; of other surfaces than a fold, panels go on at more sides than one.
+    /// Sides along which no edge of the sheet lies; of other surfaces than a fold, panels go on at more sides
+    /// than one.
     fn open_sides(&self, photograph: &Photograph, panels: &[Grid]) -> Result<Vec<String>> {
         let is_fold = self.scene.fold_if_one()?.is_some();
         Ok(if is_fold { open_sides(photograph, panels) } else { Vec::new() })

@@ -27,8 +27,8 @@ impl Emission {
     /// What the flags say, on the wavelengths of `grid`.
     ///
     /// # Errors
-    /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts; as
-    /// [`Common::one_radiance_factor`](vfold::cli::Common::one_radiance_factor).
+    /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts;
+    /// as [`Common::one_radiance_factor`](vfold::cli::Common::one_radiance_factor).
     pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
         if !args.donaldson.is_empty() {
             return Lights::of(args).map(Self::Excited);

@@ -45,8 +45,8 @@ struct Args {
     /// the sheet
     #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
     panel_reflectance: Vec<(usize, String)>,
-    /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per
-    /// facet, no truth in the samples
+    /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one
+    /// flat patch per facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
         conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,

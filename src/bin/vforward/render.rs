@@ -12,7 +12,8 @@ use vfold::{Error, Result};
 #[derive(Args)]
 #[command(next_help_heading = "Photograph")]
 pub struct RenderArgs {
-    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)
+    /// Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png
+    /// (sRGB)
     #[arg(long, value_name = "FILE")]
     pub render: Option<PathBuf>,
     /// Size of the photograph
@@ -35,7 +36,8 @@ pub struct RenderArgs {
 
 impl RenderArgs {
     /// # Errors
-    /// [`Error::Usage`] for a camera that looks at nothing: a perfectly matt sheet sends facets the same light from everywhere.
+    /// [`Error::Usage`] for a camera that looks at nothing: a perfectly matt sheet sends facets the same
+    /// light from everywhere.
     pub fn check(&self, is_seen: bool) -> Result<()> {
         if self.eye.is_none() || self.render.is_some() || is_seen {
             return Ok(());

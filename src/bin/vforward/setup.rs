@@ -114,7 +114,8 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// What the flat sheet sends out of white's light in the scene's, or in the first of several lights, if it fluoresces.
+    /// What the flat sheet sends out of white's light in the scene's, or in the first of several lights, if
+    /// it fluoresces.
     fn total_radiance_factor(&self, sheet: &Sheet) -> Result<Option<Vec<f64>>> {
         Ok(match (self.emission, &sheet.bispectral) {
             (Emission::Part(part), _) => {

@@ -8,7 +8,8 @@ use vfold::{Error, Result};
 #[command(next_help_heading = "Sheet")]
 #[group(id = "sheet")]
 pub struct SheetArgs {
-    /// Specular weight: strength of the surface's reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye
+    /// Specular weight: strength of the surface's reflection, that of a closed surface of refractive index
+    /// 1.5 being 1; the camera stands at --eye
     #[arg(long, alias = "gloss", value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     specular_weight: f64,
     /// Roughness of the surface: GGX's alpha, 0.25 to 1
@@ -60,6 +61,7 @@ impl SheetArgs {
     }
 }
 
-/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged between. Compared once with another
-/// program's transport between patches, facets away from the crease of a closed surface were 2 % apart at 0.25 and 7 % at 0.15.
+/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged
+/// between. Compared once with another program's transport between patches, facets away from the crease of a
+/// closed surface were 2 % apart at 0.25 and 7 % at 0.15.
 const LEAST_ROUGHNESS: f64 = 0.25;

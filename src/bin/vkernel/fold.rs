@@ -18,8 +18,8 @@ use super::{Args, MethodName, SamplingName, SpacingName, regions, say_work};
 
 /// Facet means that may be this far off are no answer.
 const USELESS: f64 = 0.05;
-/// Up to this angle light bounces more often between undivided panels than Lanczos' method follows, whatever their sides: facet means would be
-/// off by all of their light.
+/// Up to this angle light bounces more often between undivided panels than Lanczos' method follows, whatever
+/// their sides: facet means would be off by all of their light.
 const TOO_NARROW_DEG: f64 = 0.2;
 /// Samples of a Monte Carlo estimate.
 const SAMPLES: u32 = 10_000;

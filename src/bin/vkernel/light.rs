@@ -13,11 +13,12 @@ pub const UP: [f64; 3] = [0.0, 0.0, 1.0];
 #[derive(Args)]
 #[command(next_help_heading = "Light from anywhere")]
 pub struct LightArgs {
-    /// A light, repeated for several: direction X,Y,Z towards the sun; point:X,Y,Z, a small lamp there; area:X,Y,Z,WIDTHxHEIGHT, a window or a
-    /// large lamp with its middle there, turned to the middle of the sheet, its width along the y axis. A number after another colon is its
-    /// irradiance on a plane facing it (of a lamp: in the middle of the sheet), 1 if there is none. none: the sky alone. Of a fold the bottom of
-    /// the crease's middle is at 0,0,0, y runs along the crease, z out of the opening, panel 1 is at positive x; the unit is that of --panel
-    /// [default: 0,0,1, of a fold as --tilt-deg and --slant-deg say]
+    /// A light, repeated for several: direction X,Y,Z towards the sun; point:X,Y,Z, a small lamp there;
+    /// area:X,Y,Z,WIDTHxHEIGHT, a window or a large lamp with its middle there, turned to the middle of the
+    /// sheet, its width along the y axis. A number after another colon is its irradiance on a plane facing it
+    /// (of a lamp: in the middle of the sheet), 1 if there is none. none: the sky alone. Of a fold the bottom
+    /// of the crease's middle is at 0,0,0, y runs along the crease, z out of the opening, panel 1 is at
+    /// positive x; the unit is that of --panel [default: 0,0,1, of a fold as --tilt-deg and --slant-deg say]
     #[arg(
         long,
         value_name = "X,Y,Z[:E]|point:X,Y,Z[:E]|area:X,Y,Z,WxH[:E]|none",
@@ -25,8 +26,9 @@ pub struct LightArgs {
         allow_hyphen_values = true
     )]
     light: Vec<LightArg>,
-    /// Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day (Moon and Spencer), clear, or the
-    /// number of a CIE standard sky, 1 to 15, of which 12 is clear; bright about the first sun of --light, or 0,0,1
+    /// Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day
+    /// (Moon and Spencer), clear, or the number of a CIE standard sky, 1 to 15, of which 12 is clear; bright
+    /// about the first sun of --light, or 0,0,1
     #[arg(
         long,
         value_name = "uniform|overcast|clear|1..15",
@@ -71,8 +73,8 @@ impl LightArgs {
         !self.light.is_empty()
     }
 
-    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if it is infinite; the sun stands at
-    /// `sun` if no light is stated.
+    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if
+    /// it is infinite; the sun stands at `sun` if no light is stated.
     pub fn sources(&self, shape: &Shape, sky: f64, sun: [f64; 3]) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
             return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));

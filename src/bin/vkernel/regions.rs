@@ -21,7 +21,8 @@ pub struct Seen {
     pub panel: (f64, f64),
 }
 
-/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the one that is stated.
+/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the
+/// one that is stated.
 const MOST_SD_DEG: f64 = 3.0;
 /// Angles further apart than this, in standard deviations, are not those of one fold.
 const APART: f64 = 3.0;

@@ -1,5 +1,5 @@
-//! Any surface: read from a file, a fold of several creases or with curved panels, or a plain one among other lights than the sun and a uniform
-//! sky.
+//! Any surface: read from a file, a fold of several creases or with curved panels, or a plain one among other
+//! lights than the sun and a uniform sky.
 
 use std::path::{Path, PathBuf};
 
@@ -32,8 +32,9 @@ const FAST_TOLERANCE: f64 = 0.01;
 #[derive(ClapArgs)]
 #[command(next_help_heading = "Shapes")]
 pub struct ShapeArgs {
-    /// Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file's order; corners counter-clockwise seen
-    /// from the reflecting side. At most 100000, and at most a gigabyte for pairs that are near or partly hidden
+    /// Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file's order;
+    /// corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for
+    /// pairs that are near or partly hidden
     #[arg(long, value_name = "FILE.obj|.ply|.json",
           conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg", "bow_deg"])]
     shape: Option<PathBuf>,
@@ -46,8 +47,8 @@ pub struct ShapeArgs {
     /// Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     ridge_deg: Option<f64>,
-    /// Panels curved in an arc: degrees by which each turns away from the other between the crease, where the angle is --angle-deg, and
-    /// its end, as the pages of an open book do; negative: towards it, a trough
+    /// Panels curved in an arc: degrees by which each turns away from the other between the crease, where the
+    /// angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough
     #[arg(
         long,
         visible_alias = "bow",

@@ -4,7 +4,8 @@ use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::spectrum::{ClearSky, Outside, Sun, WavelengthGrid};
 use vfold::{Error, Result};
 
-/// Parses how much light the sky gives beside the sun: a number, `sun:WHERE`, where the sun stands, or `only`, which is infinite.
+/// Parses how much light the sky gives beside the sun: a number, `sun:WHERE`, where the sun stands, or
+/// `only`, which is infinite.
 ///
 /// # Errors
 /// A message for the command line.

@@ -49,7 +49,8 @@ struct Args {
     /// under D50, also what it emits by fluorescence. Without fluorescence they are the same
     #[arg(long, value_name = "M1|M2", default_value = "M2", ignore_case = true)]
     condition: Condition,
-    /// Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others
+    /// Illuminant of the colour difference; repeated: differences under each, and metamerism from the first
+    /// to the others
     #[arg(long, value_name = "SPEC", default_value = "D65", value_parser = cli::light)]
     illuminant: Vec<String>,
     /// Standard observer of the colour difference, degrees
@@ -60,7 +61,8 @@ struct Args {
     /// illuminants]
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true, value_parser = metric())]
     metrics: Vec<&'static Metric>,
-    /// Add the estimate's XYZ, CIELAB and sRGB under the first illuminant to the records, with standard deviations
+    /// Add the estimate's XYZ, CIELAB and sRGB under the first illuminant to the records, with standard
+    /// deviations
     #[arg(long, conflicts_with = "table")]
     colour: bool,
     /// Also summarise by the value of a field of the samples or their scenes, such as
@@ -124,7 +126,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let (mut groups, mut measured) = (Groups::new(args.by.as_deref()), Vec::new());
     let mut gallery = gallery(args);
     let mut header = table.as_ref();
-    // Scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of them.
+    // Scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of
+    // them.
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
         header.take().map_or(Ok(()), |table| table.header(out))?;
         match &record {

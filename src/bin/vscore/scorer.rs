@@ -96,7 +96,8 @@ impl<'a> Scorer<'a> {
         Ok(Some(truth))
     }
 
-    /// A spectrum that `--truth` names: under M1 all that the sheet sends out, which says nothing of what of it is reflected.
+    /// A spectrum that `--truth` names: under M1 all that the sheet sends out, which says nothing of what of
+    /// it is reflected.
     fn measured(
         &self,
         spectrum: &Spectrum,

@@ -1,8 +1,10 @@
-//! Light that a sheet sends out itself where it fluoresces, as a fraction f of white under the light that falls on it.
+//! Light that a sheet sends out itself where it fluoresces, as a fraction f of white under the light that
+//! falls on it.
 //!
-//! What is reflected bounces on; what is sent out is added once, where the light that excites it is taken in by the sheet and so hardly
-//! bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is log-normal in wavenumbers, with its size, place and width unknown; a sheet
-//! has one band or none, which is weighed by evidence.
+//! What is reflected bounces on; what is sent out is added once, where the light that excites it is taken in
+//! by the sheet and so hardly bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is
+//! log-normal in wavenumbers, with its size, place and width unknown; a sheet has one band or none, which is
+//! weighed by evidence.
 
 pub(super) mod terms;
 
@@ -19,8 +21,8 @@ use super::unknowns::Normal;
 struct Band {
     /// What excites it.
     origin: Origin,
-    /// The largest size, the size being the fraction of white under daylight that is sent out at the peak: no more photons than are taken in at shorter
-    /// wavelengths.
+    /// The largest size, the size being the fraction of white under daylight that is sent out at the peak: no
+    /// more photons than are taken in at shorter wavelengths.
     most: f64,
     /// Logit of the part of that.
     size: Normal,
@@ -41,14 +43,16 @@ pub enum Origin {
     Behind,
     /// Ultraviolet: an optical brightener.
     Ultraviolet,
-    /// Visible light of shorter wavelengths: a fluorescent dye or pigment. What bounces excites, too, which the model leaves out.
+    /// Visible light of shorter wavelengths: a fluorescent dye or pigment. What bounces excites, too, which
+    /// the model leaves out.
     Visible,
 }
 
 impl Origin {
-    /// Power of the reflectance with which light is sent out: a sheet takes in of light that goes through it what it takes in of light that it reflects,
-    /// and both grow as its colour is paler. By Kubelka and Munk's equations transmittances of sheets of 1.5 to 8 scattering lengths are as reflectances
-    /// to powers of 1.8 to 2.7.
+    /// Power of the reflectance with which light is sent out: a sheet takes in of light that goes through it
+    /// what it takes in of light that it reflects, and both grow as its colour is paler. By Kubelka and
+    /// Munk's equations transmittances of sheets of 1.5 to 8 scattering lengths are as reflectances to powers
+    /// of 1.8 to 2.7.
     fn of_reflectance(self) -> i32 {
         match self {
             Self::Behind => 2,
@@ -62,19 +66,23 @@ impl Origin {
 enum Share {
     /// All classes of spectra alike.
     OfAll(f64),
-    /// That many of those that are white where the band is, hardly any of the deep ones: a brightener is put into what is to look white.
+    /// That many of those that are white where the band is, hardly any of the deep ones: a brightener is put
+    /// into what is to look white.
     OfWhite(f64),
 }
 
-/// Reflectance at the peak of a brightener at which half as many sheets as of the white ones are brightened, and the logit over which that falls by
-/// e: pastel papers are dyed in the pulp of white ones, of deep colours a brightener would change nothing that is seen.
+/// Reflectance at the peak of a brightener at which half as many sheets as of the white ones are brightened,
+/// and the logit over which that falls by e: pastel papers are dyed in the pulp of white ones, of deep
+/// colours a brightener would change nothing that is seen.
 const PASTEL: f64 = 0.5;
 const PASTEL_LOGIT: f64 = 0.5;
 
-/// Stilbenes in paper, cloth and plastics: they take in 300 to 430 nm and send out about 400 to 500 nm, and a brightened sheet is brightest at 435 to
-/// 440 nm (A. E. Siegrist et al., "Optical brighteners", *Ullmann's Encyclopedia of Industrial Chemistry* 25 (2012)). A size is as often below a tenth of
-/// white as above, two of three lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed cloth has one, of
-/// other white sheets, such as painted ones, fewer. Where it takes in most, at 370 nm, the logit of reflectance has fallen by about three, from 0.8 to 0.2.
+/// Stilbenes in paper, cloth and plastics: they take in 300 to 430 nm and send out about 400 to 500 nm, and a
+/// brightened sheet is brightest at 435 to 440 nm (A. E. Siegrist et al., "Optical brighteners", *Ullmann's
+/// Encyclopedia of Industrial Chemistry* 25 (2012)). A size is as often below a tenth of white as above, two
+/// of three lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed
+/// cloth has one, of other white sheets, such as painted ones, fewer. Where it takes in most, at 370 nm, the
+/// logit of reflectance has fallen by about three, from 0.8 to 0.2.
 const BRIGHTENER: Band = Band {
     origin: Origin::Ultraviolet,
     most: 0.7,
@@ -85,8 +93,9 @@ const BRIGHTENER: Band = Band {
     share: Share::OfWhite(0.35),
 };
 
-/// Dyes of notes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission from blue green to red, 30 to 70 nm wide at half its
-/// peak (J. R. Lakowicz, *Principles of Fluorescence Spectroscopy* (2006), chapter 3), of one sheet in fifty in all.
+/// Dyes of notes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission from
+/// blue green to red, 30 to 70 nm wide at half its peak (J. R. Lakowicz, *Principles of Fluorescence
+/// Spectroscopy* (2006), chapter 3), of one sheet in fifty in all.
 const fn dye(peak_nm: f64) -> Band {
     let peak_per_cm = 1e7 / peak_nm;
     Band {
@@ -101,9 +110,9 @@ const fn dye(peak_nm: f64) -> Band {
     }
 }
 
-/// Light of table, ground and sky behind a single sheet in free air, up to a third of white, of which printing paper lets a tenth to a quarter through, cloth
-/// more (P. Kubelka, *Journal of the Optical Society of America* 38 (1948), p. 448): broad, rather red than blue. One sheet in twenty is thin and not
-/// backed.
+/// Light of table, ground and sky behind a single sheet in free air, up to a third of white, of which
+/// printing paper lets a tenth to a quarter through, cloth more (P. Kubelka, *Journal of the Optical Society
+/// of America* 38 (1948), p. 448): broad, rather red than blue. One sheet in twenty is thin and not backed.
 const THROUGH: Band = Band {
     origin: Origin::Behind,
     most: 0.3,
@@ -117,13 +126,16 @@ const THROUGH: Band = Band {
 static BANDS: [Band; 9] =
     [BRIGHTENER, THROUGH, dye(480.0), dye(505.0), dye(530.0), dye(555.0), dye(580.0), dye(605.0), dye(630.0)];
 
-/// Where a brightener begins to take in light (Siegrist et al.), and how much further the fall of logits is its amount: at 400 nm.
+/// Where a brightener begins to take in light (Siegrist et al.), and how much further the fall of logits is
+/// its amount: at 400 nm.
 const FALL_NM: f64 = 430.0;
 const FALL_WITHIN_NM: f64 = 30.0;
-/// Power of a light below which a share of its mean counts as that: between the lines of a lamp f would have no bounds.
+/// Power of a light below which a share of its mean counts as that: between the lines of a lamp f would have
+/// no bounds.
 const LEAST_POWER: f64 = 0.02;
 
-/// A band on the wavebands of a scene, in its light. Its unknowns are standard normal numbers, in this order: size, peak, width, fall.
+/// A band on the wavebands of a scene, in its light. Its unknowns are standard normal numbers, in this order:
+/// size, peak, width, fall.
 #[derive(Clone, Debug)]
 pub struct Emission {
     /// What is known of it; none of a sheet that sends out nothing.
@@ -143,12 +155,12 @@ const SKEW: f64 = 0.3;
 const UNKNOWNS: usize = 4;
 const FALL: usize = 3;
 
-/// Logarithm of the shape of a band, 1 at its peak, with its first and second derivative, `u` being wavenumbers from the peak in units of the width; none
-/// beyond its end.
+/// Logarithm of the shape of a band, 1 at its peak, with its first and second derivative, `u` being
+/// wavenumbers from the peak in units of the width; none beyond its end.
 ///
 /// # Source
-/// The log-normal function: D. B. Siano, D. E. Metzler, *Journal of Chemical Physics* 51 (1969), p. 1856, for bands of emission E. A. Burstein,
-/// V. I. Emelyanenko, *Photochemistry and Photobiology* 64 (1996), p. 316.
+/// The log-normal function: D. B. Siano, D. E. Metzler, *Journal of Chemical Physics* 51 (1969), p. 1856, for
+/// bands of emission E. A. Burstein, V. I. Emelyanenko, *Photochemistry and Photobiology* 64 (1996), p. 316.
 fn ln_log_normal(u: f64) -> Option<[f64; 3]> {
     let rest = 1.0 - SKEW * u;
     if rest <= 0.0 {
@@ -211,7 +223,8 @@ impl Emission {
         if self.band.is_some() { UNKNOWNS } else { 0 }
     }
 
-    /// Logarithms of the shares of classes of spectra, those of all sheets being given, times how often sheets of each have it.
+    /// Logarithms of the shares of classes of spectra, those of all sheets being given, times how often
+    /// sheets of each have it.
     #[must_use]
     pub fn ln_class_shares(&self, of_all: Vec<f64>, prior: &Prior) -> Vec<f64> {
         let means = prior.classes().iter().map(Class::mean);
@@ -240,7 +253,8 @@ impl Emission {
         self.wavelengths_nm.as_slice()
     }
 
-    /// The waveband in which most is sent out of all that is this `fraction` of white: where a lamp is dark fractions are large.
+    /// The waveband in which most is sent out of all that is this `fraction` of white: where a lamp is dark
+    /// fractions are large.
     #[must_use]
     pub fn peak(&self, fraction: &[f64]) -> usize {
         let power = DVector::from_column_slice(fraction).component_div(&self.by_light);
@@ -299,7 +313,8 @@ impl Emission {
         &self.usual
     }
 
-    /// Change of logits where the unknowns are `w`, and its derivative by the fall, which is the unknown of that place.
+    /// Change of logits where the unknowns are `w`, and its derivative by the fall, which is the unknown of
+    /// that place.
     #[must_use]
     pub fn fall(&self, w: &[f64]) -> Option<Fall<'_>> {
         let band = self.band.filter(|band| band.fall.sd > 0.0)?;

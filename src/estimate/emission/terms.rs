@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-/// `rᵖ(1 + gt)` of a term t, g being its pole, r the reflectance: the light goes with a power p of that. Waveband by term, with derivatives by reflectance.
+/// `rᵖ(1 + gt)` of a term t, g being its pole, r the reflectance: the light goes with a power p of that.
+/// Waveband by term, with derivatives by reflectance.
 pub struct Made {
     pub terms: DMatrix<f64>,
     pub slopes: DMatrix<f64>,

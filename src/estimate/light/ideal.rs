@@ -14,13 +14,14 @@ use crate::estimate::map::into_estimate;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
-/// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of the question; that is more than what
-/// knowing the class of spectra changes.
+/// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of
+/// the question; that is more than what knowing the class of spectra changes.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Under so many lights classes of spectra are distinguished at most.
 const DISTINCT_ODDS: usize = 48;
 
-/// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out from.
+/// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out
+/// from.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
@@ -45,7 +46,8 @@ pub fn estimate(
     Ok(Estimate { light: Some(light), ..into_estimate(best, &found, &found, search.trace) })
 }
 
-/// Lights by their evidence under all spectra, each from where its neighbour led, those that are out of the question left out.
+/// Lights by their evidence under all spectra, each from where its neighbour led, those that are out of the
+/// question left out.
 fn sorted(
     search: &mut Search<Alternatives>,
     lights: &[Candidate],

@@ -1,7 +1,8 @@
 //! What a fold of a known sheet says of its light.
 //!
-//! Where the reflectance is known, how probable the facets are in a light depends on that light and on little else: the sheet's evidence tells
-//! lights apart that unknown sheets leave open, and the exposure along with them. The fold's own scene is integrated out as that of any other.
+//! Where the reflectance is known, how probable the facets are in a light depends on that light and on little
+//! else: the sheet's evidence tells lights apart that unknown sheets leave open, and the exposure along with
+//! them. The fold's own scene is integrated out as that of any other.
 
 use std::iter;
 
@@ -22,10 +23,12 @@ use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
 use crate::solve::posterior::{Model, Solution, find_mode, first_tempering};
 
-/// How far off the reflectance is that an instrument on a bench says, relative to it: instruments of one model agree to 0.4 ΔE*94 in the mean on ceramic
-/// tiles (X-Rite, *i1Pro 2*, technical specification), which is 1 % of a white sheet's light, and sheets differ from place to place.
+/// How far off the reflectance is that an instrument on a bench says, relative to it: instruments of one
+/// model agree to 0.4 ΔE*94 in the mean on ceramic tiles (X-Rite, *i1Pro 2*, technical specification), which
+/// is 1 % of a white sheet's light, and sheets differ from place to place.
 const SD: f64 = 0.01;
-/// A maximum counts as found within this many standard deviations of it, and a search ends after so many iterations.
+/// A maximum counts as found within this many standard deviations of it, and a search ends after so many
+/// iterations.
 const TOLERANCE: f64 = 1e-3;
 const LIMIT: usize = 500;
 /// A sheet whose reflectance is known, to what an instrument repeats.
@@ -47,7 +50,8 @@ pub struct Shown {
     pub scenarios: Option<ShownScenarios>,
     /// What it shows of daylight that was stated.
     pub daylight: Option<ShownDaylight>,
-    /// How far the known facets are from the model in the light that suits them best, in units of their noise.
+    /// How far the known facets are from the model in the light that suits them best, in units of their
+    /// noise.
     pub rms: f64,
 }
 
@@ -59,7 +63,8 @@ struct InLight {
 }
 
 impl InLight {
-    /// The noise being as large as the facets leave it in the light that suits them best: where none does, lights are distinguished less surely.
+    /// The noise being as large as the facets leave it in the light that suits them best: where none does,
+    /// lights are distinguished less surely.
     fn ln_evidence(&self, least_rms: f64) -> Option<f64> {
         self.solution.ln_evidence(least_rms.max(1.0))
     }
@@ -102,7 +107,8 @@ impl KnownSheet {
         Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 
-    /// The same `lights` as probable as a fold of it leaves them, those that it rules out left out; and what it shows beside them.
+    /// The same `lights` as probable as a fold of it leaves them, those that it rules out left out; and what
+    /// it shows beside them.
     ///
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
@@ -121,7 +127,8 @@ impl KnownSheet {
         Ok((lights, Shown { exposure: None, rival: None, scenarios: None, daylight: None, rms }))
     }
 
-    /// What a photograph of it shows: of `lights`, if it is not known which it is, else of the daylight that was stated.
+    /// What a photograph of it shows: of `lights`, if it is not known which it is, else of the daylight that
+    /// was stated.
     ///
     /// # Arguments
     /// - `parts`: what the photograph is made of, in daylight that nobody stated if the light is unknown.
@@ -208,7 +215,8 @@ mod tests {
 
     const LIGHTS: [&str; 4] = ["D65", "A", "FL11", "LED-B3"];
 
-    /// Lights as a grey fold in the first of them leaves them, its facets being as precise as `noise_sd`, and how probable each was before.
+    /// Lights as a grey fold in the first of them leaves them, its facets being as precise as `noise_sd`, and
+    /// how probable each was before.
     fn weighed(noise_sd: f64) -> (Vec<Candidate>, f64) {
         let grid = WavelengthGrid::uniform(400.0, 700.0, 10.0).unwrap();
         let curves = camera("canon-5d-mark-ii").unwrap().channels;

@@ -1,8 +1,8 @@
 //! A light that nobody stated, found by evidence.
 //!
-//! The residual does not tell lights apart: some spectrum explains the facets in nearly every one. How probable that spectrum is does. So each
-//! light is a hypothesis, weighed by the evidence of what is known of reflectances, and the estimate is the mean over all of them, as it is over
-//! classes of spectra.
+//! The residual does not tell lights apart: some spectrum explains the facets in nearly every one. How
+//! probable that spectrum is does. So each light is a hypothesis, weighed by the evidence of what is known of
+//! reflectances, and the estimate is the mean over all of them, as it is over classes of spectra.
 
 mod ideal;
 mod known;
@@ -69,7 +69,8 @@ impl Candidate {
     /// Lights before a camera of these sensitivities, `[channel][waveband]`.
     ///
     /// # Errors
-    /// [`crate::Error::Spectrum`] if one does not cover the wavelengths, [`crate::Error::Numeric`] if a channel sees nothing of it.
+    /// [`crate::Error::Spectrum`] if one does not cover the wavelengths, [`crate::Error::Numeric`] if a
+    /// channel sees nothing of it.
     pub fn all(
         lights: &[CandidateLight],
         grid: &WavelengthGrid,

@@ -1,7 +1,9 @@
-//! A photograph in a light that nobody stated: in daylight of any day and temperature, as photographs usually are, or in one of the others.
+//! A photograph in a light that nobody stated: in daylight of any day and temperature, as photographs usually
+//! are, or in one of the others.
 //!
-//! Under one kind of sheet and all spectra as one, each from where its neighbour led, lights show quickly which of them are out of the
-//! question. What is left is estimated as if it had been said, and the estimate is the mean of these by their evidence.
+//! Under one kind of sheet and all spectra as one, each from where its neighbour led, lights show quickly
+//! which of them are out of the question. What is left is estimated as if it had been said, and the estimate
+//! is the mean of these by their evidence.
 
 use std::{iter, slice};
 
@@ -20,15 +22,17 @@ use crate::estimate::photograph::{
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 
-/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and at most so many are estimated beside
-/// daylight, in which photographs usually are: with looking through all of them that is less than four estimates.
+/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and
+/// at most so many are estimated beside daylight, in which photographs usually are: with looking through all
+/// of them that is less than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
-/// Lights so far behind the best in the light of a known sheet, as the logarithm of a share of its evidence, are out of the question for all others.
+/// Lights so far behind the best in the light of a known sheet, as the logarithm of a share of its evidence,
+/// are out of the question for all others.
 pub(super) const LN_HOPELESS: f64 = -20.0;
 
-/// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours of [`WITHOUT_SKY_K`], or a small
-/// window.
+/// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours
+/// of [`WITHOUT_SKY_K`], or a small window.
 pub(super) const WITHOUT_SKY: f64 = 0.1;
 const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
 
@@ -107,7 +111,8 @@ fn ln_of_days(days: &[(Day, f64, KnownSeen)]) -> f64 {
     if days.is_empty() { most } else { most + days.iter().map(weight).sum::<f64>().ln() }
 }
 
-/// The expected reflectance, and the light, of a photograph in one of `lights`; its `parts` are those in daylight that nobody stated.
+/// The expected reflectance, and the light, of a photograph in one of `lights`; its `parts` are those in
+/// daylight that nobody stated.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
@@ -254,7 +259,8 @@ impl Scenario<'_> {
     }
 }
 
-/// The mean of estimates by their shares, its errors widened by how far they are from it; all else is that of the largest share.
+/// The mean of estimates by their shares, its errors widened by how far they are from it; all else is that of
+/// the largest share.
 fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
     all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let weighted = |of: &dyn Fn(&Estimate) -> Option<DVector<f64>>| {

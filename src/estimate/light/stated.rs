@@ -1,9 +1,10 @@
 //! Whether another light is more probable than the one that was stated.
 //!
-//! In another light the facets are those of another spectrum. How much more probable the facets are then is known before anything is
-//! known of who stated the light: the ratio of evidence. What people state is right in nineteen cases of twenty (docs/model.md), and nothing
-//! is known of what they take for it otherwise, so that every other light is weighed by itself: one in which facets are more than nineteen times as
-//! probable is more probable than the one that was stated.
+//! In another light the facets are those of another spectrum. How much more probable the facets are then is
+//! known before anything is known of who stated the light: the ratio of evidence. What people state is right
+//! in nineteen cases of twenty (docs/model.md), and nothing is known of what they take for it otherwise, so
+//! that every other light is weighed by itself: one in which facets are more than nineteen times as probable
+//! is more probable than the one that was stated.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -18,13 +19,15 @@ use crate::estimate::search::{Search, Sorted};
 use crate::estimate::verdict::Doubt;
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
-/// Logarithm of the ratio of evidence that makes up for a statement: nineteen times, as one statement in twenty is mistaken, rounded.
+/// Logarithm of the ratio of evidence that makes up for a statement: nineteen times, as one statement in
+/// twenty is mistaken, rounded.
 pub(super) const LN_ODDS: f64 = 3.0;
-/// A light under which facets are at least as probable as that is not asked about, in standard deviations of how improbable facets of known sheets are:
-/// what is as usual as that needs no other light to explain it.
+/// A light under which facets are at least as probable as that is not asked about, in standard deviations of
+/// how improbable facets of known sheets are: what is as usual as that needs no other light to explain it.
 const USUAL: f64 = 0.5;
-/// Lights are searched if models that are linear say that facets may become so much more probable in them, and are weighed by classes of spectra if they are
-/// ahead by so much under all spectra as one, so many of them at most: what classes add differs from light to light by less than the rest of
+/// Lights are searched if models that are linear say that facets may become so much more probable in them,
+/// and are weighed by classes of spectra if they are ahead by so much under all spectra as one, so many of
+/// them at most: what classes add differs from light to light by less than the rest of
 /// [`LN_ODDS`].
 pub(super) const LN_AHEAD: f64 = 1.0;
 const DISTINCT_ODDS: usize = 3;
@@ -110,8 +113,8 @@ impl fmt::Display for RivalLight {
     }
 }
 
-/// The light in which facets are much more probable than in the one that was `stated`, in which the sheet may fluoresce, if there is any among
-/// `others`.
+/// The light in which facets are much more probable than in the one that was `stated`, in which the sheet may
+/// fluoresce, if there is any among `others`.
 pub fn rival(
     data: &FacetData,
     (stated, fluorescing): (&StatedScene, &[Fluorescing]),
@@ -133,7 +136,8 @@ pub fn rival(
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
         let start = Facets { data: &lit, gaussian: prior.broad() }.set_out_from(&alike);
         let mut in_light = Search::new(&lit, prior);
-        // of lights far off the stated one the way there says little, of lights near by the way from what is seen alike
+        // of lights far off the stated one the way there says little, of lights near by the way from what is
+        // seen alike
         let change =
             &stated.solution.at.residuals - lit.residuals(&reflectance, unknowns.as_slice()).residuals;
         let is_hopeful = score_test.ln_gain_along(&change) > LN_AHEAD
@@ -175,7 +179,8 @@ fn seen_alike(reflectance: &[f64], camera: &CameraResponse, light: &Candidate) -
     alike.into_iter().map(|r| scale * r).collect()
 }
 
-/// Those of most evidence among the lights that are `ahead`: one of [`STEP`] is tried, then the neighbours of the best.
+/// Those of most evidence among the lights that are `ahead`: one of [`STEP`] is tried, then the neighbours of
+/// the best.
 pub(super) fn coarse_to_fine<'l, L, T>(
     lights: &'l [L],
     mut ahead: impl FnMut(&'l L) -> Option<T>,

@@ -1,7 +1,9 @@
-//! Whether a photograph speaks against the light that was stated: under one kind of sheet, on the kind of day that suits each light best.
+//! Whether a photograph speaks against the light that was stated: under one kind of sheet, on the kind of day
+//! that suits each light best.
 //!
-//! Daylight that people state is any daylight: a photograph has its temperature as an unknown. It comes with a sky or, now and then, without: otherwise
-//! lamps of its colour, which have none, would explain pictures better that show hardly any.
+//! Daylight that people state is any daylight: a photograph has its temperature as an unknown. It comes with
+//! a sky or, now and then, without: otherwise lamps of its colour, which have none, would explain pictures
+//! better that show hardly any.
 
 use std::slice;
 
@@ -18,8 +20,9 @@ use crate::estimate::photograph::{Parts, Photographs};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
-/// Logarithm of the ratio of evidence that makes up for a statement, four hundred times: more than of computed facets, as a lamp may mimic what of a
-/// photograph no model has. Fitted to `../shared/train`: one of 48 in light that is stated rightly is doubted.
+/// Logarithm of the ratio of evidence that makes up for a statement, four hundred times: more than of
+/// computed facets, as a lamp may mimic what of a photograph no model has. Fitted to `../shared/train`: one
+/// of 48 in light that is stated rightly is doubted.
 const LN_ODDS: f64 = 6.0;
 
 type Tried = Sorted<Hypothesis, ()>;
@@ -54,8 +57,8 @@ impl Starts {
     }
 }
 
-/// The light in which a photograph is much more probable than in the one that was stated, if there is any among `others`; in that the kind of `day`
-/// has been found, if it is daylight.
+/// The light in which a photograph is much more probable than in the one that was stated, if there is any
+/// among `others`; in that the kind of `day` has been found, if it is daylight.
 pub fn rival_in_photograph(
     parts: &Parts,
     day: Option<Day>,
@@ -138,7 +141,8 @@ impl Lit {
         best
     }
 
-    /// How it may fall on the fold: the photograph so, the kind of day, and how often; indoors days make no difference.
+    /// How it may fall on the fold: the photograph so, the kind of day, and how often; indoors days make no
+    /// difference.
     fn scenarios(&self) -> Vec<(&Parts, Day, f64)> {
         let stated = &self.with_sky.stated;
         if stated.daylight.is_none() {

@@ -10,7 +10,8 @@ use crate::spectrum::daylight_weights;
 /// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
-    /// Value of a perfect white diffuser facing the sun in its strongest channel, or what a chart in the light of sun and sky made of it.
+    /// Value of a perfect white diffuser facing the sun in its strongest channel, or what a chart in the
+    /// light of sun and sky made of it.
     pub exposure: f64,
     /// Gains of the first and the last of three channels beside the second.
     pub gains: [f64; 2],
@@ -52,7 +53,8 @@ pub struct Conditions {
     pub vignetting: f64,
     /// Veiling glare: share of the picture's mean light that the lens spreads over all of it.
     pub veiling_glare: f64,
-    /// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+    /// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5
+    /// being 1.
     pub specular_weight: f64,
     /// Roughness of the surface: α of its microfacets' distribution (GGX).
     pub specular_roughness: f64,
@@ -81,7 +83,8 @@ pub struct StatedScene {
     pub angle_sd_deg: f64,
     /// Angle of the sun off the bisecting plane, degrees.
     pub tilt_deg: f64,
-    /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground are.
+    /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground
+    /// are.
     pub daylight: Option<Daylight>,
     /// Whether that was assumed, as nobody stated it.
     pub is_daylight_assumed: bool,
@@ -111,7 +114,8 @@ pub struct ShownDaylight {
 }
 
 impl StatedScene {
-    /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun being 1.
+    /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun
+    /// being 1.
     #[must_use]
     pub fn even_sky(&self) -> f64 {
         self.sky.filter(|_| self.sky_kind.is_none()).unwrap_or(0.0)
@@ -129,8 +133,8 @@ impl StatedScene {
         self.sky_kind.filter(|kind| kind.is_zenith_stated).map(|kind| kind.elevation_deg)
     }
 
-    /// How many photographs are taken on such a day, of those of which this was stated: on days with another sky, or in the sun where there is none,
-    /// they are mistakes.
+    /// How many photographs are taken on such a day, of those of which this was stated: on days with another
+    /// sky, or in the sun where there is none, they are mistakes.
     #[must_use]
     pub fn share_of(&self, day: Day) -> f64 {
         if let Some(shown) = self.shown {
@@ -146,7 +150,8 @@ impl StatedScene {
         }
     }
 
-    /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell nothing.
+    /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell
+    /// nothing.
     #[must_use]
     pub fn metered_exposure(&self) -> Option<Normal> {
         self.metered
@@ -191,16 +196,17 @@ pub enum Daylight {
 const MOST_MIRED: f64 = 250.0;
 const LEAST_MIRED: f64 = 40.0;
 
-/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the sun's if that is: computed suns
-/// are off by 0.025, and by 0.05 where they stand 10° high; of lamps the nearest is off by 0.27.
+/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the
+/// sun's if that is: computed suns are off by 0.025, and by 0.05 where they stand 10° high; of lamps the
+/// nearest is off by 0.27.
 const CIE: f64 = 0.005;
 const DAYLIGHT: f64 = 0.06;
 /// The bluest daylight that people take the sun's for, 8000 K.
 const BLUEST_SUN_MIRED: f64 = 125.0;
 
 impl Daylight {
-    /// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its two characteristic vectors, waveband
-    /// by three.
+    /// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its
+    /// two characteristic vectors, waveband by three.
     #[must_use]
     pub fn of(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Self> {
         let sun = sun / sun.mean();
@@ -218,7 +224,8 @@ impl Daylight {
         }
     }
 
-    /// Relative power of daylight of a reciprocal colour temperature, from its mean and two characteristic vectors (waveband by three).
+    /// Relative power of daylight of a reciprocal colour temperature, from its mean and two characteristic
+    /// vectors (waveband by three).
     ///
     /// # Source
     /// CIE 15:2018, section 4.1.2, not rounded.

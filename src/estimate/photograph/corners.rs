@@ -5,11 +5,12 @@ use nalgebra::{DMatrix, DVector};
 use super::finding::Finding;
 use super::parts::Place;
 
-/// How the values of all facets change, channel by channel and in each facet by facet, for each corner that is off by one depth of a
-/// panel: the two ends of the crease, then the two outer corners of either panel.
+/// How the values of all facets change, channel by channel and in each facet by facet, for each corner that
+/// is off by one depth of a panel: the two ends of the crease, then the two outer corners of either panel.
 ///
-/// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is determined by the facets before and
-/// behind. Shifts along the crease, along which light changes little, are left out.
+/// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is
+/// determined by the facets before and behind. Shifts along the crease, along which light changes little, are
+/// left out.
 ///
 /// # Arguments
 /// - `places`: of the facets; `values`: facet by channel.
@@ -48,7 +49,8 @@ const LEAST: f64 = 0.015;
 /// Corners that what is left of the facets says to be elsewhere than they are marked.
 ///
 /// # Arguments
-/// - `shifts`: of [`shifts`], whitened like `residuals`; `sd`: how far a corner is off before a picture is taken, in depths of a panel.
+/// - `shifts`: of [`shifts`], whitened like `residuals`; `sd`: how far a corner is off before a picture is
+///   taken, in depths of a panel.
 #[must_use]
 pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> Vec<Finding> {
     const NAMES: [&str; 3] =
@@ -71,7 +73,8 @@ pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> V
     shifts.iter().enumerate().filter_map(found).collect()
 }
 
-/// Change of each facet's values for a depth of the panel outwards, from the next facets on either side in its column.
+/// Change of each facet's values for a depth of the panel outwards, from the next facets on either side in
+/// its column.
 fn slopes(places: &[Place], values: &DMatrix<f64>) -> DMatrix<f64> {
     let mut slopes = DMatrix::zeros(values.nrows(), values.ncols());
     for (n, place) in places.iter().enumerate() {
@@ -92,14 +95,16 @@ fn slopes(places: &[Place], values: &DMatrix<f64>) -> DMatrix<f64> {
     slopes
 }
 
-/// Facets of a column are no further apart along the crease than that, in depths of a panel: some of their pixels may be missing.
+/// Facets of a column are no further apart along the crease than that, in depths of a panel: some of their
+/// pixels may be missing.
 const SAME_COLUMN: f64 = 0.12;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A value that rises evenly with the depth: where the crease is marked too far in panel 1, panel 1 is read too deep near it.
+    /// A value that rises evenly with the depth: where the crease is marked too far in panel 1, panel 1 is
+    /// read too deep near it.
     #[test]
     fn a_shifted_corner_reads_what_is_beside() {
         let place = |n: usize| Place {

@@ -64,8 +64,8 @@ impl Day {
         matches!(self, Self::Clear | Self::Hazy)
     }
 
-    /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being 1; none if the sun is hidden. People know no
-    /// better of one that they state.
+    /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being
+    /// 1; none if the sun is hidden. People know no better of one that they state.
     #[must_use]
     pub fn sky(self, priors: &Priors, stated: Option<f64>) -> Option<Normal> {
         match self {
@@ -90,14 +90,16 @@ impl Day {
         }
     }
 
-    /// Share of the sky's light that is an overcast one's, the rest being a clear one's; none where it is all of it or nothing.
+    /// Share of the sky's light that is an overcast one's, the rest being a clear one's; none where it is all
+    /// of it or nothing.
     #[must_use]
     pub fn cloud(self, priors: &Priors) -> Option<Normal> {
         let hazy = Normal { mean: priors.hazy_cloud, sd: priors.hazy_cloud };
         (self == Self::Hazy).then_some(hazy)
     }
 
-    /// Logarithm of the exposure, if that of an unclouded sun is `in_the_sun`: what haze takes from the sun it adds to the sky.
+    /// Logarithm of the exposure, if that of an unclouded sun is `in_the_sun`: what haze takes from the sun
+    /// it adds to the sky.
     #[must_use]
     pub fn metered(self, priors: &Priors, in_the_sun: Normal) -> Normal {
         let Normal { mean, sd } = in_the_sun;

@@ -17,11 +17,11 @@ pub struct ModelError {
     pub own: f64,
     /// Of what each facet has to itself.
     pub white: f64,
-    /// Of what the facets at the crease have to themselves, nearly all of it in all channels: the crease is not as sharp, nor as round, as
-    /// the model has it.
+    /// Of what the facets at the crease have to themselves, nearly all of it in all channels: the crease is
+    /// not as sharp, nor as round, as the model has it.
     pub at_crease: f64,
-    /// Of what the facets at the outer sides have to themselves, nearly all of it in all channels: an edge is not straight, nor sharp, so that
-    /// some of the background is taken for the sheet.
+    /// Of what the facets at the outer sides have to themselves, nearly all of it in all channels: an edge is
+    /// not straight, nor sharp, so that some of the background is taken for the sheet.
     pub at_outer_side: f64,
     /// How far a corner is from where it is marked, in depths of a panel.
     pub corner: f64,
@@ -72,8 +72,9 @@ impl ModelError {
     /// What makes errors of all values standard normal; none if their covariance is not finite.
     ///
     /// # Arguments
-    /// - `places`: of the facets; `values`, `sd`: facet by channel, the values as they are predicted and the standard deviations of their noise.
-    ///   Of measured values those that chance made too small would count for more (R. W. Peelle, Oak Ridge National Laboratory, 1987).
+    /// - `places`: of the facets; `values`, `sd`: facet by channel, the values as they are predicted and the
+    ///   standard deviations of their noise. Of measured values those that chance made too small would count
+    ///   for more (R. W. Peelle, Oak Ridge National Laboratory, 1987).
     #[must_use]
     pub fn whitening(&self, places: &[Place], values: &DMatrix<f64>, sd: &DMatrix<f64>) -> Option<Whitening> {
         let facets = values.nrows();

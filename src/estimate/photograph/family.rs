@@ -59,7 +59,8 @@ impl<'a> Photographs<'a> {
         self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
     }
 
-    /// Where `other` photographs are at `w` under a hypothesis, carried to these; none if a model is not finite.
+    /// Where `other` photographs are at `w` under a hypothesis, carried to these; none if a model is not
+    /// finite.
     pub fn carried(
         &self,
         (other, w): (&Photographs, &DVector<f64>),
@@ -201,8 +202,9 @@ impl JointModel<'_> {
         slopes(first, self.unknowns(), &own, &point).rows(0, point.albedo.len()).into_owned()
     }
 
-    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_nominal) of camera and light being numbers, too: an ideal fold is
-    /// estimated as if that were exact, but is not known better than if it were not.
+    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_nominal) of camera
+    /// and light being numbers, too: an ideal fold is estimated as if that were exact, but is not known
+    /// better than if it were not.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
         // ideal folds are not joined
         let stated = match self.members() {
@@ -215,7 +217,8 @@ impl JointModel<'_> {
     }
 }
 
-/// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, the numbers of the `first` being `w`.
+/// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, the numbers of the
+/// `first` being `w`.
 fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
     let [scene, sheet, camera, emission, _] = first.model.layout();
     let basis = first.model.gaussian().basis();

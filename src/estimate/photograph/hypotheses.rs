@@ -18,13 +18,15 @@ pub struct Hypothesis {
     pub day: Day,
     /// What is not as it was stated, if anything is.
     pub mistake: Option<Mistake>,
-    /// What the sheet sends out itself, as a place among [all that it may](crate::estimate::emission::Emission::all), nothing being the first; none where
-    /// that is not asked.
+    /// What the sheet sends out itself, as a place among
+    /// [all that it may](crate::estimate::emission::Emission::all), nothing being the first; none where that
+    /// is not asked.
     pub emission: Option<usize>,
 }
 
-/// What may be another thing altogether than was stated. Angle and exposure are never exact in photographs as people take them, where mistakes
-/// are in the tails of their priors; in a scene that is computed they are, or are mistaken.
+/// What may be another thing altogether than was stated. Angle and exposure are never exact in photographs as
+/// people take them, where mistakes are in the tails of their priors; in a scene that is computed they are,
+/// or are mistaken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
     /// No light bounces between the panels: a flat sheet, a ridge, corners elsewhere.
@@ -50,7 +52,8 @@ impl Mistake {
 /// All hypotheses on photographs of folds, the most probable first.
 pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
     let mut all = usual_hypotheses();
-    // the sensitivities of another camera are never those of this one; an ideal fold is the same whatever its sheet's kind
+    // the sensitivities of another camera are never those of this one; an ideal fold is the same whatever its
+    // sheet's kind
     if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
         let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)];
         all.extend(mistakes.map(Hypothesis::ideal));
@@ -109,7 +112,8 @@ impl Hypothesis {
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }
 
-    /// What it does not share with another, that comes first which changes most of where the search under it leads.
+    /// What it does not share with another, that comes first which changes most of where the search under it
+    /// leads.
     pub fn differences(&self, other: &Self) -> [bool; 5] {
         [
             self.imperfection != other.imperfection,

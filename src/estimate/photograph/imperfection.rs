@@ -7,8 +7,9 @@ use super::priors::Priors;
 /// None is chosen: estimates are made under each that the facets leave possible, and weighed by evidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Imperfection {
-    /// Size of crease, bow, sky, ground, vignetting and glare, of what sets the sheet apart from a matt one, and of what angle, tilt, exposure,
-    /// light and camera are off from those that were stated; 0: nothing, 1: as in photographs that people take.
+    /// Size of crease, bow, sky, ground, vignetting and glare, of what sets the sheet apart from a matt one,
+    /// and of what angle, tilt, exposure, light and camera are off from those that were stated; 0: nothing,
+    /// 1: as in photographs that people take.
     pub scale: f64,
     /// How much no unknown explains.
     pub discrepancy: Discrepancy,
@@ -43,8 +44,9 @@ impl Discrepancy {
 impl Imperfection {
     /// A photograph as people take them.
     pub const USUAL: Self = Self { scale: 1.0, discrepancy: Discrepancy::Usual };
-    /// That of an ideal fold, of a perfectly matt sheet, in a scene that is exactly as it was stated: one that was computed. With what is
-    /// between the two weighed as well, facets are explained wrongly and surely (docs/design-notes.md).
+    /// That of an ideal fold, of a perfectly matt sheet, in a scene that is exactly as it was stated: one
+    /// that was computed. With what is between the two weighed as well, facets are explained wrongly and
+    /// surely (docs/design-notes.md).
     pub const IDEAL: Self = Self { scale: 0.0, discrepancy: Discrepancy::None };
 
     /// Logarithm of how often it is so.

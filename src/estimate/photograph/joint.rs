@@ -1,5 +1,6 @@
-//! Photographs of one sheet as one model: they share the spectrum, the sheet's own unknowns and variations, and the errors of a camera
-//! that took more than one of them; each has a fold, a light and a lens of its own.
+//! Photographs of one sheet as one model: they share the spectrum, the sheet's own unknowns and variations,
+//! and the errors of a camera that took more than one of them; each has a fold, a light and a lens of its
+//! own.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -25,7 +26,8 @@ impl Member<'_> {
         self.places[n]
     }
 
-    /// Which of all numbers is what the `n`-th of another model is, if this one has it: lamps have none of daylight's.
+    /// Which of all numbers is what the `n`-th of another model is, if this one has it: lamps have none of
+    /// daylight's.
     fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {
         let ([scene, sheet, camera, emission, _], own) = (other.layout(), self.model.layout());
         let at = match n {
@@ -48,7 +50,8 @@ impl Member<'_> {
     }
 }
 
-/// All photographs of a sheet under one hypothesis and one Gaussian of albedos: numbers of the spectrum first.
+/// All photographs of a sheet under one hypothesis and one Gaussian of albedos: numbers of the spectrum
+/// first.
 pub struct JointModel<'a> {
     /// The photographs, one or more.
     members: Vec<Member<'a>>,
@@ -105,7 +108,8 @@ impl<'a> JointModel<'a> {
         &self.members
     }
 
-    /// Where another model of the same photographs is at `w`, as far as this one has the same numbers; the others are at their means.
+    /// Where another model of the same photographs is at `w`, as far as this one has the same numbers; the
+    /// others are at their means.
     #[must_use]
     pub fn carried(&self, other: &JointModel, w: &DVector<f64>) -> DVector<f64> {
         let mut carried = DVector::zeros(self.count);

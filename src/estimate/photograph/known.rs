@@ -15,11 +15,12 @@ use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
 use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering, information};
 
-/// A maximum counts as found within so many standard deviations of it: what is left out is less than one of evidence. A search ends after so many
-/// iterations.
+/// A maximum counts as found within so many standard deviations of it: what is left out is less than one of
+/// evidence. A search ends after so many iterations.
 const TOLERANCE: f64 = 0.1;
 const LIMIT: usize = 500;
-/// What each waveband of a known reflectance is off by itself: the last digit in which instruments state it, halved.
+/// What each waveband of a known reflectance is off by itself: the last digit in which instruments state it,
+/// halved.
 const WHITE_SD: f64 = 5e-4;
 /// Share of a kind of day that a known sheet all but rules out: a cloud passes between two photographs.
 const OTHER_DAY: f64 = 1e-3;
@@ -33,7 +34,8 @@ pub struct KnownReflectance {
 }
 
 impl KnownReflectance {
-    /// One that is off by this standard deviation in each waveband, smoothly over the wavelengths; none without wavelengths.
+    /// One that is off by this standard deviation in each waveband, smoothly over the wavelengths; none
+    /// without wavelengths.
     #[must_use]
     pub fn new(wavelengths_nm: &[f64], reflectance: &[f64], sd: &[f64]) -> Option<Self> {
         let errors = smooth_errors(wavelengths_nm, sd)?;
@@ -110,7 +112,8 @@ pub struct KnownSeen {
 }
 
 impl Photographs<'_> {
-    /// The photograph as one of a known sheet, from `start` on if it has as many numbers; none if its evidence is less than `ln_least`.
+    /// The photograph as one of a known sheet, from `start` on if it has as many numbers; none if its
+    /// evidence is less than `ln_least`.
     pub fn known(
         &self,
         day: Day,
@@ -152,7 +155,8 @@ impl Photographs<'_> {
     }
 }
 
-/// What a known sheet shows of daylight, by kinds of days: these with how often they are and what it is on them.
+/// What a known sheet shows of daylight, by kinds of days: these with how often they are and what it is on
+/// them.
 #[must_use]
 pub fn shown_daylight(days: &[(Day, f64, KnownSeen)]) -> Option<ShownDaylight> {
     let most =

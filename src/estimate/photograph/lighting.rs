@@ -9,11 +9,13 @@ use super::parts::{Parts, Surroundings, shares_at};
 pub struct Lighting {
     /// Power of the sun, which gives 1 in the reference channel.
     pub sun: DVector<f64>,
-    /// Power of the sky and of the ground, each with the irradiance of an open plane that faces it: the first for an irradiance of 1 by the sky
-    /// in the reference channel, the second for a reflectance of the ground of 1.
+    /// Power of the sky and of the ground, each with the irradiance of an open plane that faces it: the first
+    /// for an irradiance of 1 by the sky in the reference channel, the second for a reflectance of the ground
+    /// of 1.
     pub ambient: [(f64, DVector<f64>); 2],
-    /// What a white sheet that faces the sun receives, channel by channel, the light of the sun as it was said being 1; none if the exposure
-    /// is that of the sun alone, as it is where the sun shines and no chart shows it.
+    /// What a white sheet that faces the sun receives, channel by channel, the light of the sun as it was
+    /// said being 1; none if the exposure is that of the sun alone, as it is where the sun shines and no
+    /// chart shows it.
     white: Option<DVector<f64>>,
 }
 
@@ -47,7 +49,8 @@ impl Lighting {
         conditions.exposure / self.white.as_ref().map_or(1.0, |white| white[parts.eye.reference])
     }
 
-    /// Gains of the channels: a chart makes them those of the light that was said, in the light that there is.
+    /// Gains of the channels: a chart makes them those of the light that was said, in the light that there
+    /// is.
     #[must_use]
     pub fn gains(&self, parts: &Parts, conditions: &Conditions) -> DVector<f64> {
         let Parts { eye, .. } = parts;

@@ -1,5 +1,6 @@
-//! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's albedo, the unknowns
-//! of the scene, the variations of a kind of sheet, and the errors of the camera's sensitivities.
+//! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's
+//! albedo, the unknowns of the scene, the variations of a kind of sheet, and the errors of the camera's
+//! sensitivities.
 
 use std::borrow::Cow;
 use std::ops::AddAssign;
@@ -27,7 +28,8 @@ use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients by unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
-/// Albedo below which light that a sheet sends out is not distinguished from what it reflects of more light: darker sheets hardly light themselves.
+/// Albedo below which light that a sheet sends out is not distinguished from what it reflects of more light:
+/// darker sheets hardly light themselves.
 const DARKEST: f64 = 0.01;
 
 /// The model under one hypothesis and one Gaussian of albedos.
@@ -61,7 +63,8 @@ pub struct Point {
 }
 
 impl<'a> PhotographModel<'a> {
-    /// The model; `whitening` makes residuals of all values, channel by channel and in each facet by facet, standard normal.
+    /// The model; `whitening` makes residuals of all values, channel by channel and in each facet by facet,
+    /// standard normal.
     #[must_use]
     pub fn new(
         parts: &'a Parts,
@@ -94,8 +97,8 @@ impl<'a> PhotographModel<'a> {
         &self.numbers
     }
 
-    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, what the sheet sends out itself, and how many
-    /// numbers there are.
+    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, what the
+    /// sheet sends out itself, and how many numbers there are.
     #[must_use]
     pub fn layout(&self) -> [usize; 5] {
         let scene = self.gaussian.basis().ncols();
@@ -151,7 +154,8 @@ impl<'a> PhotographModel<'a> {
         conditions
     }
 
-    /// Terms for an albedo, and what the sheet sends out itself: it looks as one without does in light that is (1 + f / albedo) times as strong.
+    /// Terms for an albedo, and what the sheet sends out itself: it looks as one without does in light that
+    /// is (1 + f / albedo) times as strong.
     fn terms(&self, w: &DVector<f64>, albedo: &[f64]) -> Terms {
         let mut terms = self.reflected_terms(albedo);
         if let Some(sent) = self.sent(w) {
@@ -178,7 +182,8 @@ impl<'a> PhotographModel<'a> {
         &w.as_slice()[emission..end]
     }
 
-    /// The fraction of white that the sheet sends out at `w`, and how it moves with the numbers of that: waveband by number. None if nothing.
+    /// The fraction of white that the sheet sends out at `w`, and how it moves with the numbers of that:
+    /// waveband by number. None if nothing.
     #[must_use]
     pub fn fraction_sent(&self, w: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let Sent { fraction, slopes, .. } = self.sent(w)?;
@@ -191,7 +196,8 @@ impl<'a> PhotographModel<'a> {
         self.emission?.fall(self.of_emission(w))
     }
 
-    /// Derivatives of the terms by the numbers of what the sheet sends out itself, node by waveband; none if nothing.
+    /// Derivatives of the terms by the numbers of what the sheet sends out itself, node by waveband; none if
+    /// nothing.
     fn terms_by_emission(
         &self,
         w: &DVector<f64>,
@@ -221,8 +227,9 @@ impl<'a> PhotographModel<'a> {
             let (values, slopes) = chebyshev(albedo, count);
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
-        // of a dark sheet light bounces once. What a Lambertian one sends for each unit of its albedo is smoother than what it sends, and has
-        // no end; gloss does not vanish with albedo, and only the slope is determined
+        // of a dark sheet light bounces once. What a Lambertian one sends for each unit of its albedo is
+        // smoother than what it sends, and has no end; gloss does not vanish with albedo, and only the slope
+        // is determined
         let (values, slopes) = chebyshev(&[0.0], count);
         let once = if self.hypothesis.imperfection.is_ideal() {
             (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
@@ -293,8 +300,8 @@ impl<'a> PhotographModel<'a> {
         predictor.facets(&self.conditions(w), &self.beyond(w))
     }
 
-    /// Sets derivatives of the values by the numbers of the spectrum, `slopes` being those of the terms by albedo: through all lights at once,
-    /// whose terms are far fewer than wavebands.
+    /// Sets derivatives of the values by the numbers of the spectrum, `slopes` being those of the terms by
+    /// albedo: through all lights at once, whose terms are far fewer than wavebands.
     fn by_spectrum(
         &self,
         out: &mut DMatrixViewMut<f64>,
@@ -326,7 +333,8 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Sets derivatives of the values by the errors of the camera's sensitivities, each of which changes one channel.
+    /// Sets derivatives of the values by the errors of the camera's sensitivities, each of which changes one
+    /// channel.
     fn by_sensitivities(
         &self,
         out: &mut DMatrixViewMut<f64>,
@@ -352,8 +360,9 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were stated, as two of a kind differ: they
-    /// are not found there, as facets would say too surely which they are. None where they are unknowns.
+    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were
+    /// stated, as two of a kind differ: they are not found there, as facets would say too surely which they
+    /// are. None where they are unknowns.
     #[must_use]
     pub fn by_nominal(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
         self.hypothesis.imperfection.is_ideal().then_some(())?;
@@ -383,7 +392,8 @@ impl<'a> PhotographModel<'a> {
         Some(self.whitening.of_all(&by_nominal))
     }
 
-    /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if nothing.
+    /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if
+    /// nothing.
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
         let own = match self.hypothesis.kind {
@@ -438,7 +448,8 @@ fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
     DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
 }
 
-/// How many times as strong light looks to a sheet of an albedo that sends out a fraction f of white itself, and the derivative by albedo.
+/// How many times as strong light looks to a sheet of an albedo that sends out a fraction f of white itself,
+/// and the derivative by albedo.
 fn of_albedo(albedo: f64, f: f64) -> (f64, f64) {
     let from = albedo.max(DARKEST);
     (1.0 + f / from, if albedo > DARKEST { -f / (from * from) } else { 0.0 })

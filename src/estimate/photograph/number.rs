@@ -54,8 +54,8 @@ impl Number {
         self.matters
     }
 
-    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown. Heavy tails are those of sinh(tw) / t, which near
-    /// 0 is w.
+    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown. Heavy
+    /// tails are those of sinh(tw) / t, which near 0 is w.
     ///
     /// # Source
     /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.

@@ -63,7 +63,8 @@ pub struct Sunlit {
     pub nearness: Change,
 }
 
-/// Elevations above the horizon of the direction to which the fold opens, degrees, at which light of the surroundings is known.
+/// Elevations above the horizon of the direction to which the fold opens, degrees, at which light of the
+/// surroundings is known.
 pub const ELEVATIONS_DEG: [f64; 3] = [15.0, 45.0, 75.0];
 
 /// Light that is not the sun's, at each of [`ELEVATIONS_DEG`].
@@ -114,7 +115,8 @@ impl Ambient {
         self.open.iter().zip(shares).map(|(open, share)| open * share).sum()
     }
 
-    /// Adds so much of it to the light on the facets of a fold that is open by `stated_deg` if it is as it was said to be.
+    /// Adds so much of it to the light on the facets of a fold that is open by `stated_deg` if it is as it
+    /// was said to be.
     pub fn add_to(&self, sum: &mut Radiance, amount: f64, conditions: &Conditions, stated_deg: f64) {
         let shares = shares_at(conditions.elevation_deg);
         let changes =
@@ -135,7 +137,8 @@ pub struct Eye {
     pub wavelengths_nm: Vec<f64>,
     /// Sensitivity times the width of the waveband: waveband by channel.
     pub sensitivities: DMatrix<f64>,
-    /// How the sensitivities may be off, in units of a standard deviation: error by waveband, with its channel.
+    /// How the sensitivities may be off, in units of a standard deviation: error by waveband, with its
+    /// channel.
     pub errors: Vec<(usize, DVector<f64>)>,
     /// Whether the curves are another camera's, which stands in for it.
     pub is_stand_in: bool,
@@ -203,7 +206,8 @@ impl Parts {
         lit
     }
 
-    /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the ground.
+    /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the
+    /// ground.
     #[must_use]
     pub fn without_sky(mut self) -> Self {
         self.stated.daylight = None;

@@ -11,7 +11,8 @@ use super::parts::{Ambient, Parts, Radiance, Surroundings};
 use super::sums::add_product;
 use crate::estimate::unknowns::Whose;
 
-/// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the others.
+/// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the
+/// others.
 #[derive(Clone, Debug)]
 pub struct Terms {
     /// Node by waveband.
@@ -45,8 +46,8 @@ pub struct Predicted<'a> {
     pub lights: Vec<Light<'a>>,
 }
 
-/// Predicts the facets of a photograph, the spectrum of which gives these terms, through curves of these sensitivities: waveband by
-/// channel.
+/// Predicts the facets of a photograph, the spectrum of which gives these terms, through curves of these
+/// sensitivities: waveband by channel.
 pub struct Predictor<'a, 'b> {
     /// What the photograph is made of.
     pub parts: &'a Parts,
@@ -75,8 +76,8 @@ impl<'a> Predictor<'a, '_> {
         self.in_light(conditions, sunlit(self.parts, conditions, beyond))
     }
 
-    /// Values of the facets beside those `here`, under other conditions of what `whose` says alone: what depends on others is not computed
-    /// anew.
+    /// Values of the facets beside those `here`, under other conditions of what `whose` says alone: what
+    /// depends on others is not computed anew.
     pub fn shifted(
         &self,
         here: &Predicted<'a>,

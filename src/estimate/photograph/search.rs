@@ -1,4 +1,5 @@
-//! The most probable spectrum under all that photographs of a sheet may be: as people take them, of each kind of sheet, or of an ideal fold.
+//! The most probable spectrum under all that photographs of a sheet may be: as people take them, of each kind
+//! of sheet, or of an ideal fold.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -23,22 +24,26 @@ use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
 use crate::solve::posterior::{Iteration, Model};
 
-/// Ideal folds that come so near to the best of real sheets, as the logarithm of a share of its evidence, are weighed against these anew.
+/// Ideal folds that come so near to the best of real sheets, as the logarithm of a share of its evidence, are
+/// weighed against these anew.
 const LN_EVIDENCE_NEAR: f64 = -5.0;
 
-/// Hypotheses that are further behind the best, likewise, are out of the question, and not searched to their end.
+/// Hypotheses that are further behind the best, likewise, are out of the question, and not searched to their
+/// end.
 const LN_EVIDENCE_HOPELESS: f64 = -20.0;
-/// Behind the best by that on a dull day, the kind of sheet that has most evidence on a clear one leaves no hope for the others.
+/// Behind the best by that on a dull day, the kind of sheet that has most evidence on a clear one leaves no
+/// hope for the others.
 const LN_EVIDENCE_FAR: f64 = -8.0;
 
 type Tried = Sorted<Hypothesis, ()>;
 
 /// A sheet as its photographs show it.
 pub struct SheetEstimate {
-    /// One estimate for each photograph: spectrum and error bars are the same in all, the rest is the photograph's own.
+    /// One estimate for each photograph: spectrum and error bars are the same in all, the rest is the
+    /// photograph's own.
     pub photographs: Vec<Estimate>,
-    /// Logarithm of the probability of all facets under what is known of sheets and scenes, but for a term that depends on each
-    /// photograph alone: the difference between one sheet and several tells which it is.
+    /// Logarithm of the probability of all facets under what is known of sheets and scenes, but for a term
+    /// that depends on each photograph alone: the difference between one sheet and several tells which it is.
     pub ln_evidence: f64,
 }
 
@@ -51,7 +56,8 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
 }
 
-/// The estimate from photographs that are as people take them, however ideal their facets are, as those of photographs that are only planned.
+/// The estimate from photographs that are as people take them, however ideal their facets are, as those of
+/// photographs that are only planned.
 ///
 /// # Errors
 /// As [`estimate`]; [`Error::Field`] where it was stated that there is no sun, which these have.
@@ -96,7 +102,8 @@ fn under(
     })
 }
 
-/// Photographs with errors relative to the values that a model predicts, not to those that were measured; and where that is.
+/// Photographs with errors relative to the values that a model predicts, not to those that were measured; and
+/// where that is.
 fn relative_to_predictions<'a>(
     family: Photographs<'a>,
     prior: &Prior,
@@ -116,8 +123,9 @@ fn relative_to_predictions<'a>(
     Some((Photographs(family.0.into_iter().zip(predicted).map(relative).collect()), found.solution.w))
 }
 
-/// Hypotheses with their evidence under all spectra, the first from `start`, each other from where the nearest before led, those of most evidence
-/// first. On each dull day the kind of sheet that has most evidence on a clear one comes first: if that is far behind, so are the others.
+/// Hypotheses with their evidence under all spectra, the first from `start`, each other from where the
+/// nearest before led, those of most evidence first. On each dull day the kind of sheet that has most
+/// evidence on a clear one comes first: if that is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
     stated: &StatedScene,
@@ -144,8 +152,8 @@ fn sorted(
     all
 }
 
-/// Adds a hypothesis to those that are sorted, from `first` if it is the first; by how much it is behind the best, as the logarithm of a share of
-/// its evidence.
+/// Adds a hypothesis to those that are sorted, from `first` if it is the first; by how much it is behind the
+/// best, as the logarithm of a share of its evidence.
 fn sort(
     search: &mut Search<Photographs>,
     stated: &StatedScene,
@@ -168,8 +176,9 @@ fn sort(
     behind
 }
 
-/// Weighs real sheets against ideal ones of some evidence with as much left unexplained as has more evidence: of a picture taken with care the
-/// usual discrepancy says too little to tell them apart. The estimates under them keep it, as residuals show only what unknowns do not take up.
+/// Weighs real sheets against ideal ones of some evidence with as much left unexplained as has more evidence:
+/// of a picture taken with care the usual discrepancy says too little to tell them apart. The estimates under
+/// them keep it, as residuals show only what unknowns do not take up.
 fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     let ln_most = |is_ideal: bool| {
         let of = all.iter().filter(|one| one.hypothesis.imperfection.is_ideal() == is_ideal);
@@ -194,9 +203,10 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds a fold of a sheet that is brightened, if that may be so: whichever real one has most evidence. The others then are of a sheet that is known to
-/// send out nothing. Of ideal folds nothing is asked, as the rounding of a JPEG looks like light that is sent out, nor of dyes that visible light
-/// excites: what real sheets do beyond all kinds that are known looks like them.
+/// Adds a fold of a sheet that is brightened, if that may be so: whichever real one has most evidence. The
+/// others then are of a sheet that is known to send out nothing. Of ideal folds nothing is asked, as the
+/// rounding of a JPEG looks like light that is sent out, nor of dyes that visible light excites: what real
+/// sheets do beyond all kinds that are known looks like them.
 fn add_fluorescing(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
@@ -242,7 +252,8 @@ fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     those.map(weight).sum::<f64>() / all.iter().map(weight).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// The most probable kind of day, folds being those of which most evidence comes first; none if the light is no daylight.
+/// The most probable kind of day, folds being those of which most evidence comes first; none if the light is
+/// no daylight.
 fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
     photographs.iter().all(|one| one.parts.stated.daylight.is_some()).then_some(())?;
     let found =

@@ -13,8 +13,8 @@ use crate::solve::Eigen;
 const VARIATIONS: usize = 8;
 /// Least radiance that departures are compared with: what is added to the brightness of the facets.
 const FLOOR: f64 = 0.05;
-/// A sheet that departs from a Lambertian one by more than that in the mean, relative to the brightness of the facets, is taken to depart
-/// by that: measured far from grazing directions, it is not known there.
+/// A sheet that departs from a Lambertian one by more than that in the mean, relative to the brightness of
+/// the facets, is taken to depart by that: measured far from grazing directions, it is not known there.
 const MOST: f64 = 0.6;
 
 /// The kind that a sheet is taken to be.
@@ -60,7 +60,8 @@ impl SheetModel {
         }
     }
 
-    /// Whether an unknown makes a difference to sheets of this kind: the numbers of a family make none to others.
+    /// Whether an unknown makes a difference to sheets of this kind: the numbers of a family make none to
+    /// others.
     #[must_use]
     pub fn has(self, unknown: &Unknown) -> bool {
         match self {
@@ -88,18 +89,21 @@ impl<'a> SheetModels<'a> {
         photographs.iter().zip(&bounded).map(of).collect()
     }
 
-    /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says beyond them.
+    /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says
+    /// beyond them.
     #[must_use]
     pub fn variation_count(&self) -> usize {
         self.variations.len() + 1
     }
 
-    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a photograph so far from an ideal one.
+    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a
+    /// photograph so far from an ideal one.
     pub fn by_variation(&self, kind: SheetModel, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
         self.variations.iter().map(move |own| scale * kind.variation(self.priors) * &own.radiance)
     }
 
-    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a photograph so far from an ideal one.
+    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a
+    /// photograph so far from an ideal one.
     #[must_use]
     pub fn departure(
         &self,
@@ -179,10 +183,12 @@ fn relative(departure: &Departure, lambertian: &Radiance) -> DVector<f64> {
     DVector::from_iterator(relative.len(), relative.iter().copied())
 }
 
-/// The directions in which measured sheets differ most, in units of a standard deviation: shares of each sheet, which add up to nothing.
+/// The directions in which measured sheets differ most, in units of a standard deviation: shares of each
+/// sheet, which add up to nothing.
 ///
 /// # Source
-/// Principal components: Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer points than dimensions).
+/// Principal components: Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer
+/// points than dimensions).
 fn principal_components(photographs: &[Parts], measured: &[Vec<Departure>]) -> Vec<Vec<f64>> {
     let columns = |(parts, measured): (&Parts, &Vec<Departure>)| {
         DMatrix::from_columns(&measured.iter().map(|one| relative(one, &parts.sun.even)).collect::<Vec<_>>())

@@ -1,4 +1,5 @@
-//! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same albedo.
+//! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same
+//! albedo.
 
 use super::sums::{Radiance, add};
 
@@ -61,8 +62,8 @@ pub const SHEEN: [f64; 2] = [0.4, 1.0];
 /// What is known of how sheets reflect.
 #[derive(Clone, Debug)]
 pub struct Sheets {
-    /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength, roughness of the surface,
-    /// roughness of the body, the last fastest.
+    /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength,
+    /// roughness of the surface, roughness of the body, the last fastest.
     pub families: Vec<Departure>,
     /// What [`SHEEN`] changes.
     pub sheen: [Departure; 2],
@@ -72,8 +73,8 @@ pub struct Sheets {
     pub instrument: Instrument,
 }
 
-/// By how much more or less an instrument of 45:0 says of a sheet than sheets that send the same to the camera: standard deviations relative
-/// to the albedo.
+/// By how much more or less an instrument of 45:0 says of a sheet than sheets that send the same to the
+/// camera: standard deviations relative to the albedo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instrument {
     /// In all wavebands alike.

@@ -20,13 +20,15 @@ pub struct Photograph<'a> {
     pub sheet_models: Rc<SheetModels<'a>>,
     /// The values that errors are relative to.
     values: DMatrix<f64>,
-    /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first asked for.
+    /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first
+    /// asked for.
     whitenings: Rc<[[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4]>,
     /// What its sheet may send out itself, made when it is first asked for.
     emissions: OnceCell<Vec<Emission>>,
 }
 
-/// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part of a fold in the sun.
+/// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part
+/// of a fold in the sun.
 const DARKEST: f64 = 0.1;
 
 impl<'a> Photograph<'a> {
@@ -68,7 +70,8 @@ impl<'a> Photograph<'a> {
 
     /// What makes residuals standard normal; none if facets are not finite.
     pub fn whitening(&self, discrepancy: Discrepancy, day: Day) -> Option<&Whitening> {
-        // where nothing is left unexplained the day makes no difference, nor does it matter what hides the sun
+        // where nothing is left unexplained the day makes no difference, nor does it matter what hides the
+        // sun
         let day = match day {
             _ if discrepancy == Discrepancy::None => Day::Clear,
             Day::Shade => Day::Overcast,

@@ -33,8 +33,8 @@ pub static ANGLE: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet that springs back
-/// leave. The light of a fold is interpolated between folds that far apart.
+/// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet
+/// that springs back leave. The light of a fold is interpolated between folds that far apart.
 const SD_DEG: f64 = 2.0;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {

@@ -3,7 +3,8 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma), degrees.
+/// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma),
+/// degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
     name: "body_roughness_deg",
     description: "Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)",

@@ -3,7 +3,8 @@
 use super::{AUTO, Effect, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being 1.
+/// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being
+/// 1.
 pub static EVEN_SKY: Unknown = Unknown {
     name: "even_sky",
     description: "Irradiance of an open plane by light that is alike in all directions, relative to the sun's",

@@ -1,12 +1,13 @@
 //! Numbers of the scene that are fitted along with the spectrum, one file each; [`TABLE`] lists them.
 //!
-//! A new one is a file with an [`Unknown`] and a row of the table: without one of its parts it does not compile, without the row
-//! it does not pass the lints. The values of `vestimate --fit` and their help, the records with their schema, residuals and
-//! messages follow from the two.
+//! A new one is a file with an [`Unknown`] and a row of the table: without one of its parts it does not
+//! compile, without the row it does not pass the lints. The values of `vestimate --fit` and their help, the
+//! records with their schema, residuals and messages follow from the two.
 //!
-//! Facets are sums over sources (a lamp on a fold), and an unknown changes in what amounts they shine ([`Factor`]) or replaces
-//! some by others ([`Sources`]). So a source's amount is a product of one function of each unknown. What is not linear (the angle of
-//! the fold, the colour of the sky) is interpolated between three sources.
+//! Facets are sums over sources (a lamp on a fold), and an unknown changes in what amounts they shine
+//! ([`Factor`]) or replaces some by others ([`Sources`]). So a source's amount is a product of one function
+//! of each unknown. What is not linear (the angle of the fold, the colour of the sky) is interpolated between
+//! three sources.
 
 mod angle;
 mod body_roughness;

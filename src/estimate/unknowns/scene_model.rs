@@ -98,7 +98,8 @@ impl SceneModel {
         &self.unknowns
     }
 
-    /// The same scene with another light in the place of each of its sources' own, as the camera responds to it.
+    /// The same scene with another light in the place of each of its sources' own, as the camera responds to
+    /// it.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         Self { facets: self.facets.in_light(camera), emissions: Arc::default(), ..self.clone() }
@@ -126,7 +127,8 @@ impl SceneModel {
         self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
     }
 
-    /// The model with its unknowns known to be as they were `found`, in their units, or as expected where they were not.
+    /// The model with its unknowns known to be as they were `found`, in their units, or as expected where
+    /// they were not.
     #[must_use]
     pub fn with_fitted(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
         let value = |one: &Expected| found(one.unknown).unwrap_or_else(|| one.at(0.0).0);

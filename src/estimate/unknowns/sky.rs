@@ -28,8 +28,8 @@ pub static SKY: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of it, of which
-/// a sheet among houses gets a part.
+/// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of
+/// it, of which a sheet among houses gets a part.
 const SD: f64 = 0.25;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {

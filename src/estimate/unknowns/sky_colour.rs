@@ -8,7 +8,8 @@ use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
 use crate::spectrum::{self, Outside};
 
-/// Correlated colour temperature of the sky, K, unless the scene has a sky illuminant; its reciprocal, in 1e-6/K, is normal.
+/// Correlated colour temperature of the sky, K, unless the scene has a sky illuminant; its reciprocal, in
+/// 1e-6/K, is normal.
 pub static SKY_COLOUR: Unknown = Unknown {
     name: "sky_cct_k",
     description: "Correlated colour temperature of the sky",
@@ -26,8 +27,9 @@ pub static SKY_COLOUR: Unknown = Unknown {
     }),
 };
 
-/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three between 7700 K and
-/// 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight ends.
+/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three
+/// between 7700 K and 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight
+/// ends.
 const MIRED: Normal = Normal { mean: 100.0, sd: 30.0 };
 /// Skies between which that of any temperature is interpolated, K.
 const SKIES_K: [u32; 3] = [20_000, 10_000, 6_250];

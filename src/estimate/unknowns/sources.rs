@@ -17,7 +17,8 @@ pub struct FoldInLight {
     pub fold: Fold,
     /// What all bounces on it make of light.
     pub response: Response,
-    /// Relative error that facet means were allowed, where the mesh is as fine as that asks for; none where the mesh was given.
+    /// Relative error that facet means were allowed, where the mesh is as fine as that asks for; none where
+    /// the mesh was given.
     pub tolerance: Option<f64>,
     /// Sun and sky as the camera responds to them.
     pub lighting: Lighting,

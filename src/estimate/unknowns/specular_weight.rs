@@ -3,7 +3,8 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1.
+/// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5
+/// being 1.
 pub static SPECULAR_WEIGHT: Unknown = Unknown {
     name: "specular_weight",
     description: "Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1",

@@ -3,7 +3,8 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane is 1.
+/// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane
+/// is 1.
 pub static SUN: Unknown = Unknown {
     name: "sun",
     description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's of an open horizontal plane",

@@ -10,7 +10,8 @@ use crate::estimate::photograph::StatedScene;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::priors::Priors;
 
-/// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight takes the place of what was said.
+/// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight
+/// takes the place of what was said.
 pub static SUN_COLOUR: Unknown = Unknown {
     name: "sun_cct_k",
     description: "Correlated colour temperature of the sun",
@@ -67,7 +68,8 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-/// The camera's response to the sun, as much redder or bluer than it was said to be as daylight of this reciprocal temperature is.
+/// The camera's response to the sun, as much redder or bluer than it was said to be as daylight of this
+/// reciprocal temperature is.
 fn sun(scene: &FoldInLight, nominal: Daylight, mired: f64) -> Result<CameraResponse> {
     let [now, nominal] =
         [mired, nominal.mired()].map(|mired| Daylight::power(&scene.daylight_vectors, mired));

@@ -30,8 +30,8 @@ pub static TILT: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to the sun by eye errs
-/// by a few degrees, and a sun further off shades a panel, which one sees.
+/// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to
+/// the sun by eye errs by a few degrees, and a sun further off shades a panel, which one sees.
 const SD_DEG: f64 = 10.0;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {

@@ -107,7 +107,8 @@ pub struct Flag {
 
 /// How an unknown enters the model.
 pub enum Role {
-    /// The model is proportional to it: the best one is a quotient for every spectrum tried, and nothing is known of it before.
+    /// The model is proportional to it: the best one is a quotient for every spectrum tried, and nothing is
+    /// known of it before.
     Exposure,
     /// It is none of an ideal fold's.
     Photograph,

@@ -29,8 +29,8 @@ struct Surface {
 }
 
 impl FoldView {
-    /// A view into the fold; where `viewpoint` does not say otherwise, from a little off its bisecting plane, the crease upright, panel 0 on
-    /// the left.
+    /// A view into the fold; where `viewpoint` does not say otherwise, from a little off its bisecting plane,
+    /// the crease upright, panel 0 on the left.
     ///
     /// # Errors
     /// As [`Viewpoint::camera`].
@@ -54,8 +54,8 @@ impl FoldView {
         Ok(Self { frame, camera, panels })
     }
 
-    /// The numbers of the panels wholly in front of the camera, and their corners in the picture: crease end 0, crease end 1, outer end 1,
-    /// outer end 0.
+    /// The numbers of the panels wholly in front of the camera, and their corners in the picture: crease end
+    /// 0, crease end 1, outer end 1, outer end 0.
     #[must_use]
     pub fn corners(&self) -> Vec<(usize, [Point; 4])> {
         let seen = |panel: &Surface| self.camera.project_all(panel.corners);
@@ -74,8 +74,8 @@ impl FoldView {
         CELLS
     }
 
-    /// Takes a picture of the light on the cells of both panels (cell by channel, as [`FoldView::grid`] orders them), of up to three
-    /// channels, before a black background.
+    /// Takes a picture of the light on the cells of both panels (cell by channel, as [`FoldView::grid`]
+    /// orders them), of up to three channels, before a black background.
     #[must_use]
     pub fn take(&self, light: &DMatrix<f64>) -> Picture {
         Picture::take(self.frame, &self.camera, |eye, sight| {
@@ -131,7 +131,8 @@ fn interpolate(light: &DMatrix<f64>, panel: usize, u: f64, v: f64) -> [f64; 3] {
     std::array::from_fn(|channel| if channel < light.ncols() { value(channel) } else { 0.0 })
 }
 
-/// From within the fold's opening, so that neither panel hides the other; rolled by two degrees: no pixel row runs along an edge.
+/// From within the fold's opening, so that neither panel hides the other; rolled by two degrees: no pixel row
+/// runs along an edge.
 fn usual_stand(fold: &Fold) -> Stand {
     let aside = (fold.angle_rad() / 6.0).min(0.1);
     let direction = Vector3::new(aside.sin(), -0.12, aside.cos()).normalize();

@@ -74,7 +74,8 @@ pub struct Viewpoint {
 }
 
 impl Viewpoint {
-    /// The camera that looks so at a subject with these outermost `points`, which is otherwise looked at from `usual`.
+    /// The camera that looks so at a subject with these outermost `points`, which is otherwise looked at from
+    /// `usual`.
     ///
     /// # Errors
     /// As [`Pinhole::framing`] and [`Pinhole::with_field_of_view`].
@@ -132,11 +133,12 @@ impl Pinhole {
         Ok(Self { focal_px, centre: Point::new(width / 2.0, height / 2.0), ..Self::at(stand)? })
     }
 
-    /// A camera whose picture is cut to the subject with these outermost `points`: they fill 84 % of its width or height.
+    /// A camera whose picture is cut to the subject with these outermost `points`: they fill 84 % of its
+    /// width or height.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a point is not in front of the camera, all are seen in one place, the eye is on the point it looks at, or up along
-    /// the line of sight.
+    /// [`Error::Usage`] if a point is not in front of the camera, all are seen in one place, the eye is on
+    /// the point it looks at, or up along the line of sight.
     ///
     /// # Example
     /// ```

@@ -3,7 +3,8 @@
 use crate::image::numbers::Transfer;
 use crate::image::photograph::Photograph;
 
-/// Gains that make white of what most cameras have of daylight, green's being 1: the means of the measured cameras in D65.
+/// Gains that make white of what most cameras have of daylight, green's being 1: the means of the measured
+/// cameras in D65.
 const OF_MOST_CAMERAS: [f64; 3] = [2.4, 1.0, 1.33];
 
 /// What a camera makes of white.
@@ -23,7 +24,8 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// By what the camera makes of `white`, or as most cameras have daylight; none of a picture that is grey, or was made for the eye.
+    /// By what the camera makes of `white`, or as most cameras have daylight; none of a picture that is grey,
+    /// or was made for the eye.
     #[must_use]
     pub fn of(photograph: &Photograph, white: Option<&White>) -> Self {
         let info = photograph.info();

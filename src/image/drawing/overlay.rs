@@ -32,9 +32,9 @@ const END_INWARDS: f64 = 0.06;
 
 /// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px per side.
 ///
-/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, the crease is white, with the number of either end, and a
-/// square marks the first corner of each grid. Pixels that were left out are red. Colours are balanced for the eye, which a text
-/// beside the pixels says.
+/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, the crease is white, with
+/// the number of either end, and a square marks the first corner of each grid. Pixels that were left out are
+/// red. Colours are balanced for the eye, which a text beside the pixels says.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.

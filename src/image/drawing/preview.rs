@@ -14,8 +14,9 @@ use crate::image::photograph::{Photograph, Pixel};
 const LONGEST_PX: usize = 1600;
 /// Part of the pixels that are darker than the one shown as white.
 const DARKER_THAN_WHITE: f64 = 0.995;
-/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, its file, and what is said of the picture; `share/picker.html`
-/// reads them. Words on the picture would hide corners, and a line below it would move them in programs that know its size alone.
+/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, its file, and what is said
+/// of the picture; `share/picker.html` reads them. Words on the picture would hide corners, and a line below
+/// it would move them in programs that know its size alone.
 const SIZE_KEYWORD: &str = "vfold photograph size";
 const NAME_KEYWORD: &str = "vfold photograph name";
 pub(super) const CAPTION_KEYWORD: &str = "vfold caption";
@@ -34,7 +35,8 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// The photograph's light averaged over each pixel of the canvas, `scale` of which there are for one of its own, and balanced.
+    /// The photograph's light averaged over each pixel of the canvas, `scale` of which there are for one of
+    /// its own, and balanced.
     pub fn new(photograph: &Photograph, scale: f64, balance: &Balance) -> Self {
         let photographed = [photograph.width(), photograph.height()];
         let [width, height] = photographed.map(|side| ((side as f64 * scale).round() as usize).max(1));
@@ -68,10 +70,11 @@ impl Canvas {
     }
 }
 
-/// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts white.
+/// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts
+/// white.
 ///
-/// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the photograph's pixels, and `name`, its
-/// file, and how colours are shown in others.
+/// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the
+/// photograph's pixels, and `name`, its file, and how colours are shown in others.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -94,7 +97,8 @@ pub fn write_preview(path: &Path, photograph: &Photograph, name: &Path, balance:
     canvas.write_naming(path, Some(name))
 }
 
-/// Mean light of the photograph's pixels that pixel `at` of a canvas of this `size` shows; clipped ones count as white.
+/// Mean light of the photograph's pixels that pixel `at` of a canvas of this `size` shows; clipped ones count
+/// as white.
 fn mean_light(photograph: &Photograph, at: [usize; 2], size: [usize; 2]) -> [f64; 3] {
     let range = |at: usize, size: usize, photographed: usize| {
         let first = at * photographed / size;

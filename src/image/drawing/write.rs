@@ -1,7 +1,7 @@
 //! Pictures out: linear light for simulated photographs, 8 bits for the eye.
 //!
-//! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run leaves the
-//! old file or none.
+//! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run
+//! leaves the old file or none.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -14,12 +14,12 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 /// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
 ///
 /// # Arguments
-/// - `rgb`: row by row from the top, three numbers per pixel; integer formats store `round(65535 * value)`, clipped to
-///   [0, 1].
+/// - `rgb`: row by row from the top, three numbers per pixel; integer formats store `round(65535 * value)`,
+///   clipped to [0, 1].
 ///
 /// # Errors
-/// [`Error::Picture`] for another ending, a number that is not finite in single precision, or if there are not width x height x 3 numbers;
-/// [`Error::File`] if the file cannot be written.
+/// [`Error::Picture`] for another ending, a number that is not finite in single precision, or if there are
+/// not width x height x 3 numbers; [`Error::File`] if the file cannot be written.
 ///
 /// # Example
 /// ```
@@ -46,7 +46,8 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
     }
 }
 
-/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG that says it is for the eye; other values are clipped.
+/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG that says it is for the eye; other
+/// values are clipped.
 ///
 /// # Errors
 /// As [`write_linear`], whatever the name's ending.
@@ -83,7 +84,8 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
     Ok(png)
 }
 
-/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII; keywords and texts of any letters.
+/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII;
+/// keywords and texts of any letters.
 #[derive(Default)]
 pub(super) struct Texts<'a> {
     pub plain: Option<(&'a str, String)>,

@@ -1,9 +1,10 @@
 //! The straight edge near a side of a panel.
 //!
-//! The pixels around the side are looked at in pieces along it ([`super::piece`]): the residuals of all pieces and all channels together
-//! tell how likely each line is. A step and a kink are both found so, to a fraction of a pixel, in noise that hides them in any one row
-//! of pixels. A lens blurs all edges of a picture alike; which blur it is, all outer sides tell together: one side alone might take the
-//! blurred end of a shadow beside a sharp edge.
+//! The pixels around the side are looked at in pieces along it ([`super::piece`]): the residuals of all
+//! pieces and all channels together tell how likely each line is. A step and a kink are both found so, to a
+//! fraction of a pixel, in noise that hides them in any one row of pixels. A lens blurs all edges of a
+//! picture alike; which blur it is, all outer sides tell together: one side alone might take the blurred end
+//! of a shadow beside a sharp edge.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
@@ -17,19 +18,22 @@ const PIECES: usize = 24;
 const END: f64 = 0.03;
 /// Most of a side that is left out at each end.
 const LONGEST_END: f64 = 0.25;
-/// Pixels are looked at this much further away than an edge is looked for, px: they tell the light on both sides.
+/// Pixels are looked at this much further away than an edge is looked for, px: they tell the light on both
+/// sides.
 const FLANK_PX: f64 = 10.0;
 /// A piece is at most this long, px: more pixels would tell more than the model is true.
 const LONGEST_PX: f64 = 16.0;
 /// An edge explains its pixels better than smooth light by at least this, in log likelihood.
 const LEAST_GAIN: f64 = 20.0;
-/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a crease.
+/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a
+/// crease.
 const STEP_SD_PX: f64 = 0.015;
 const KINK_SD_PX: f64 = 0.5;
 /// An edge is elsewhere if its middle is further away than this, px and relative to the reach.
 const ELSEWHERE_PX: f64 = 1.5;
 const ELSEWHERE: f64 = 0.25;
-/// What a piece says against a line counts no more than this where something may hide the side there, as a finger does.
+/// What a piece says against a line counts no more than this where something may hide the side there, as a
+/// finger does.
 pub(in crate::image) const MOST_OF_PIECE: f64 = 60.0;
 /// A side speaks against a blur by at most this part of what it says for the best.
 const MOST_AGAINST: f64 = 0.25;
@@ -67,8 +71,9 @@ impl Side {
         Vector2::new(-self.along.y, self.along.x)
     }
 
-    /// What the pixels within `reach_px` of the side say of an edge under each of the blurs. `inner`: a place on the sheet, if that ends
-    /// here; `most_of_piece`: what a piece may say against a line, in log likelihood.
+    /// What the pixels within `reach_px` of the side say of an edge under each of the blurs. `inner`: a place
+    /// on the sheet, if that ends here; `most_of_piece`: what a piece may say against a line, in log
+    /// likelihood.
     pub fn look(
         &self,
         photograph: &Photograph,
@@ -148,7 +153,8 @@ pub(super) struct Look {
 /// What they say under one blur.
 struct Blurred {
     blur: usize,
-    /// What speaks for the best line, in log likelihood, whatever the sheet is like inside of it: 0 if there is none.
+    /// What speaks for the best line, in log likelihood, whatever the sheet is like inside of it: 0 if there
+    /// is none.
     says: f64,
     /// By how much each of [`lines`] explains all pieces better than smooth light, in log likelihood.
     likelihoods: Vec<f64>,
@@ -208,7 +214,8 @@ fn elsewhere(likelihoods: &[f64], greatest: f64, reach_px: f64) -> f64 {
     others.map(|(_, likelihood)| *likelihood).fold(0.0, f64::max)
 }
 
-/// By how much the edge that passes the side's ends at two places explains all pieces better than smooth light.
+/// By how much the edge that passes the side's ends at two places explains all pieces better than smooth
+/// light.
 fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64 {
     let of_piece = |(place, gains): &(f64, [f64; PLACES])| {
         let crossing = from as f64 + (to as f64 - from as f64) * place;
@@ -220,7 +227,8 @@ fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64
 }
 
 impl Edge {
-    /// Mean and covariance of weighted lines; of lines all equally likely, or likely at both ends of the reach, nothing is known.
+    /// Mean and covariance of weighted lines; of lines all equally likely, or likely at both ends of the
+    /// reach, nothing is known.
     fn of(lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone, reach_px: f64, model_sd_px: f64) -> Self {
         let total: f64 = lines.clone().map(|(_, weight)| weight).sum();
         let mean = lines.clone().map(|(ends, weight)| ends * weight).sum::<Vector2<f64>>() / total;

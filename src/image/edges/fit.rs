@@ -68,7 +68,8 @@ impl Sums {
         }
     }
 
-    /// Sum of squares that a plane of light leaves in each channel; none if there is no one best, or too few pixels.
+    /// Sum of squares that a plane of light leaves in each channel; none if there is no one best, or too few
+    /// pixels.
     pub fn residual(&self) -> Option<Vector3<f64>> {
         let spread = self.distance_squares - self.distances * self.distances / self.count;
         let known = self.count > 2.0 * OF_A_SIDE && spread > 1e-9 * self.distance_squares;
@@ -115,7 +116,8 @@ impl Fit {
         self.right += basis * light.transpose();
     }
 
-    /// Pixels that see part of either side: their distances from the edge, the parts of them beyond it, and their light.
+    /// Pixels that see part of either side: their distances from the edge, the parts of them beyond it, and
+    /// their light.
     pub fn add_mixed<'a>(&mut self, pixels: impl Iterator<Item = (f64, f64, &'a Vector3<f64>)>) {
         // of near by near, near by far and far by far: sums of 1, z and z²
         let (mut sums, mut right) = ([[0.0; 3]; 3], [Vector3::zeros(); COEFFICIENTS]);

@@ -1,8 +1,9 @@
 //! Some pixels along a piece of a side, and how well an edge at each of several distances explains them.
 //!
-//! They are explained as two planes of light with the edge between them, mixed by area in the pixels that it crosses: a sheet may be as
-//! bright as the table, but not of its colour. What smooth light explains as well is no edge. Behind a sheet its shadow may end, too: up
-//! to the edge the sheet goes on as it is further inwards.
+//! They are explained as two planes of light with the edge between them, mixed by area in the pixels that it
+//! crosses: a sheet may be as bright as the table, but not of its colour. What smooth light explains as well
+//! is no edge. Behind a sheet its shadow may end, too: up to the edge the sheet goes on as it is further
+//! inwards.
 
 use nalgebra::{SVector, Vector2, Vector3};
 
@@ -17,7 +18,8 @@ pub(super) const BLURS: usize = 4;
 const CLEAR_PX: [f64; BLURS] = [0.0, 0.0, 3.0, 6.75];
 /// Residuals below this part of the light count as nothing.
 const EXACT: f64 = 1e-3;
-/// A sheet goes on up to its edge if its light varies there by no more than this, relative to further inwards.
+/// A sheet goes on up to its edge if its light varies there by no more than this, relative to further
+/// inwards.
 const UNEVEN: f64 = 2.0;
 /// Pixels nearer to an edge than that may see what is beyond it, px.
 const CLEARANCE_PX: f64 = 2.0;
@@ -51,7 +53,8 @@ impl Piece {
         Self { place, pixels, sums, channels: if is_grey { 1 } else { 3 } }
     }
 
-    /// Gain in log likelihood of an edge at each of the places over none; pixels are at most `width_px` from the side.
+    /// Gain in log likelihood of an edge at each of the places over none; pixels are at most `width_px` from
+    /// the side.
     pub fn gains(&self, across: &Vector2<f64>, blur: usize, reach_px: f64, width_px: f64) -> [f64; PLACES] {
         let (count, exact) = (self.pixels.len() as f64, self.exact());
         let smooth = self.smooth_residual(width_px);
@@ -64,7 +67,8 @@ impl Piece {
         std::array::from_fn(|place| gain(place).filter(|gain| gain.is_finite()).unwrap_or(0.0))
     }
 
-    /// By how much the light inside an edge at each of the places is less likely than it would be if the sheet went on up to there.
+    /// By how much the light inside an edge at each of the places is less likely than it would be if the
+    /// sheet went on up to there.
     pub fn breaks(&self, inwards: f64, reach_px: f64, blur: usize) -> [f64; PLACES] {
         let within = |least: f64| {
             let sums = self.sums_beyond(least, inwards);
@@ -98,7 +102,8 @@ impl Piece {
         self.left_by(fit)
     }
 
-    /// What two planes of light leave that meet at a distance from the side. Of pixels that the edge does not cross sums are known.
+    /// What two planes of light leave that meet at a distance from the side. Of pixels that the edge does not
+    /// cross sums are known.
     fn edge_residual(&self, edge_px: f64, across: &Vector2<f64>, blur_px: f64) -> Option<Vector3<f64>> {
         let reach = edge_reach(across, blur_px);
         let first = self.pixels.partition_point(|(distance, _)| distance - edge_px <= -reach);
@@ -133,7 +138,8 @@ impl Piece {
     }
 }
 
-/// Sides of a pixel across a line with this unit normal, the longer first, if it saw by `blur_px` more to all sides.
+/// Sides of a pixel across a line with this unit normal, the longer first, if it saw by `blur_px` more to all
+/// sides.
 fn spread(normal: &Vector2<f64>, blur_px: f64) -> [f64; 2] {
     [normal.amax() + blur_px, normal.amin().max(1e-3) + blur_px]
 }
@@ -143,7 +149,8 @@ fn edge_reach(normal: &Vector2<f64>, blur_px: f64) -> f64 {
     spread(normal, blur_px).iter().sum::<f64>() / 2.0
 }
 
-/// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it, if it saw by `blur_px` more to all sides.
+/// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it, if it saw by
+/// `blur_px` more to all sides.
 fn share_beyond(z: f64, normal: &Vector2<f64>, blur_px: f64) -> f64 {
     let [wide, narrow] = spread(normal, blur_px);
     let ramp = |x: f64| x.max(0.0).powi(2) / 2.0;

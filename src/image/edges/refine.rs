@@ -1,9 +1,10 @@
 //! Corners moved to where the picture has edges.
 //!
-//! Along every side of the panels the light changes: at the outer sides to the background, at the crease by a step, where the
-//! panels differ, or by a kink, where they are alike. Each side is moved to where that change explains its pixels best
-//! ([`super::edge`]), with a covariance that says how well it is known, and the corners to where the sides meet. All is one least
-//! squares problem: the crease of a dark sheet, which noise hides, still ends where the other sides meet.
+//! Along every side of the panels the light changes: at the outer sides to the background, at the crease by a
+//! step, where the panels differ, or by a kink, where they are alike. Each side is moved to where that change
+//! explains its pixels best ([`super::edge`]), with a covariance that says how well it is known, and the
+//! corners to where the sides meet. All is one least squares problem: the crease of a dark sheet, which noise
+//! hides, still ends where the other sides meet.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -36,7 +37,8 @@ pub struct Refinement {
     pub sides_without_edge: Vec<String>,
 }
 
-/// A side: its name, the corners that it joins, and another corner of its panel, if there is no sheet beyond it.
+/// A side: its name, the corners that it joins, and another corner of its panel, if there is no sheet beyond
+/// it.
 struct Ends {
     name: String,
     from: usize,
@@ -65,7 +67,8 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 /// - `reach_px`: how far from a given side an edge is looked for, above 0.
 ///
 /// # Errors
-/// [`Error::Corners`] for corners that no panel has, [`Error::Usage`] if two panels do not have a corner that they share in one place.
+/// [`Error::Corners`] for corners that no panel has, [`Error::Usage`] if two panels do not have a corner that
+/// they share in one place.
 ///
 /// # Example
 /// ```
@@ -86,7 +89,8 @@ pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px:
     refine_in_sight(photograph, panels, lens, reach_px, f64::INFINITY)
 }
 
-/// As [`refine`], each piece of a side saying no more than that against a line, in log likelihood: something may hide it.
+/// As [`refine`], each piece of a side saying no more than that against a line, in log likelihood: something
+/// may hide it.
 pub(in crate::image) fn refine_in_sight(
     photograph: &Photograph,
     panels: &[Marked],
@@ -109,8 +113,8 @@ pub(in crate::image) fn refine_in_sight(
     })
 }
 
-/// Panels after so many rounds of refinement, and what was found along their sides: those of the first panel, then those of the others
-/// that it does not share, each from the crease on.
+/// Panels after so many rounds of refinement, and what was found along their sides: those of the first panel,
+/// then those of the others that it does not share, each from the crease on.
 pub(in crate::image) struct Settled {
     /// Corners of every panel, in the order in which they were given.
     pub panels: Vec<[Point; 4]>,
@@ -122,7 +126,8 @@ pub(in crate::image) struct Settled {
     pub blur: Option<usize>,
 }
 
-/// As [`refine_in_sight`], in so many rounds, with all that was found; under a blur of the picture, by number, if that is known.
+/// As [`refine_in_sight`], in so many rounds, with all that was found; under a blur of the picture, by
+/// number, if that is known.
 pub(in crate::image) fn settle(
     photograph: &Photograph,
     panels: &[Marked],
@@ -204,8 +209,8 @@ fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
     (0..count).map(place).collect()
 }
 
-/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the `marked` corners count as
-/// known to within the reach.
+/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the
+/// `marked` corners count as known to within the reach.
 fn meeting_point(
     marked: &[Point],
     corners: &[Point],

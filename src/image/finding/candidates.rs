@@ -1,4 +1,5 @@
-//! The most probable folds, their sides moved to where edges explain the pixels best, and what tells whether all corners are right.
+//! The most probable folds, their sides moved to where edges explain the pixels best, and what tells whether
+//! all corners are right.
 
 use rayon::prelude::*;
 
@@ -31,7 +32,8 @@ pub(super) struct Candidate {
     pub clues: [f64; CLUES],
 }
 
-/// The folds that a reduced picture may show, of those that `may_be` it, and the most probable of them refined.
+/// The folds that a reduced picture may show, of those that `may_be` it, and the most probable of them
+/// refined.
 pub(super) fn candidates(
     reduced: &Reduced,
     may_be: impl Fn(&Outline) -> bool,

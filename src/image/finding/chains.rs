@@ -50,7 +50,8 @@ impl EdgeMap {
         Self::new([xx, yy, xy], |mean, half, [x, y]| ((half - mean).max(0.0), [-y, x]))
     }
 
-    /// `of_eigen` makes strength and the way across of the mean of the eigenvalues, half their difference, and the greater one's vector.
+    /// `of_eigen` makes strength and the way across of the mean of the eigenvalues, half their difference,
+    /// and the greater one's vector.
     fn new([xx, yy, xy]: [&Plane; 3], of_eigen: impl Fn(f32, f32, [f32; 2]) -> (f32, [f32; 2])) -> Self {
         let width = xx.width;
         let pixel = |((xx, yy), xy): ((&f32, &f32), &f32)| {

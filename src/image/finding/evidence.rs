@@ -1,7 +1,8 @@
 //! What each pixel says about steps and ridges of light, in any direction.
 //!
-//! Steps are the structure tensor of all channels together (S. Di Zenzo, *A note on the gradient of a multi-image*, 1986), bright ridges
-//! the second derivatives of their sum: a crease between panels that look alike is a ridge and no step.
+//! Steps are the structure tensor of all channels together (S. Di Zenzo, *A note on the gradient of a
+//! multi-image*, 1986), bright ridges the second derivatives of their sum: a crease between panels that look
+//! alike is a ridge and no step.
 
 use rayon::prelude::*;
 
@@ -96,7 +97,8 @@ impl Evidence {
         Some((f64::from(along(&tensor[..3]).max(0.0).sqrt()), f64::from((-along(&tensor[3..])).max(0.0))))
     }
 
-    /// Strength of a step and how strongly light bends down across the unit way `across`, seen coarsely, in the pixel at a place.
+    /// Strength of a step and how strongly light bends down across the unit way `across`, seen coarsely, in
+    /// the pixel at a place.
     pub fn coarse_at(&self, place: Place, across: Place) -> Option<(f64, f64)> {
         let inside = place.x >= 0.0 && place.y >= 0.0;
         let (x, y) = (place.x as usize, place.y as usize);
@@ -110,7 +112,8 @@ impl Evidence {
         Some((along(0).max(0.0).sqrt(), -along(6)))
     }
 
-    /// How well an edge lies along a side: at each of `places` along it the best of several `offsets_px` across it counts.
+    /// How well an edge lies along a side: at each of `places` along it the best of several `offsets_px`
+    /// across it counts.
     pub fn support(&self, (from, to): (Place, Place), places: usize, offsets_px: &[f64]) -> Support {
         let length = (to - from).norm();
         if length < 1.0 {

@@ -22,7 +22,8 @@ struct Seen {
     depths: f64,
 }
 
-/// What speaks for a fold and against it; [`FEATURES`] numbers, of which logarithms open up the ends of scales.
+/// What speaks for a fold and against it; [`FEATURES`] numbers, of which logarithms open up the ends of
+/// scales.
 pub(super) fn features(fold: &Outline, evidence: &Evidence, light: &LogLight) -> [f64; FEATURES] {
     Seen::of(fold, evidence, light).features()
 }

@@ -76,7 +76,8 @@ impl LogLight {
             .then(|| Vector3::from(self.values[y * self.width + x].map(f64::from)))
     }
 
-    /// The light at places of a panel that are in the picture, with their numbers. The panel's first side is the crease.
+    /// The light at places of a panel that are in the picture, with their numbers. The panel's first side is
+    /// the crease.
     fn samples(&self, quad: &Quad) -> Vec<(usize, Vector3<f64>)> {
         let to_image: Matrix3<f64> =
             square_to_quadrilateral(&quad.map(|corner| Point::new(corner.x, corner.y)));

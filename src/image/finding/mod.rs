@@ -1,16 +1,20 @@
 //! Where a fold is in a photograph, and how sure that is.
 //!
-//! A fold is two quadrilaterals with one side in common; what tells it from two other things that touch is its own physics: either panel
-//! is one sheet of one colour, its light rises smoothly to the crease (or falls, under an overcast sky), both look alike there, and
-//! around them is an edge. All six corners are found at once:
+//! A fold is two quadrilaterals with one side in common; what tells it from two other things that touch is
+//! its own physics: either panel is one sheet of one colour, its light rises smoothly to the crease (or
+//! falls, under an overcast sky), both look alike there, and around them is an edge. All six corners are
+//! found at once:
 //!
 //! 1. [`reduced`], [`plane`], [`evidence`]: a small copy, and steps and ridges of light in all its channels;
 //! 2. [`chains`], [`segments`]: straight edges and ridges;
-//! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants of where their crease is;
-//! 4. [`light`], [`score`], [`search`]: the most probable of these against "no fold", a logit over what is seen of each;
+//! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants of where their
+//!    crease is;
+//! 4. [`light`], [`score`], [`search`]: the most probable of these against "no fold", a logit over what is
+//!    seen of each;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is most probably right is then refined in the whole picture. A colour chart is found by other means, in [`chart`].
+//! The fold that is most probably right is then refined in the whole picture. A colour chart is found by
+//! other means, in [`chart`].
 
 mod candidates;
 mod chains;
@@ -45,15 +49,17 @@ use trust::confidence;
 /// A fold in a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DetectedFold {
-    /// Corners of panels 0 and 1, px of the upright picture, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). Of an
-    /// upright crease end 0 is below and panel 0 on the left; of a level one panel 0 is the lower.
+    /// Corners of panels 0 and 1, px of the upright picture, in the order of
+    /// [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). Of an upright crease end 0 is below and panel 0 on the
+    /// left; of a level one panel 0 is the lower.
     pub panels: [[Point; 4]; 2],
     /// Probability that all six corners are within 3 % of a panel's side of where they should be.
     pub confidence: f64,
 }
 
 impl DetectedFold {
-    /// From this confidence on a fold is measured without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
+    /// From this confidence on a fold is measured without a look at it: of pictures of sheets left out of the
+    /// fit none of so much was wrong.
     pub const SURE: f64 = 0.97;
 
     /// Whether it may be measured without a look at it.
@@ -112,7 +118,8 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, N
     most_probable(photograph, lens, LEAST_CONFIDENCE, |_| true)
 }
 
-/// The fold of which two places, px, are on the two panels, in either order; somebody looks at it, however unsure it is.
+/// The fold of which two places, px, are on the two panels, in either order; somebody looks at it, however
+/// unsure it is.
 ///
 /// # Errors
 /// As [`find_fold`].
@@ -177,7 +184,8 @@ pub struct WeighedFold {
     pub weighed: Vec<f64>,
 }
 
-/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the most probable of them refined.
+/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the
+/// most probable of them refined.
 #[must_use]
 pub fn weighed_folds(photograph: &Photograph) -> [Vec<WeighedFold>; 2] {
     let reduced = Reduced::of(photograph);

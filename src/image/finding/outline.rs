@@ -10,7 +10,8 @@ pub(super) type Place = Vector2<f64>;
 /// Four corners in order round a quadrilateral.
 pub(super) type Quad = [Place; 4];
 
-/// The corners of a fold: crease ends 0 and 1, outer ends 1 and 0 of one panel, outer ends 1 and 0 of the other.
+/// The corners of a fold: crease ends 0 and 1, outer ends 1 and 0 of one panel, outer ends 1 and 0 of the
+/// other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outline(pub [Place; 6]);
 
@@ -113,8 +114,8 @@ impl Outline {
         may_be_rectangle(&a) && may_be_rectangle(&b) && area(&a) * area(&b) < 0.0
     }
 
-    /// The same fold as a user names it who has the crease upright: end 0 below, panel 0 on the left; of a level crease panel 0 is the
-    /// lower one.
+    /// The same fold as a user names it who has the crease upright: end 0 below, panel 0 on the left; of a
+    /// level crease panel 0 is the lower one.
     pub fn named(&self) -> Self {
         let renamed = |naming: [usize; 6]| Self(naming.map(|corner| self.0[corner]));
         let is_usual = |outline: &Self| {
@@ -142,7 +143,8 @@ impl Outline {
     }
 }
 
-/// The most probable folds, at most `most`, of those less than `apart_px` from a more probable one only that; `folds` with their scores.
+/// The most probable folds, at most `most`, of those less than `apart_px` from a more probable one only that;
+/// `folds` with their scores.
 pub(super) fn distinct(mut folds: Vec<(f64, Outline)>, apart_px: f64, most: usize) -> Vec<(f64, Outline)> {
     folds.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut kept: Vec<(f64, Outline)> = Vec::new();

@@ -82,8 +82,8 @@ fn half(quad: &Quad, light: &LogLight) -> Option<Outline> {
     (ridge(cut) > LEAST_RIDGE).then(|| Outline([from, to, quad[3], quad[0], quad[2], quad[1]]))
 }
 
-/// The same folds with one end of the crease or both where it meets the straight line between outer corners: the ends of two panels are
-/// often seen in one line.
+/// The same folds with one end of the crease or both where it meets the straight line between outer corners:
+/// the ends of two panels are often seen in one line.
 pub(super) fn straightened(fold: &Outline) -> Vec<Outline> {
     const LEAST_PX: f64 = 4.0;
     let c = &fold.0;

@@ -10,8 +10,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The plane correlated with a row of weights and then with a column of them, both of odd length about their middle; beyond the
-    /// picture its edge goes on.
+    /// The plane correlated with a row of weights and then with a column of them, both of odd length about
+    /// their middle; beyond the picture its edge goes on.
     pub fn filtered(&self, across: &[f32], down: &[f32]) -> Self {
         let width = self.width;
         let mut rows = vec![0.0_f32; self.values.len()];

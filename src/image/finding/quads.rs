@@ -21,11 +21,13 @@ const LEAST_ARM_PX: f64 = 10.0;
 const LEAST_SINE: f64 = 0.25;
 /// Arms as nearly equal as this are not made equal.
 const EQUAL: f64 = 0.9;
-/// Opposite sides are parallel to within this sine, at least so long, px, and as long as each other within this factor.
+/// Opposite sides are parallel to within this sine, at least so long, px, and as long as each other within
+/// this factor.
 const PARALLEL_SINE: f64 = 0.5;
 const LEAST_OPPOSITE_PX: f64 = 15.0;
 const UNEQUAL: f64 = 1.67;
-/// Segments end within this of where they meet, px and relative to their length; further if they meet outside the picture.
+/// Segments end within this of where they meet, px and relative to their length; further if they meet outside
+/// the picture.
 const MEET_PX: f64 = 8.0;
 const MEET: f64 = 0.15;
 const MEET_OUTSIDE_PX: f64 = 10.0;

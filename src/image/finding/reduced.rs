@@ -8,7 +8,8 @@ use crate::image::photograph::{Photograph, Pixel};
 
 /// Longest side of a reduced picture, px.
 const LONGEST_PX: usize = 960;
-/// Part of the pixels that is darker than what counts as 1, in each channel: light and camera colour them differently.
+/// Part of the pixels that is darker than what counts as 1, in each channel: light and camera colour them
+/// differently.
 const DARKER_THAN_ONE: f64 = 0.99;
 /// Every so many pixels are looked at for it.
 const LOOKED_AT: usize = 4;

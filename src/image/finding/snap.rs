@@ -122,7 +122,8 @@ fn strongest(
     Some((STEP_PX * (at as f64 - f64::from(steps) + between), best))
 }
 
-/// Offsets at both ends of the line through offsets at parts of a side, those that lie off it counting less and less.
+/// Offsets at both ends of the line through offsets at parts of a side, those that lie off it counting less
+/// and less.
 fn robust_line(found: &[(f64, f64, f64)], reach_px: f64) -> (f64, f64) {
     let mut offsets: Vec<f64> = found.iter().map(|(_, offset, _)| *offset).collect();
     let middle = offsets.len() / 2;

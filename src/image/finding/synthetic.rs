@@ -23,7 +23,8 @@ pub(super) fn outline() -> Outline {
     Outline(corners.map(|(x, y)| Place::new(x, y)))
 }
 
-/// A picture of a fold `scale` times as large, whose light rises to the crease and takes on more of its colour, with noise.
+/// A picture of a fold `scale` times as large, whose light rises to the crease and takes on more of its
+/// colour, with noise.
 pub(super) fn picture(fold: &Outline, scale: usize) -> Photograph {
     let panels =
         fold.scaled(scale as f64).points().map(|corners| Homography::from_unit_square(corners).unwrap());

@@ -1,7 +1,8 @@
 //! How likely it is that all corners of a fold are right.
 //!
-//! Boosted trees (J. Friedman, *Greedy function approximation: a gradient boosting machine*, 2001) over what the search and the
-//! refinement say; `benches/find_fit.py` makes them and the weights beside them, of photographs and composites whose corners are known.
+//! Boosted trees (J. Friedman, *Greedy function approximation: a gradient boosting machine*, 2001) over what
+//! the search and the refinement say; `benches/find_fit.py` makes them and the weights beside them, of
+//! photographs and composites whose corners are known.
 
 use super::tree::CLUES;
 use super::weights::{BASE, OFFSET, SLOPE, TREES};

@@ -1,4 +1,5 @@
-//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be edited.
+//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be
+//! edited.
 
 #![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted
 

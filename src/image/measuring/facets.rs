@@ -1,9 +1,9 @@
 //! The mean colour of every facet of a photographed sheet.
 //!
-//! A facet's value is the mean over the sheet's surface, which is what a form-factor model predicts: a pixel counts by
-//! the panel area it shows. Pixels that straddle a panel's edge see something else as well and are left out, and so are those
-//! that show no sheet ([`super::outliers`]); the mean is then that of a plane fitted to the others, taken over the whole facet
-//! ([`super::plane_fit`]).
+//! A facet's value is the mean over the sheet's surface, which is what a form-factor model predicts: a pixel
+//! counts by the panel area it shows. Pixels that straddle a panel's edge see something else as well and are
+//! left out, and so are those that show no sheet ([`super::outliers`]); the mean is then that of a plane
+//! fitted to the others, taken over the whole facet ([`super::plane_fit`]).
 
 use std::ops::Range;
 
@@ -20,12 +20,14 @@ use crate::{Error, Result};
 /// Measures every facet of one panel or more.
 ///
 /// # Arguments
-/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), and how it is divided.
-/// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a little off
-///   ask for one or two.
+/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), and how it is
+///   divided.
+/// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a
+///   little off ask for one or two.
 ///
 /// # Returns
-/// Facets by panel, then row (0 at the crease), then column (0 at crease end 0). The same for any number of threads.
+/// Facets by panel, then row (0 at the crease), then column (0 at crease end 0). The same for any number of
+/// threads.
 ///
 /// A facet that reaches out of the picture by more than a pixel has no mean.
 ///
@@ -168,9 +170,9 @@ fn intersection(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     start..a.end.clamp(start, b.end)
 }
 
-/// Pixels beside each other share their geometry, in at least this many runs across a facet: that shifts a mean by
-/// 1/(12 x 16²) of the product of what light and perspective change across the facet, three millionths where each
-/// changes by a tenth, and halves the time a large picture takes.
+/// Pixels beside each other share their geometry, in at least this many runs across a facet: that shifts a
+/// mean by 1/(12 x 16²) of the product of what light and perspective change across the facet, three
+/// millionths where each changes by a tenth, and halves the time a large picture takes.
 const RUNS: usize = 16;
 
 /// An overlap this small, px², is rounding.

@@ -15,7 +15,8 @@ pub struct Making {
     pub open_sides: Vec<String>,
     /// The fold that the corners are rather those of than of the stated one, if they are not those of that.
     pub other_fold: Option<OtherFold>,
-    /// How far its darkest numbers are above black, white being 1, if they are alike in all channels: black was not subtracted, it seems.
+    /// How far its darkest numbers are above black, white being 1, if they are alike in all channels: black
+    /// was not subtracted, it seems.
     pub unsubtracted_black: Option<f64>,
     /// Maker and model of the camera, both empty where the photograph does not say so.
     pub taken_by: (String, String),

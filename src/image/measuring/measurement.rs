@@ -5,14 +5,15 @@ use std::ops::Range;
 /// What a photograph says about one facet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FacetMeasurement {
-    /// Mean linear light per channel, 1 at the white level; none if no pixel is usable, more than 2 % are clipped or the facet reaches out
-    /// of the picture.
+    /// Mean linear light per channel, 1 at the white level; none if no pixel is usable, more than 2 % are
+    /// clipped or the facet reaches out of the picture.
     pub mean: Option<Vec<f64>>,
-    /// Standard error of the mean per channel, from the spread about a plane; none if there are too few pixels to
-    /// tell. It takes the noise of every pixel for its own: see [`FacetMeasurement::with_shared_noise`].
+    /// Standard error of the mean per channel, from the spread about a plane; none if there are too few
+    /// pixels to tell. It takes the noise of every pixel for its own: see
+    /// [`FacetMeasurement::with_shared_noise`].
     pub standard_error: Option<Vec<f64>>,
-    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its area that
-    /// lies in this one.
+    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its
+    /// area that lies in this one.
     pub pixels: f64,
     /// Pixels left out because a channel is clipped.
     pub clipped: usize,

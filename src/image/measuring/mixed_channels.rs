@@ -1,25 +1,27 @@
 //! Whether a matrix has mixed red, green and blue.
 //!
-//! The noise of a sensor's channels is independent, and what programs make of it, or the grain of a sheet, goes the same way in all. A matrix to
-//! sRGB takes each channel's light from the others: where noise makes one brighter, it makes another darker.
+//! The noise of a sensor's channels is independent, and what programs make of it, or the grain of a sheet,
+//! goes the same way in all. A matrix to sRGB takes each channel's light from the others: where noise makes
+//! one brighter, it makes another darker.
 
 use crate::image::photograph::{Layer, Photograph, Pixel};
 use crate::image::placing::{Homography, Quadrilateral};
 
-/// Pixels side by side whose noise is compared, and how many such runs of a panel are enough; fewer than some tell nothing.
+/// Pixels side by side whose noise is compared, and how many such runs of a panel are enough; fewer than some
+/// tell nothing.
 const RUN_PX: usize = 26;
 const ENOUGH: usize = 150;
 const FEW: usize = 30;
 /// Noise below this part of the light may be the light's own changes.
 const LEAST_NOISE: f64 = 1e-3;
-/// A correlation below this is none of a sensor's channels: one of 26 pixels' second differences scatters by about 0.25, the median of [`FEW`] of
-/// them by 0.05.
+/// A correlation below this is none of a sensor's channels: one of 26 pixels' second differences scatters by
+/// about 0.25, the median of [`FEW`] of them by 0.05.
 const OPPOSITE: f64 = -0.15;
 /// The square sum of the weights of a second difference.
 const SQUARES: f64 = 6.0;
 
-/// Whether the noise of two channels goes opposite ways within the panels of a photograph: a matrix has mixed them, such as one from a camera's
-/// colours to sRGB. Where that cannot be determined it is false.
+/// Whether the noise of two channels goes opposite ways within the panels of a photograph: a matrix has mixed
+/// them, such as one from a camera's colours to sRGB. Where that cannot be determined it is false.
 pub(super) fn are_channels_mixed(photograph: &Photograph, panels: &[Homography]) -> bool {
     let mut layers = photograph.layers();
     let (Some(layer), None) = (layers.next(), layers.next()) else { return false };
@@ -36,7 +38,8 @@ fn median(mut all: Vec<f64>) -> f64 {
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Correlations of red with green, red with blue and green with blue in as many runs of pixels all over a panel as are enough.
+/// Correlations of red with green, red with blue and green with blue in as many runs of pixels all over a
+/// panel as are enough.
 fn runs(layer: Layer, panel: &Homography) -> Vec<[f64; 3]> {
     let (width, height) = layer.size();
     let outline = Quadrilateral::new(panel.corners());

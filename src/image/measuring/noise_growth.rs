@@ -1,8 +1,9 @@
 //! Whether noise grows with brightness, as that of light does.
 //!
-//! Of n photons √n are noise: the variance of a sensor's numbers grows in proportion to them, is the same where reading the sensor makes
-//! most of it, and grows with their square where the sheet's own grain does. It never falls. Of numbers v = L^(1/γ) it is v^(2 - γ) times
-//! that of a sensor's, and falls where γ is 2.4, as sRGB's is.
+//! Of n photons √n are noise: the variance of a sensor's numbers grows in proportion to them, is the same
+//! where reading the sensor makes most of it, and grows with their square where the sheet's own grain does.
+//! It never falls. Of numbers v = L^(1/γ) it is v^(2 - γ) times that of a sensor's, and falls where γ is 2.4,
+//! as sRGB's is.
 
 use super::measurement::FacetMeasurement;
 
@@ -11,19 +12,22 @@ const FACETS: usize = 40;
 const PIXELS: f64 = 10.0;
 /// Numbers fitted to a facet's pixels.
 const FITTED: f64 = 3.0;
-/// Standard deviations of a pixel, as part of its light, by which noise tells: less may be the light's own changes, and of more reading
-/// the sensor makes a part.
+/// Standard deviations of a pixel, as part of its light, by which noise tells: less may be the light's own
+/// changes, and of more reading the sensor makes a part.
 const TELLING: [f64; 2] = [1e-3, 0.05];
-/// Powers of the light that the variance of a sensor's numbers is not in proportion to: all channels together, and within each.
+/// Powers of the light that the variance of a sensor's numbers is not in proportion to: all channels
+/// together, and within each.
 const NEVER: f64 = 0.0;
 const SELDOM: f64 = 0.7;
-/// How sure both must be, standard deviations: noise that is the same everywhere, as in a dark picture that reading the sensor dominates, passes
-/// for falling once in 700 cases.
+/// How sure both must be, standard deviations: noise that is the same everywhere, as in a dark picture that
+/// reading the sensor dominates, passes for falling once in 700 cases.
 const SURE: f64 = 3.0;
 
-/// Whether the noise of facets falls as they become brighter: their numbers are no sensor's, but have a curve such as sRGB's.
+/// Whether the noise of facets falls as they become brighter: their numbers are no sensor's, but have a curve
+/// such as sRGB's.
 ///
-/// `facets` have the standard errors that [`measure`](super::measure) gives, of three channels. Where that cannot be determined it is false.
+/// `facets` have the standard errors that [`measure`](super::measure) gives, of three channels. Where that
+/// cannot be determined it is false.
 pub(super) fn noise_falls(facets: &[FacetMeasurement]) -> bool {
     let channels: Option<Vec<Growth>> = (0..3).map(|channel| Growth::of(facets, channel)).collect();
     let Some(channels) = channels.filter(|channels| channels.iter().all(Growth::tells)) else { return false };

@@ -1,22 +1,24 @@
 //! Sides of marked panels along which no edge of the sheet lies.
 //!
-//! A panel that is marked whole ends at its outer sides: what lies beyond has another brightness or colour. Where nothing changes across
-//! a side, the sheet goes on beyond the corners, or does not reach them.
+//! A panel that is marked whole ends at its outer sides: what lies beyond has another brightness or colour.
+//! Where nothing changes across a side, the sheet goes on beyond the corners, or does not reach them.
 
 use crate::image::photograph::{Photograph, Pixel};
 use crate::image::placing::Grid;
 
-/// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and how many pieces of them are compared.
+/// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and
+/// how many pieces of them are compared.
 const STRIP: [f64; 2] = [0.03, 0.09];
 const ALONG: [f64; 2] = [0.05, 0.95];
 const PIECES: usize = 6;
 /// Points of a piece that are looked at, along and across.
 const POINTS: [usize; 2] = [12, 4];
-/// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes in one that is open.
+/// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes
+/// in one that is open.
 const SEEN_LEAST: usize = 4;
 const OPEN_SHARE: f64 = 0.75;
-/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet ends: on the sheet it changes by less
-/// over a tenth of a panel, but at the crease.
+/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet
+/// ends: on the sheet it changes by less over a tenth of a panel, but at the crease.
 const STEP_LEAST: f64 = 0.07;
 
 /// A panel's sides away from the crease.
@@ -49,8 +51,8 @@ fn is_open(photograph: &Photograph, panel: &Grid, side: usize) -> bool {
     steps.len() >= SEEN_LEAST && alike as f64 >= OPEN_SHARE * steps.len() as f64
 }
 
-/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer side, or along the crease; none of a
-/// piece that lies outside the picture, or is clipped, by half.
+/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer
+/// side, or along the crease; none of a piece that lies outside the picture, or is clipped, by half.
 fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<[f64; 3]>> {
     let place =
         |[from, to]: [f64; 2], n: usize, count: usize| from + (to - from) * (n as f64 + 0.5) / count as f64;

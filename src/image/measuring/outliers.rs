@@ -1,8 +1,9 @@
 //! Pixels that do not show the sheet: dust, specks, a hair.
 //!
-//! What lies far from the plane through a facet's other pixels is left out, and the plane refitted until nothing changes.
-//! On clean Gaussian noise that leaves out one pixel in two million and costs less than 0.1 % of the standard error, on 5 x 5
-//! pixels too. A weighted fit such as Huber's (1.026 at its usual tuning) would still give every speck a say.
+//! What lies far from the plane through a facet's other pixels is left out, and the plane refitted until
+//! nothing changes. On clean Gaussian noise that leaves out one pixel in two million and costs less than 0.1
+//! % of the standard error, on 5 x 5 pixels too. A weighted fit such as Huber's (1.026 at its usual tuning)
+//! would still give every speck a say.
 
 use super::plane_fit::{Estimate, PixelSums, Run};
 
@@ -27,10 +28,11 @@ const FEW: usize = 20;
 const SPREAD_RUNS: usize = 500;
 /// Three quarters of normally distributed numbers lie within this many standard deviations.
 const THREE_QUARTERS: f64 = 1.150_349_380_376_008;
-/// Least spread as a share of the root mean square: where most pixels of a flat 8-bit facet hold one number, those that hold the
-/// next are no outliers. Dust on less than about a sixth of a facet is still found.
+/// Least spread as a share of the root mean square: where most pixels of a flat 8-bit facet hold one number,
+/// those that hold the next are no outliers. Dust on less than about a sixth of a facet is still found.
 const LEAST_SPREAD: f64 = 0.5;
-/// Deviations below this part of the light may be the sheet's own, where there is no noise: light is not quite a plane.
+/// Deviations below this part of the light may be the sheet's own, where there is no noise: light is not
+/// quite a plane.
 const OWN: f64 = 0.005;
 /// Each round finds what a larger outlier hid; dust takes two or three.
 const ROUNDS: usize = 10;

@@ -12,7 +12,8 @@ use crate::image::placing::{Grid, Homography};
 /// What a photograph shows of panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredPanels {
-    /// The facets as [`measure`] has them, their standard errors with what rounding and noise that pixels share add to them.
+    /// The facets as [`measure`] has them, their standard errors with what rounding and noise that pixels
+    /// share add to them.
     pub facets: Vec<FacetMeasurement>,
     /// How many neighbouring pixels make one independent number, per channel.
     pub pixels_sharing_noise: Vec<f64>,

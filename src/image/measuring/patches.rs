@@ -6,7 +6,8 @@ use crate::Result;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{CHART_CORNERS, Grid, Homography, Lens, Point, check_inside};
 
-/// The part of a patch's width and height that is measured: frames between patches, blur and corners a little off stay outside.
+/// The part of a patch's width and height that is measured: frames between patches, blur and corners a little
+/// off stay outside.
 const MIDDLE: f64 = 0.5;
 
 /// Measures the middle of every patch of a chart: the mean over half its width and half its height.
@@ -21,7 +22,8 @@ const MIDDLE: f64 = 0.5;
 /// Patches row by row from the first.
 ///
 /// # Errors
-/// [`Error::Corners`](crate::Error::Corners) if the corners are not those of a convex quadrilateral in the picture.
+/// [`Error::Corners`](crate::Error::Corners) if the corners are not those of a convex quadrilateral in the
+/// picture.
 ///
 /// # Example
 /// ```

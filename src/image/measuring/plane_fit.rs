@@ -1,8 +1,9 @@
 //! The mean of a facet from pixels that do not cover it evenly.
 //!
-//! Pixels on a panel's edges are left out, and so are clipped ones; where the light falls off along the facet, the
-//! plain mean of the others is off. A plane fitted to them in panel coordinates is not: its value at the facet's
-//! centre is the facet's mean to first order. What remains about the plane is noise, not the gradient.
+//! Pixels on a panel's edges are left out, and so are clipped ones; where the light falls off along the
+//! facet, the plain mean of the others is off. A plane fitted to them in panel coordinates is not: its value
+//! at the facet's centre is the facet's mean to first order. What remains about the plane is noise, not the
+//! gradient.
 
 /// Fewer pixels do not carry a plane (three numbers) and a measure of its noise.
 const PLANE_PIXELS: f64 = 6.0;
@@ -131,7 +132,8 @@ impl PixelSums {
 }
 
 impl Estimate {
-    /// From the mean square residual about `fitted` numbers, with `variance_factor` for reaching beyond the pixels.
+    /// From the mean square residual about `fitted` numbers, with `variance_factor` for reaching beyond the
+    /// pixels.
     fn new(plane: [f64; 3], square_residual: f64, n: f64, fitted: f64, variance_factor: f64) -> Self {
         let spare = n - fitted;
         let standard_error =

@@ -16,7 +16,8 @@ pub enum Processing {
     Matrix,
 }
 
-/// What was done to a photograph that was read as linear, and nothing of it undone; none if nothing shows, or noise does not.
+/// What was done to a photograph that was read as linear, and nothing of it undone; none if nothing shows, or
+/// noise does not.
 ///
 /// # Arguments
 /// - `panels`: where the sheet is.

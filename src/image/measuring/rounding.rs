@@ -1,13 +1,14 @@
 //! What rounding adds to the errors of facets in a JPEG.
 //!
-//! A JPEG has no noise left by which the rounding of one pixel is another than its neighbour's: it was smoothed away, and a block of pixels is
-//! stored as a few waves, themselves rounded. So rounding moves a block as a whole, which neither the spread of pixels nor that of their means over
-//! smaller blocks shows.
+//! A JPEG has no noise left by which the rounding of one pixel is another than its neighbour's: it was
+//! smoothed away, and a block of pixels is stored as a few waves, themselves rounded. So rounding moves a
+//! block as a whole, which neither the spread of pixels nor that of their means over smaller blocks shows.
 
 use super::measurement::FacetMeasurement;
 use crate::image::photograph::PhotographInfo;
 
-/// Pixels that are rounded alike: of colours, which most JPEGs store for two rows and columns at once, 16 x 16 (ITU-T T.81, section A.1.1).
+/// Pixels that are rounded alike: of colours, which most JPEGs store for two rows and columns at once, 16 x
+/// 16 (ITU-T T.81, section A.1.1).
 const ALIKE: f64 = 256.0;
 
 /// A facet with the error of rounding among its standard errors, if the picture is a JPEG.
@@ -50,7 +51,8 @@ mod tests {
         PhotographInfo { transfer_used: Transfer::Srgb, white_level: vec![255.0], ..new }
     }
 
-    /// At half of the way to white the curve of sRGB has a slope of 0.9256: 0.9256 / 255 / sqrt(12) is halved by four blocks.
+    /// At half of the way to white the curve of sRGB has a slope of 0.9256: 0.9256 / 255 / sqrt(12) is halved
+    /// by four blocks.
     #[test]
     fn blocks_are_rounded_alike() {
         let errors = with_rounding(facet(), &info("JPEG, 8-bit, RGB")).standard_error.unwrap();

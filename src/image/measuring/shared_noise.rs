@@ -1,11 +1,11 @@
 //! How much noise neighbouring pixels share.
 //!
-//! Interpolating a sensor's mosaic, scaling and JPEG spread the noise of one pixel over several: the mean of n of them
-//! is less certain than σ/√n. How many pixels make one independent number is measured in the picture itself, by
-//! comparing the variance of means over blocks of pixels with that of the pixels.
+//! Interpolating a sensor's mosaic, scaling and JPEG spread the noise of one pixel over several: the mean of
+//! n of them is less certain than σ/√n. How many pixels make one independent number is measured in the
+//! picture itself, by comparing the variance of means over blocks of pixels with that of the pixels.
 //!
-//! The light itself varies too, and smoothly. Nine blocks with the weights (1, -2, 1) along both directions cancel it:
-//! every sum of a function of x and one of y, and the product of two linear ones.
+//! The light itself varies too, and smoothly. Nine blocks with the weights (1, -2, 1) along both directions
+//! cancel it: every sum of a function of x and one of y, and the product of two linear ones.
 
 use ndarray::Array2;
 use rayon::prelude::*;
@@ -32,10 +32,10 @@ const CHI_SQUARE_MEDIAN: f64 = 0.454_936;
 
 /// How many pixels make one independent number, per channel: 1 where every pixel's noise is its own.
 ///
-/// It is the sum of the noise's correlation over all distances, px². Standard errors that take every pixel's noise for
-/// its own are too small by its square root. 1 for a mosaic, whose pixels are the sensor's own, and where a panel is too
-/// small to tell (less than 40 px wide or high). What moves all pixels alike, as rounding
-/// does in a JPEG, is not seen: see [`measure_panels`](super::measure_panels).
+/// It is the sum of the noise's correlation over all distances, px². Standard errors that take every pixel's
+/// noise for its own are too small by its square root. 1 for a mosaic, whose pixels are the sensor's own, and
+/// where a panel is too small to tell (less than 40 px wide or high). What moves all pixels alike, as
+/// rounding does in a JPEG, is not seen: see [`measure_panels`](super::measure_panels).
 ///
 /// # Example
 /// ```
@@ -109,8 +109,8 @@ fn contrasts(photograph: &Photograph, panel: &Homography, block: usize) -> Vec<C
 }
 
 impl Contrast {
-    /// The square of the contrast of the blocks' sums over the sum of the squared contrasts of their pixels; none if a pixel
-    /// is not usable or there is no noise.
+    /// The square of the contrast of the blocks' sums over the sum of the squared contrasts of their pixels;
+    /// none if a pixel is not usable or there is no noise.
     fn ratio(self, photograph: &Photograph) -> Option<[f64; 3]> {
         let mut contrasts = Array2::from_elem((self.block, self.block), [0.0; 3]);
         for (y_weight, row) in WEIGHTS.iter().zip(0..) {

@@ -5,9 +5,9 @@ use super::outliers::{Placed, without_outliers};
 use super::plane_fit::Estimate;
 use crate::image::photograph::Pixel;
 
-/// Where a larger part of a facet's pixels is clipped, the others are those that noise left below the level: a tenth moves the mean by 0.2 of
-/// a pixel's standard deviation, a half by 0.8, which is many times the mean's own. Hot pixels are fewer; a single one
-/// says nothing of a small facet.
+/// Where a larger part of a facet's pixels is clipped, the others are those that noise left below the level:
+/// a tenth moves the mean by 0.2 of a pixel's standard deviation, a half by 0.8, which is many times the
+/// mean's own. Hot pixels are fewer; a single one says nothing of a small facet.
 const MOST_CLIPPED: f64 = 0.02;
 
 /// Pixels as they are found, a run at a time.

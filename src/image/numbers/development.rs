@@ -23,7 +23,8 @@ impl Development {
     ///
     /// # Arguments
     /// - `white_balance_gains`: factors of camera red, green and blue, above 0.
-    /// - `camera_to_linear_srgb`: rows are linear sRGB red, green and blue, columns the camera's balanced channels.
+    /// - `camera_to_linear_srgb`: rows are linear sRGB red, green and blue, columns the camera's balanced
+    ///   channels.
     ///
     /// # Errors
     /// [`Error::Numeric`] if a number is not finite, a gain is not above 0 or the matrix has no inverse.
@@ -46,7 +47,8 @@ impl Development {
         Ok(Self { white_balance_gains, camera_to_linear_srgb, linear_srgb_to_balanced: inverse })
     }
 
-    /// Camera RGB of linear sRGB, none if a balanced channel had reached 1 before the matrix: cameras cut there.
+    /// Camera RGB of linear sRGB, none if a balanced channel had reached 1 before the matrix: cameras cut
+    /// there.
     #[must_use]
     #[inline]
     pub fn camera_rgb(&self, linear_srgb: [f64; 3]) -> Option<[f64; 3]> {
@@ -58,7 +60,8 @@ impl Development {
             .then(|| [0, 1, 2].map(|channel| balanced[channel] / gains[channel]))
     }
 
-    /// Standard errors of camera RGB, each number of linear sRGB having an error of its own, as large as `of_number` says.
+    /// Standard errors of camera RGB, each number of linear sRGB having an error of its own, as large as
+    /// `of_number` says.
     pub(in crate::image) fn errors(&self, camera_rgb: [f64; 3], of_number: impl Fn(f64) -> f64) -> [f64; 3] {
         let gains = self.white_balance_gains;
         let balanced = Vector3::from_fn(|channel, _| gains[channel] * camera_rgb[channel]);

@@ -11,8 +11,8 @@ pub struct ReadOptions {
     pub transfer: Transfer,
     /// The stored number that means no light; 0 if not given.
     pub black_level: Option<f64>,
-    /// The stored number that means 1, from which on a sample is clipped. If not given: 255 or 65535 for integers; for
-    /// floats 1, and nothing is clipped.
+    /// The stored number that means 1, from which on a sample is clipped. If not given: 255 or 65535 for
+    /// integers; for floats 1, and nothing is clipped.
     pub white_level: Option<f64>,
     /// White balance and matrix that made camera RGB linear sRGB, to be undone.
     pub development: Option<Development>,
@@ -25,7 +25,8 @@ pub(in crate::image) struct Scale {
     pub black: f64,
     pub white: f64,
     clipped_from: f64,
-    /// A developed picture's integers up to this are clipped: its matrix makes numbers below zero, which are stored as zero.
+    /// A developed picture's integers up to this are clipped: its matrix makes numbers below zero, which are
+    /// stored as zero.
     clipped_to: f64,
     bits: u32,
 }
@@ -71,8 +72,8 @@ impl Scale {
         Self { clipped_from: self.clipped_from.min(stored), ..self }
     }
 
-    /// The same, but no light at this stored number. Where that is above white, as in floats that are a sensor's numbers, white stays as far
-    /// above it as it was.
+    /// The same, but no light at this stored number. Where that is above white, as in floats that are a
+    /// sensor's numbers, white stays as far above it as it was.
     pub fn with_black(self, black: f64) -> Self {
         let white = if self.white > black { self.white } else { black + self.white - self.black };
         Self { black, white, ..self }

@@ -5,7 +5,8 @@ use crate::Error;
 /// How the stored numbers follow the light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Transfer {
-    /// What the file says; if it says nothing [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for everything deeper.
+    /// What the file says; if it says nothing [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for
+    /// everything deeper.
     #[default]
     Auto,
     /// In proportion.

@@ -28,15 +28,16 @@ pub struct CameraNotes {
     pub notes: Vec<String>,
 }
 
-/// Share of the light from a surface that reaches the middle of the sensor behind a usual lens; ISO 12232, annex on exposure.
+/// Share of the light from a surface that reaches the middle of the sensor behind a usual lens; ISO 12232,
+/// annex on exposure.
 const LENS: f64 = 0.65;
 /// Exposure that fills a sensor of sensitivity 1, lx s; ISO 12232, saturation-based speed.
 const SATURATION_LX_S: f64 = 78.0;
 
 impl CameraNotes {
-    /// Value of a perfect white diffuser under 1000 lx, that of a full sensor being 1, by exposure time, aperture and sensitivity; none if not all
-    /// three are said. That standard lets makers state
-    /// other sensitivities than this one, so that a sensor may be full sooner or later.
+    /// Value of a perfect white diffuser under 1000 lx, that of a full sensor being 1, by exposure time,
+    /// aperture and sensitivity; none if not all three are said. That standard lets makers state other
+    /// sensitivities than this one, so that a sensor may be full sooner or later.
     ///
     /// # Source
     /// ISO 12232:2019, saturation-based speed; a diffuser under E lx has a luminance of E / π.

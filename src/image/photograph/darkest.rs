@@ -1,11 +1,14 @@
-//! The level of no light, where it was not subtracted: the darkest numbers of the whole picture, which are then alike in all channels.
+//! The level of no light, where it was not subtracted: the darkest numbers of the whole picture, which are
+//! then alike in all channels.
 //!
-//! Where no light falls a sensor's numbers scatter about one level, the same for red, green and blue. What little light there is elsewhere
-//! has a colour: in the camera's own numbers even a grey surface has two to three times as much green as red.
+//! Where no light falls a sensor's numbers scatter about one level, the same for red, green and blue. What
+//! little light there is elsewhere has a colour: in the camera's own numbers even a grey surface has two to
+//! three times as much green as red.
 
 use super::sampled::Sampled;
 
-/// Parts of the pixels that are certainly among the darkest: what lies between them tells how much these scatter.
+/// Parts of the pixels that are certainly among the darkest: what lies between them tells how much these
+/// scatter.
 const LEAST: [f64; 2] = [1e-3, 1e-2];
 /// Least part of the pixels in the densest of steps as wide as the darkest scatter.
 const DENSE: f64 = 3e-3;
@@ -24,11 +27,13 @@ const DARK: f64 = 0.25;
 const BRIGHTEST: f64 = 0.99;
 /// Part of normally distributed numbers within one standard deviation.
 const ONE_SD: f64 = 0.683;
-/// How far from its middle a peak's numbers are taken, standard deviations, and how often the middle is sought.
+/// How far from its middle a peak's numbers are taken, standard deviations, and how often the middle is
+/// sought.
 const REACH: f64 = 2.0;
 const ROUNDS: usize = 4;
 
-/// The number of no light in each of several channels, above `black`, which was taken for it; none if none shows.
+/// The number of no light in each of several channels, above `black`, which was taken for it; none if none
+/// shows.
 pub(super) fn darkest(channels: &[Sampled], black: &[f64]) -> Option<Vec<f64>> {
     let peaks: Vec<Peak> = channels.iter().map(peak).collect::<Option<_>>()?;
     let brightest = channels

@@ -1,8 +1,9 @@
-//! Where a channel's numbers end although they could go on: the level at which a sensor, or a program since, has cut them.
+//! Where a channel's numbers end although they could go on: the level at which a sensor, or a program since,
+//! has cut them.
 //!
-//! More pixels than chance puts there hold one number, and hardly any a greater one. That may also be an even colour without noise, as
-//! simulated pictures have it: then other numbers stand out as much, or the light does not come near that level gradually, and no pixel
-//! elsewhere has noise.
+//! More pixels than chance puts there hold one number, and hardly any a greater one. That may also be an even
+//! colour without noise, as simulated pictures have it: then other numbers stand out as much, or the light
+//! does not come near that level gradually, and no pixel elsewhere has noise.
 
 use super::sampled::Sampled;
 
@@ -10,14 +11,15 @@ use super::sampled::Sampled;
 const FEW: usize = 16;
 /// Least part of all numbers that are equal.
 const LEAST_PART: f64 = 1e-3;
-/// So many times as many numbers are equal as there are of any that is next to it. Light that is greatest along a line, stored in coarse steps,
-/// makes it 2.4.
+/// So many times as many numbers are equal as there are of any that is next to it. Light that is greatest
+/// along a line, stored in coarse steps, makes it 2.4.
 const TIMES: usize = 4;
 /// How many different numbers below and above count as next.
 const NEXT: usize = 4;
 /// One over the part of the equal numbers that may be greater.
 const GREATER: usize = 10;
-/// Scaling a picture overshoots at edges: where this many times as many are equal as next to it, and the light comes near the level gradually,
+/// Scaling a picture overshoots at edges: where this many times as many are equal as next to it, and the
+/// light comes near the level gradually,
 const CLEARLY: usize = 20;
 /// so many times as many may be greater.
 const OVERSHOT: usize = 2;
@@ -86,12 +88,14 @@ fn is_gradual(channel: &Sampled, level: f32) -> bool {
 const NOISE: f64 = 2e-3;
 /// Or of less than so many of the steps between numbers, their rounding.
 const STEPS: f64 = 2.5;
-/// Second differences beside each other change their sign in 73 % of cases where every pixel's noise is its own, seldom where light is smooth.
+/// Second differences beside each other change their sign in 73 % of cases where every pixel's noise is its
+/// own, seldom where light is smooth.
 const CHANGES: f64 = 0.4;
 /// Fewer pixels tell nothing.
 const FEW_PIXELS: usize = 200;
 
-/// Whether the light of neighbouring pixels differs by noise, and not only because it changes from place to place.
+/// Whether the light of neighbouring pixels differs by noise, and not only because it changes from place to
+/// place.
 fn has_noise(channel: &Sampled) -> bool {
     let Some(greatest) = channel.sorted.last() else { return false };
     let is_lit = |run: &[f32]| run.iter().all(|number| *number > DARK * greatest && number < greatest);

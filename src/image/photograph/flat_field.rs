@@ -6,7 +6,8 @@ use super::Photograph;
 use super::pixel::Pixel;
 use crate::{Error, Result};
 
-/// A photograph of an evenly coloured sheet: where the light falls, and what the lens takes from it towards the corners.
+/// A photograph of an evenly coloured sheet: where the light falls, and what the lens takes from it towards
+/// the corners.
 #[derive(Debug, Clone)]
 pub struct FlatField {
     sheet: Box<Photograph>,

@@ -23,10 +23,11 @@ pub struct PhotographInfo {
     pub black_level: Vec<f64>,
     /// The stored number taken as 1, one for all channels or one for each.
     pub white_level: Vec<f64>,
-    /// The stored number at which each channel ends below the white level, and is clipped; none for a channel that does not. Empty if none does.
+    /// The stored number at which each channel ends below the white level, and is clipped; none for a channel
+    /// that does not. Empty if none does.
     pub ends_at: Vec<Option<f64>>,
-    /// The darkest stored numbers, one for each channel, where they are alike in all and above the black level, as if that had not been
-    /// subtracted. Empty otherwise.
+    /// The darkest stored numbers, one for each channel, where they are alike in all and above the black
+    /// level, as if that had not been subtracted. Empty otherwise.
     pub darkest: Vec<f64>,
     /// White balance and matrix that were undone.
     pub undone: Option<Development>,
@@ -39,22 +40,24 @@ pub struct PhotographInfo {
 /// The part of a sensor that makes a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SensorInfo {
-    /// Letters of the colour filters from the area's top left corner as stored, row by row: `RGGB`; none without filters.
+    /// Letters of the colour filters from the area's top left corner as stored, row by row: `RGGB`; none
+    /// without filters.
     pub mosaic: Option<String>,
     /// Left column, top row, width and height of the area read, px of the whole sensor as stored.
     pub area: [usize; 4],
 }
 
 impl PhotographInfo {
-    /// Whether the picture was developed for the eye, it seems, and nothing of that was undone: it has the curve of sRGB, and nobody said that this
-    /// is all there is to it, or it names a camera, which does more.
+    /// Whether the picture was developed for the eye, it seems, and nothing of that was undone: it has the
+    /// curve of sRGB, and nobody said that this is all there is to it, or it names a camera, which does more.
     #[must_use]
     pub fn is_developed(&self) -> bool {
         let of_camera = self.camera.make.is_some() || self.camera.model.is_some();
         self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_stated)
     }
 
-    /// As [`CameraNotes::white_per_klx`], of numbers that are as the sensor counted them: cameras brighten what they develop.
+    /// As [`CameraNotes::white_per_klx`], of numbers that are as the sensor counted them: cameras brighten
+    /// what they develop.
     #[must_use]
     pub fn white_per_klx(&self) -> Option<f64> {
         let is_as_counted = self.transfer_used == Transfer::Linear && self.undone.is_none();

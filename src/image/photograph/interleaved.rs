@@ -1,7 +1,7 @@
 //! Pixels stored with their colours side by side.
 //!
-//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large picture
-//! costs little more than decoding it.
+//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large
+//! picture costs little more than decoding it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -39,7 +39,8 @@ enum Samples {
 }
 
 impl Interleaved {
-    /// The pixels of a decoded picture, stored in this orientation, and what was done to them that is to be undone.
+    /// The pixels of a decoded picture, stored in this orientation, and what was done to them that is to be
+    /// undone.
     ///
     /// # Errors
     /// If the decoder gave more or fewer samples than the picture has.
@@ -61,7 +62,8 @@ impl Interleaved {
         })
     }
 
-    /// Pixels that are linear light already, by row, column and channel of the upright picture, infinite where it is clipped.
+    /// Pixels that are linear light already, by row, column and channel of the upright picture, infinite
+    /// where it is clipped.
     pub fn from_light(light: Array3<f32>) -> Self {
         let (_, _, channels) = light.dim();
         Self {

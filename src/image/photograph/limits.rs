@@ -1,4 +1,5 @@
-//! Where a photograph's numbers begin and end: black and white level as its own pixels have them, whatever its file says.
+//! Where a photograph's numbers begin and end: black and white level as its own pixels have them, whatever
+//! its file says.
 
 use super::Photograph;
 use super::darkest::darkest;
@@ -7,7 +8,8 @@ use super::sampled::Sampled;
 use crate::image::numbers::{Scale, Transfer};
 
 impl Photograph {
-    /// The same with the pixels clipped at which a channel's numbers end, and with what its darkest numbers say.
+    /// The same with the pixels clipped at which a channel's numbers end, and with what its darkest numbers
+    /// say.
     pub(in crate::image) fn with_limits_detected(mut self) -> Self {
         let sampled = Sampled::of(&self.pixels, self.channels(), (self.width(), self.height()));
         let ends = ends(&sampled);
@@ -29,7 +31,8 @@ impl Photograph {
         self
     }
 
-    /// The same with its darkest numbers taken as no light, if they seem to be ([`darkest`](crate::image::PhotographInfo::darkest)).
+    /// The same with its darkest numbers taken as no light, if they seem to be
+    /// ([`darkest`](crate::image::PhotographInfo::darkest)).
     ///
     /// # Example
     /// ```

@@ -47,7 +47,8 @@ pub struct Photograph {
 impl Photograph {
     /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
     ///
-    /// [`measure`](crate::image::measure) averages each colour's pixels where they are; nothing is interpolated between them.
+    /// [`measure`](crate::image::measure) averages each colour's pixels where they are; nothing is
+    /// interpolated between them.
     ///
     /// # Arguments
     /// - `mosaic`: the colours, from the top left pixel on.
@@ -147,7 +148,8 @@ impl Photograph {
         FlatField::new(self, path)
     }
 
-    /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1; `path` is for errors.
+    /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1;
+    /// `path` is for errors.
     ///
     /// # Errors
     /// [`Error::Picture`] if the flat field has another size.
@@ -189,8 +191,8 @@ impl Photograph {
         &self.info
     }
 
-    /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean of each
-    /// colour in the nine pixels around it.
+    /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean
+    /// of each colour in the nine pixels around it.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         let pixel = self.pixels.pixel(x, y);

@@ -14,7 +14,8 @@ pub struct Mosaic {
 const LETTERS: &str = "RGB";
 
 impl Mosaic {
-    /// The mosaic whose square reads `letters` row by row, as `RGGB`; none if they fill no square or one of R, G and B is missing.
+    /// The mosaic whose square reads `letters` row by row, as `RGGB`; none if they fill no square or one of
+    /// R, G and B is missing.
     ///
     /// # Example
     /// ```
@@ -60,7 +61,8 @@ impl Mosaic {
 
     /// The mosaic of the upright picture, for one stored in this size and orientation.
     pub(super) fn upright(&self, orientation: Orientation, (width, height): (usize, usize)) -> Self {
-        // looking back from the last column, the colours are those of the square that would follow it, mirrored
+        // looking back from the last column, the colours are those of the square that would follow it,
+        // mirrored
         let x = if orientation.mirrors_columns() { width } else { 0 };
         let y = if orientation.mirrors_rows() { height } else { 0 };
         Self { square: orientation.upright(self.starting_at(x, y).square) }

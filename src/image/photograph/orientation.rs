@@ -40,7 +40,8 @@ impl Orientation {
         if self.transposed() { (stored_height, stored_width) } else { (stored_width, stored_height) }
     }
 
-    /// A stored picture as it is to be seen, without a pixel moved in memory: its first axis is the rows, its second the columns.
+    /// A stored picture as it is to be seen, without a pixel moved in memory: its first axis is the rows, its
+    /// second the columns.
     pub(super) fn upright<T, D: Dimension>(self, mut stored: Array<T, D>) -> Array<T, D> {
         let (rows, columns) = (Axis(0), Axis(1));
         if self.mirrors_rows() {

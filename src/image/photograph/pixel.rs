@@ -7,7 +7,8 @@ use crate::image::numbers::Development;
 pub enum Pixel {
     /// Linear light, 1 at the white level; a grey picture gives three equal numbers.
     Light([f64; 3]),
-    /// A channel is at or above the white level, or was cut by the camera: the light may have been anything beyond.
+    /// A channel is at or above the white level, or was cut by the camera: the light may have been anything
+    /// beyond.
     Clipped,
     /// A channel is NaN or infinite, or the pixel is fully transparent.
     NotFinite,

@@ -23,7 +23,8 @@ impl Pixels {
         }
     }
 
-    /// The pixel in column `x` and row `y` of the upright picture; of sites the mean of each colour in the nine around it.
+    /// The pixel in column `x` and row `y` of the upright picture; of sites the mean of each colour in the
+    /// nine around it.
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         match self {
             Self::Interleaved(pixels) => {
@@ -43,8 +44,8 @@ impl Pixels {
         }
     }
 
-    /// Numbers of a colour that stand beside each other in `columns`, in row `y` or just below it, as they are stored or as light of a sensor; those
-    /// that are finite and not clipped.
+    /// Numbers of a colour that stand beside each other in `columns`, in row `y` or just below it, as they
+    /// are stored or as light of a sensor; those that are finite and not clipped.
     pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
         match self {
             Self::Interleaved(pixels) => pixels.stored(colour, columns, y),

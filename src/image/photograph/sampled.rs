@@ -49,8 +49,8 @@ impl Sampled {
     }
 }
 
-/// Columns and row of the runs of a picture that are looked at: every so many rows, and of these every so many runs, in each row others than
-/// in the one before.
+/// Columns and row of the runs of a picture that are looked at: every so many rows, and of these every so
+/// many runs, in each row others than in the one before.
 fn runs((width, height): (usize, usize)) -> impl Iterator<Item = (Range<usize>, usize)> {
     let in_row = width.div_ceil(RUN_PX).max(1);
     let one_of = width * height / NUMBERS;

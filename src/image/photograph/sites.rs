@@ -1,8 +1,8 @@
 //! Pixels of one colour each, as they stand behind a sensor's colour filters.
 //!
-//! Nothing is interpolated: a measurement takes the sites of each colour where they are. Averages of two by two sites
-//! would shift red and blue by half a pixel against each other, which moves the mean of a panel by 0.17 % where light
-//! falls off along it.
+//! Nothing is interpolated: a measurement takes the sites of each colour where they are. Averages of two by
+//! two sites would shift red and blue by half a pixel against each other, which moves the mean of a panel by
+//! 0.17 % where light falls off along it.
 
 use std::ops::Range;
 
@@ -27,7 +27,8 @@ pub(super) struct Sites {
 const NEIGHBOURS: usize = 3;
 
 impl Sites {
-    /// The sites of a picture, light by row and column and mosaic as stored; none if it is smaller than 3 x 3.
+    /// The sites of a picture, light by row and column and mosaic as stored; none if it is smaller than 3 x
+    /// 3.
     pub fn new(light: Array2<f32>, mosaic: &Mosaic, orientation: Orientation) -> Option<Self> {
         let (height, width) = light.dim();
         let mosaic = mosaic.upright(orientation, (width, height));

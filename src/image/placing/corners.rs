@@ -7,8 +7,8 @@ use crate::{Error, Result};
 /// The corners of a panel, in the order in which they are given.
 pub const PANEL_CORNERS: [&str; 4] = ["crease end 0", "crease end 1", "outer end 1", "outer end 0"];
 
-/// The outer corners of a chart's block of patches, in the order in which they are given: clockwise from the first patch where the
-/// chart is seen upright.
+/// The outer corners of a chart's block of patches, in the order in which they are given: clockwise from the
+/// first patch where the chart is seen upright.
 pub const CHART_CORNERS: [&str; 4] =
     ["first patch", "end of the first row", "last patch", "start of the last row"];
 
@@ -77,7 +77,8 @@ pub(in crate::image) fn is_inside(p: Point, width: usize, height: usize) -> bool
 /// Checks that the corners lie in a picture of `width` x `height` px, give or take one pixel.
 ///
 /// # Errors
-/// [`Error::Corners`] with the corner's name, its place and the picture's size; `region` says what the corners bound.
+/// [`Error::Corners`] with the corner's name, its place and the picture's size; `region` says what the
+/// corners bound.
 ///
 /// # Example
 /// ```

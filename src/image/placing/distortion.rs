@@ -1,10 +1,11 @@
 //! How a lens bends straight lines: radial distortion about the picture's centre.
 //!
-//! An ideal picture's point at distance r from the centre is seen at r (1 + k1 r² + k2 r⁴), in the same direction; r is in
-//! units of half the picture's shorter side. This is D. C. Brown's radial model (*Close-Range Camera Calibration*,
-//! Photogrammetric Engineering 37, 1971, p. 855) in the direction and unit that lensfun (`poly5`), Hugin and
-//! ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens) use. OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by
-//! s⁴, s being half the shorter side over the focal length, both in px.
+//! An ideal picture's point at distance r from the centre is seen at r (1 + k1 r² + k2 r⁴), in the same
+//! direction; r is in units of half the picture's shorter side. This is D. C. Brown's radial model
+//! (*Close-Range Camera Calibration*, Photogrammetric Engineering 37, 1971, p. 855) in the direction and unit
+//! that lensfun (`poly5`), Hugin and ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens) use.
+//! OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by s⁴, s being half the shorter side
+//! over the focal length, both in px.
 
 use super::point::Point;
 use crate::{Error, Result};
@@ -33,7 +34,8 @@ impl Lens {
     /// A lens with these coefficients, in front of a picture of `width` x `height` px.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a coefficient is not finite, or if two points of the ideal picture would be seen at one.
+    /// [`Error::Usage`] if a coefficient is not finite, or if two points of the ideal picture would be seen
+    /// at one.
     ///
     /// # Example
     /// ```
@@ -100,7 +102,8 @@ impl Lens {
         Point::new(self.centre.x + x * self.unit_px, self.centre.y + y * self.unit_px)
     }
 
-    /// Seen over ideal lengths at this ideal radius: that of the radius itself, and of a short length along it.
+    /// Seen over ideal lengths at this ideal radius: that of the radius itself, and of a short length along
+    /// it.
     fn magnification(&self, radius: f64) -> (f64, f64) {
         let (r2, k1, k2) = (radius * radius, self.k1, self.k2);
         (1.0 + r2 * (k1 + k2 * r2), 1.0 + r2 * (3.0 * k1 + 5.0 * k2 * r2))
@@ -137,7 +140,8 @@ mod tests {
         assert_eq!((Lens::STRAIGHT.undistort_with_area(p), Lens::STRAIGHT.distort(p)), ((p, 1.0), p));
     }
 
-    /// OpenCV 5.0, f = 500 px, k1 = -0.12, k2 = 0.03: cv2.projectPoints of (0.6, -0.4, 1) with centre (320, 240).
+    /// OpenCV 5.0, f = 500 px, k1 = -0.12, k2 = 0.03: cv2.projectPoints of (0.6, -0.4, 1) with centre (320,
+    /// 240).
     #[test]
     fn distortion_agrees_with_opencv() {
         let s = 240.0_f64 / 500.0;

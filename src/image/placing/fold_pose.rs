@@ -6,19 +6,22 @@ use super::point::Point;
 use super::pose::camera_position;
 use crate::geometry::Fold;
 
-/// Where a camera stands, in the coordinates of [`Fold::panels`] with crease end 0 at negative y, as the facets count.
+/// Where a camera stands, in the coordinates of [`Fold::panels`] with crease end 0 at negative y, as the
+/// facets count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraPose {
     /// The place, in the fold's unit.
     pub position: Point3<f64>,
-    /// Whether the corners were marked so that the scene is seen as in a mirror: y runs the other way than in space.
+    /// Whether the corners were marked so that the scene is seen as in a mirror: y runs the other way than in
+    /// space.
     pub mirrored: bool,
 }
 
 /// Where the camera stood that shows a fold's panels at these corners.
 ///
 /// # Arguments
-/// - `panels`: corners in the picture, px, without what a lens bends: crease end 0, crease end 1, outer end 1, outer end 0 of panels 0 and 1.
+/// - `panels`: corners in the picture, px, without what a lens bends: crease end 0, crease end 1, outer end
+///   1, outer end 0 of panels 0 and 1.
 ///
 /// # Returns
 /// Its pose; none if the corners fix no place from which both panels are seen.

@@ -1,4 +1,5 @@
-//! A quadrilateral of the picture divided into rows and columns: a panel and its facets, a chart and its patches.
+//! A quadrilateral of the picture divided into rows and columns: a panel and its facets, a chart and its
+//! patches.
 
 use super::homography::Homography;
 

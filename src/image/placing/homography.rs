@@ -1,8 +1,8 @@
 //! Where a point of a panel lies in the picture: a plane seen in perspective.
 //!
-//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners; its lens may bend
-//! that picture ([`super::distortion`]).
-//! Closed form: P. Heckbert, *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
+//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners;
+//! its lens may bend that picture ([`super::distortion`]). Closed form: P. Heckbert, *Fundamentals of Texture
+//! Mapping and Image Warping* (1989), section 2.2.3.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -25,11 +25,12 @@ impl Homography {
     /// The map that takes the unit square to a quadrilateral of the picture.
     ///
     /// # Arguments
-    /// - `corners`: the images of (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): crease end 0, crease end 1, outer end 1,
-    ///   outer end 0. Either sense of rotation will do; the two panels of a fold have opposite ones.
+    /// - `corners`: the images of (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): crease end 0, crease end 1, outer
+    ///   end 1, outer end 0. Either sense of rotation will do; the two panels of a fold have opposite ones.
     ///
     /// # Errors
-    /// Corners that are not finite, coincide, lie on a line, or are not those of a convex quadrilateral in order.
+    /// Corners that are not finite, coincide, lie on a line, or are not those of a convex quadrilateral in
+    /// order.
     ///
     /// # Example
     /// ```
@@ -43,7 +44,8 @@ impl Homography {
         Self::through(Lens::STRAIGHT, corners)
     }
 
-    /// The map to a picture taken through `lens`; the corners are where they are seen, and the sides between them may be bent.
+    /// The map to a picture taken through `lens`; the corners are where they are seen, and the sides between
+    /// them may be bent.
     ///
     /// # Errors
     /// As [`Homography::from_unit_square`].
@@ -86,14 +88,15 @@ impl Homography {
         &self.corners
     }
 
-    /// The images of the corners of the panel's rectangle from `u[0]` to `u[1]` along the crease and from `v[0]` to `v[1]` away
-    /// from it, in the order of the panel's own corners.
+    /// The images of the corners of the panel's rectangle from `u[0]` to `u[1]` along the crease and from
+    /// `v[0]` to `v[1]` away from it, in the order of the panel's own corners.
     #[must_use]
     pub fn rectangle(&self, u: [f64; 2], v: [f64; 2]) -> [Point; 4] {
         [(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])].map(|(u, v)| self.to_image(u, v))
     }
 
-    /// The angle at which a panel of these sides is seen at its middle, degrees: 0 straight on. The camera is taken to be far away.
+    /// The angle at which a panel of these sides is seen at its middle, degrees: 0 straight on. The camera is
+    /// taken to be far away.
     ///
     /// # Example
     /// ```
@@ -114,7 +117,8 @@ impl Homography {
         (stretch.min() / stretch.max()).acos().to_degrees()
     }
 
-    /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its corners.
+    /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its
+    /// corners.
     pub(in crate::image) fn bow(&self, u: [f64; 2], v: [f64; 2]) -> f64 {
         let corners = self.rectangle(u, v);
         let (u_middle, v_middle) = ((u[0] + u[1]) / 2.0, (v[0] + v[1]) / 2.0);
@@ -151,7 +155,8 @@ pub(in crate::image) fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -
     )
 }
 
-/// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a line.
+/// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a
+/// line.
 const DEGENERATE: f64 = 1e-6;
 
 fn check_seen(corners: &[Point; 4], ideal: &[Point; 4]) -> Result<()> {
@@ -205,8 +210,8 @@ mod tests {
         Homography::from_unit_square(points(corners)).unwrap_err().to_string()
     }
 
-    /// Heckbert's own construction inverted by hand: a trapezoid whose far side is half as long as its near side,
-    /// so that the middle of the square is seen at two thirds of the height, where the diagonals meet.
+    /// Heckbert's own construction inverted by hand: a trapezoid whose far side is half as long as its near
+    /// side, so that the middle of the square is seen at two thirds of the height, where the diagonals meet.
     #[test]
     fn the_middle_of_a_square_is_seen_where_the_diagonals_meet() {
         let panel =

@@ -1,7 +1,8 @@
 //! How much of a pixel lies in a convex quadrilateral.
 //!
-//! Row by row it is known in closed form which pixels a quadrilateral touches and which it covers wholly; only the
-//! few in between are clipped (I. Sutherland, G. Hodgman, *Reentrant Polygon Clipping*, CACM 17, 1974).
+//! Row by row it is known in closed form which pixels a quadrilateral touches and which it covers wholly;
+//! only the few in between are clipped (I. Sutherland, G. Hodgman, *Reentrant Polygon Clipping*, CACM 17,
+//! 1974).
 
 use std::ops::Range;
 
@@ -61,8 +62,8 @@ impl HalfPlane {
 pub(in crate::image) struct Sides([HalfPlane; 4]);
 
 impl Sides {
-    /// Inside four directed lines, each from one point to the next, in order round it: clockwise in the picture if `sense` is 1,
-    /// the other way if -1. All are moved in by `margin_px`.
+    /// Inside four directed lines, each from one point to the next, in order round it: clockwise in the
+    /// picture if `sense` is 1, the other way if -1. All are moved in by `margin_px`.
     pub fn new(lines: [[Point; 2]; 4], sense: f64, margin_px: f64) -> Self {
         Self(lines.map(|[p, q]| {
             let length = p.distance(q) * sense;

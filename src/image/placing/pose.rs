@@ -6,19 +6,23 @@ use super::point::Point;
 
 /// Numbers of a projection, of which one is its scale.
 const UNKNOWNS: usize = 12;
-/// A second solution as good as this one, for the longest of 1, is no worse than it: the points lie in a plane.
+/// A second solution as good as this one, for the longest of 1, is no worse than it: the points lie in a
+/// plane.
 const PLANE: f64 = 1e-9;
 
-/// The place of the pinhole that shows these points of space where they are seen, by the direct linear transform.
+/// The place of the pinhole that shows these points of space where they are seen, by the direct linear
+/// transform.
 ///
 /// # Arguments
-/// - `seen`: points of space, any unit, and of the picture, px, without what a lens bends; six or more, not all in a plane.
+/// - `seen`: points of space, any unit, and of the picture, px, without what a lens bends; six or more, not
+///   all in a plane.
 ///
 /// # Returns
 /// The place in the points' unit; none if they do not tell it, or the camera has them behind it or mirrored.
 ///
 /// # Source
-/// R. Hartley, A. Zisserman, *Multiple View Geometry* (2004), algorithm 7.1 without its last step, and section 6.2.4.
+/// R. Hartley, A. Zisserman, *Multiple View Geometry* (2004), algorithm 7.1 without its last step, and
+/// section 6.2.4.
 ///
 /// # Example
 /// ```

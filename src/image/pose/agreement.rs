@@ -43,8 +43,8 @@ impl fmt::Display for OtherFold {
 
 /// Probability that a fold is as it was stated below which it is not.
 const LEAST: f64 = 0.05;
-/// Corners so near to those of the stated fold, as a sum of squares in standard deviations, are not looked at further: others that
-/// explain them exactly would not be as probable as that.
+/// Corners so near to those of the stated fold, as a sum of squares in standard deviations, are not looked at
+/// further: others that explain them exactly would not be as probable as that.
 const NEAR: f64 = 6.0;
 /// Depths whose logarithms differ by less than this are those of one form.
 const SAME_FORM: f64 = 1e-6;

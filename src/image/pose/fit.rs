@@ -1,8 +1,8 @@
 //! The unknowns at which corners are seen nearest to where they are, by least squares.
 //!
 //! ## Reference
-//! D. W. Marquardt, *An algorithm for least-squares estimation of nonlinear parameters* (1963); evidence by Laplace's approximation:
-//! C. M. Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
+//! D. W. Marquardt, *An algorithm for least-squares estimation of nonlinear parameters* (1963); evidence by
+//! Laplace's approximation: C. M. Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
@@ -25,7 +25,8 @@ const DAMPING_DOWN: f64 = 0.2;
 const DAMPING_MOST: f64 = 1e8;
 /// Step of the central differences, for unknowns of about 1.
 const DIFFERENCE: f64 = 1e-5;
-/// Angles from which a search sets out, radians, and how far the fold is turned then about the crease and across it.
+/// Angles from which a search sets out, radians, and how far the fold is turned then about the crease and
+/// across it.
 const FIRST_ANGLES: [f64; 2] = [0.6, 1.4];
 const FIRST_TURNS: [f64; 3] = [-0.5, 0.0, 0.5];
 /// A fold whose angle is not in this range, radians, is closed or flat.
@@ -143,7 +144,8 @@ impl Problem<'_> {
         Some(Fitted { angle_sd: found.reduced_chi() * angle_sd, ..found })
     }
 
-    /// Seen places less those of a model, then unknowns less what is expected of them, each over its standard deviation.
+    /// Seen places less those of a model, then unknowns less what is expected of them, each over its standard
+    /// deviation.
     fn residuals(&self, unknowns: &Unknowns) -> Option<Residuals> {
         let seen = ANGLES.contains(&unknowns[ANGLE]).then(|| seen(unknowns, &self.held)).flatten()?;
         let mut residuals = Residuals::zeros();

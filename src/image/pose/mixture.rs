@@ -1,4 +1,5 @@
-//! Of several explanations of the same corners, the form of the panels that is most probable, and how uncertain the angle is in all.
+//! Of several explanations of the same corners, the form of the panels that is most probable, and how
+//! uncertain the angle is in all.
 
 use super::fit::Fitted;
 use super::prior::Form;
@@ -50,9 +51,11 @@ pub(super) fn mean(explanations: Vec<Explanation>) -> Option<Mean> {
     Some(Mean { angle, sd: deviation(angle, weighed.collect()), depths })
 }
 
-/// Root mean square deviation from an angle of the nearest that make up [`PROBABLE`] of all: weights, angles and their standard deviations.
+/// Root mean square deviation from an angle of the nearest that make up [`PROBABLE`] of all: weights, angles
+/// and their standard deviations.
 ///
-/// A far form with little weight, which whoever believes the angle takes for a blunder, would widen it manifold.
+/// A far form with little weight, which whoever believes the angle takes for a blunder, would widen it
+/// manifold.
 fn deviation(angle: f64, mut weighed: Vec<(f64, f64, f64)>) -> f64 {
     weighed.sort_by(|a, b| (a.1 - angle).abs().total_cmp(&(b.1 - angle).abs()));
     let enough = PROBABLE * weighed.iter().map(|(weight, _, _)| weight).sum::<f64>();

@@ -1,11 +1,12 @@
 //! The angle of a fold from its six corners in a photograph.
 //!
-//! Six corners are twelve numbers. Where the fold is and how it is turned takes six, the angle is the seventh; the focal length, the lens'
-//! distortion and the panels' form are known more or less, and what is not is found along with the angle, each as far as it was
-//! [known](prior) before. Panels may be of several usual forms: each is tried, and weighed by how well it explains the corners.
+//! Six corners are twelve numbers. Where the fold is and how it is turned takes six, the angle is the
+//! seventh; the focal length, the lens' distortion and the panels' form are known more or less, and what is
+//! not is found along with the angle, each as far as it was [known](prior) before. Panels may be of several
+//! usual forms: each is tried, and weighed by how well it explains the corners.
 //!
-//! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a picture cut on one side is seen
-//! a little askew.
+//! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a
+//! picture cut on one side is seen a little askew.
 
 mod agreement;
 mod fit;
@@ -66,8 +67,9 @@ impl FoldSeen {
     /// The angle of the fold whose panels have these corners.
     ///
     /// # Arguments
-    /// - `panels`: corners of panels 0 and 1, px, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS); where they differ in an
-    ///   end of the crease, that is in the middle.
+    /// - `panels`: corners of panels 0 and 1, px, in the order of
+    ///   [`PANEL_CORNERS`](crate::image::PANEL_CORNERS); where they differ in an end of the crease, that is
+    ///   in the middle.
     ///
     /// # Returns
     /// None if no fold that is open to the camera looks so.

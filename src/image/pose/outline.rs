@@ -16,7 +16,8 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// That of panels with these corners, px, in a picture of this size; none if they do not lie on either side of a crease.
+    /// That of panels with these corners, px, in a picture of this size; none if they do not lie on either
+    /// side of a crease.
     pub fn of(panels: &[[Point; 4]; 2], lens: Option<Lens>, size: [f64; 2], unit_px: f64) -> Option<Self> {
         let lens = lens.unwrap_or(Lens::STRAIGHT);
         let panels = panels.map(|panel| panel.map(|corner| lens.undistort(corner)));

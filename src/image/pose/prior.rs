@@ -43,7 +43,8 @@ const LN_FOCAL_SD: f64 = 0.8;
 const LN_STATED_FOCAL_SD: f64 = 0.05;
 /// Share of pictures that were cropped after that was written, so that it says little.
 const CROPPED_SHARE: f64 = 0.1;
-/// Distortion of a lens of which nothing is known: that of most lenses is within 2 % at the middle of the picture's longer sides.
+/// Distortion of a lens of which nothing is known: that of most lenses is within 2 % at the middle of the
+/// picture's longer sides.
 const K1_SD: f64 = 0.02;
 /// The same of one that was stated.
 const K1_STATED_SD: f64 = 1e-4;
@@ -59,8 +60,8 @@ const OTHER_ANGLE: (f64, f64) = (0.85, 0.4);
 /// How many folds are as they were stated; of the others half are of another angle, half of other panels.
 const AS_STATED: f64 = 0.9;
 
-/// Depth over width of usual panels, and their shares of all: squares most of all, halves of A and Letter sheets along either middle,
-/// whole ones of sheets twice as large, and the same folded the other way.
+/// Depth over width of usual panels, and their shares of all: squares most of all, halves of A and Letter
+/// sheets along either middle, whole ones of sheets twice as large, and the same folded the other way.
 const FORMS: [(f64, f64); 11] = [
     (1.0, 0.75),
     (1.0 / SQRT_2, 0.02),

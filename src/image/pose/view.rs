@@ -21,7 +21,8 @@ pub(super) const LN_DEPTH: usize = 9;
 /// Logarithm of the depth of panel 1 over that of panel 0.
 pub(super) const LN_DEPTH_RATIO: usize = 10;
 
-/// All that is unknown. Lengths in the picture are in halves of its shorter side, the unit of [`Lens`](crate::image::Lens), from its middle.
+/// All that is unknown. Lengths in the picture are in halves of its shorter side, the unit of
+/// [`Lens`](crate::image::Lens), from its middle.
 pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
 
 /// Crease ends 0 and 1, outer ends 1 and 0 of panel 0, the same of panel 1.
@@ -37,8 +38,8 @@ fn in_space(unknowns: &Unknowns) -> [Vector3<f64>; 6] {
     [end0, end1, end1 + out0, end0 + out0, end1 + out1, end0 + out1]
 }
 
-/// Where the corners are seen by a camera before a fold that is first `held` so, x to the right, y down, z away from the camera; none if one
-/// is not before the camera.
+/// Where the corners are seen by a camera before a fold that is first `held` so, x to the right, y down, z
+/// away from the camera; none if one is not before the camera.
 pub(super) fn seen(unknowns: &Unknowns, held: &Rotation3<f64>) -> Option<Corners> {
     let turned = Rotation3::new(unknowns.fixed_rows::<3>(TURN).into_owned()) * held;
     let focal = unknowns[LN_FOCAL].exp();

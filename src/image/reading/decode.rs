@@ -111,7 +111,8 @@ fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
     Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"))
 }
 
-/// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark: where they stand, and what they are.
+/// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark:
+/// where they stand, and what they are.
 const RAW_MARKS: [(usize, &[u8]); 9] = [
     (0, b"FUJIFILMCCD-RAW"), // RAF
     (4, b"ftypcrx "),        // CR3
@@ -135,7 +136,8 @@ fn is_supported(format: &ImageFormat) -> bool {
 /// A picture; for PNG and JPEG, its EXIF block; what else the file says of its numbers.
 type PictureAndMore = (DynamicImage, Option<Vec<u8>>, Vec<Statement>);
 
-/// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the file's fault.
+/// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the
+/// file's fault.
 fn foreseen<T>(path: &Path, decode: impl FnOnce() -> Result<T>) -> Result<T> {
     let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
     catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(unforeseen)

@@ -1,7 +1,7 @@
 //! What a camera wrote beside the picture: make, exposure, how it was held.
 //!
-//! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and what is
-//! broken becomes a note.
+//! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and
+//! what is broken becomes a note.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -14,11 +14,12 @@ use crate::image::photograph::{CameraNotes, Orientation};
 
 /// How far EXIF's gamma may be from a number and still mean it.
 const SAME_GAMMA: f64 = 5e-3;
-/// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory begins.
+/// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory
+/// begins.
 const TAGS_BYTES: usize = 1 << 20;
 
-/// A TIFF file's own EXIF block: the whole file, but of a large one only the places where tags are kept, the pixels in
-/// between left blank.
+/// A TIFF file's own EXIF block: the whole file, but of a large one only the places where tags are kept, the
+/// pixels in between left blank.
 pub(super) fn tiff_tags(file: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
     let mut block = vec![0; file.seek(SeekFrom::End(0))? as usize];
     read_part(file, &mut block, 0)?;
@@ -47,7 +48,8 @@ pub(super) struct Tags {
     pub stated: Vec<Statement>,
 }
 
-/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block, and its picture may be on another `page` than the first.
+/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block, and its picture may
+/// be on another `page` than the first.
 pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
     let mut notes = Vec::new();
     let exif = block.and_then(|block| parse(block, &mut notes));
@@ -105,7 +107,8 @@ fn gamma(exif: &Exif) -> Option<Statement> {
     Some(Statement { by: "EXIF Gamma", says })
 }
 
-/// Calls what points to directories of tags LONG where it is called IFD, as by libtiff: both are 4 bytes long, and the parser knows one of them.
+/// Calls what points to directories of tags LONG where it is called IFD, as by libtiff: both are 4 bytes
+/// long, and the parser knows one of them.
 fn directories_as_long(block: &mut [u8]) {
     const ENTRY_BYTES: usize = 12;
     const IFD: u16 = 13;

@@ -5,7 +5,8 @@ use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, curve_like};
 use crate::image::numbers::Transfer;
 
-/// Furthest, in XYZ under D50, that primaries may be from others and still be them: writers round them in various ways.
+/// Furthest, in XYZ under D50, that primaries may be from others and still be them: writers round them in
+/// various ways.
 const SAME_PRIMARY: f64 = 3e-3;
 /// Red, green and blue of sRGB, adapted to D50.
 ///

@@ -1,4 +1,5 @@
-//! The markers of a JPEG file, for what its decoder does not tell: whether it is whole, and what its components are.
+//! The markers of a JPEG file, for what its decoder does not tell: whether it is whole, and what its
+//! components are.
 
 /// A JPEG file's bytes.
 pub(super) struct Jpeg<'a>(pub &'a [u8]);

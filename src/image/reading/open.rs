@@ -12,17 +12,20 @@ use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
 use crate::{Error, Result};
 
 impl Photograph {
-    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha; with the
-    /// feature `raw` also a camera's RAW file.
+    /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha;
+    /// with the feature `raw` also a camera's RAW file.
     ///
-    /// The content, not the name, tells the format; a picture under the name of a RAW file is refused. What the file says of its
-    /// numbers (ICC profile, EXIF colour space, PNG's chunks, OpenEXR's chromaticities) tells the curve where
+    /// The content, not the name, tells the format; a picture under the name of a RAW file is refused. What
+    /// the file says of its numbers (ICC profile, EXIF colour space, PNG's chunks, OpenEXR's chromaticities)
+    /// tells the curve where
     /// [`Transfer::Auto`] asks for it. Alpha is dropped, except that a fully transparent pixel counts as
-    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
+    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536
+    /// px per side.
     ///
     /// # Errors
-    /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut short, empty or too
-    /// large, has no colours to undo a development of, or says of its numbers what contradicts itself or cannot be undone; [`Error::Usage`] if the white level is not above the black
+    /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut
+    /// short, empty or too large, has no colours to undo a development of, or says of its numbers what
+    /// contradicts itself or cannot be undone; [`Error::Usage`] if the white level is not above the black
     /// level.
     ///
     /// # Example

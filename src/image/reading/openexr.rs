@@ -141,7 +141,8 @@ fn colours(header: &Header) -> Option<Statement> {
 /// The colour space by its name: `lin_rec709_scene` is linear, in the colours of Rec. 709, which are sRGB's.
 ///
 /// # Source
-/// Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering" (2025), as OpenEXR 3.4 has it.
+/// Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering" (2025), as OpenEXR 3.4
+/// has it.
 fn interop(header: &Header) -> Option<Statement> {
     let attributes = header.own_attributes.other.iter().chain(&header.shared_attributes.other);
     let text = attributes.into_iter().find_map(|(name, value)| match value {

@@ -9,7 +9,8 @@ use image::{DynamicImage, ImageBuffer};
 
 use super::openexr::is_in_colour;
 
-/// The picture of such a size in a file, with alpha if it has it; none if something is wrong with it, which is left to `image` to say.
+/// The picture of such a size in a file, with alpha if it has it; none if something is wrong with it, which
+/// is left to `image` to say.
 pub(super) fn decode(
     file: impl BufRead + Seek,
     (width, height): (u32, u32),

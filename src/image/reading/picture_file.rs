@@ -8,7 +8,8 @@ use super::refused::{MAX_BYTES, TOO_LARGE};
 use crate::image::photograph::FileStamp;
 use crate::{Error, Result};
 
-/// A file opened once. What cannot be gone back in, such as a named pipe or a shell's `<(...)`, is read into memory.
+/// A file opened once. What cannot be gone back in, such as a named pipe or a shell's `<(...)`, is read into
+/// memory.
 #[derive(Debug)]
 pub struct PictureFile {
     path: PathBuf,
@@ -27,7 +28,8 @@ impl PictureFile {
     /// Opens a file, whatever it holds, of at most 2 GiB.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be opened, or is a pipe that cannot be read; [`Error::Picture`] if it is too large.
+    /// [`Error::File`] if it cannot be opened, or is a pipe that cannot be read; [`Error::Picture`] if it is
+    /// too large.
     ///
     /// # Example
     /// ```

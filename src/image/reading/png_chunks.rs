@@ -13,7 +13,8 @@ const GAMMA_OF_SRGB: f64 = 0.45455;
 /// How far gAMA may be from a number and still mean it.
 const SAME_GAMMA: f64 = 5e-4;
 
-/// What the chunks before the pixels say; nothing of a file that cannot be read, which its decoder will refuse.
+/// What the chunks before the pixels say; nothing of a file that cannot be read, which its decoder will
+/// refuse.
 pub(super) fn statements(file: impl BufRead + Seek) -> Vec<Statement> {
     Decoder::new(file).read_info().map_or_else(|_| Vec::new(), |reader| of_info(reader.info()))
 }

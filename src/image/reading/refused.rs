@@ -10,7 +10,8 @@ use crate::{Error, Result};
 pub(super) const MAX_BYTES: u64 = 2 << 30;
 /// Largest width and height, px.
 pub(super) const MAX_SIDE: u32 = 1 << 16;
-/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other compressions fewer than these.
+/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other
+/// compressions fewer than these.
 const MAX_COMPRESSION: u64 = 1 << 16;
 
 pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";

@@ -1,7 +1,7 @@
 //! What a picture file says of its own numbers: how they follow the light, and whose colours they are.
 //!
-//! A picture that says nothing is read by its depth. One that says several things which do not agree, or something that
-//! cannot be undone here, is refused: only who made it knows.
+//! A picture that says nothing is read by its depth. One that says several things which do not agree, or
+//! something that cannot be undone here, is refused: only who made it knows.
 
 use std::path::Path;
 
@@ -13,7 +13,8 @@ use crate::{Error, Result};
 pub(super) struct Statement {
     /// Where it says it.
     pub by: &'static str,
-    /// The curve; or what it says where that is no curve of [`Transfer`], or the colours are neither a camera's own nor sRGB's.
+    /// The curve; or what it says where that is no curve of [`Transfer`], or the colours are neither a
+    /// camera's own nor sRGB's.
     pub says: std::result::Result<Transfer, String>,
 }
 
@@ -22,7 +23,8 @@ pub(super) const OTHER_CURVE: &str = "whose curve is neither linear nor sRGB's";
 /// and with colours: they were made of a camera's by a matrix that the file does not tell.
 pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
 
-/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows 0.001.
+/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it
+/// with a few rows 0.001.
 const SAME_CURVE: f64 = 2e-3;
 
 /// How to read it all the same.

@@ -5,8 +5,8 @@ use crate::image::photograph::OtherLight;
 /// Degrees, minutes and seconds, and the side of the equator or of Greenwich on which they lie.
 pub(super) type Angle<'a> = ([f64; 3], &'a str);
 
-/// Latitude and longitude, degrees, south and west being below zero. None if that is no place, or both are zero: without a fix, or
-/// wiped.
+/// Latitude and longitude, degrees, south and west being below zero. None if that is no place, or both are
+/// zero: without a fix, or wiped.
 pub(super) fn place_deg(latitude: Angle, longitude: Angle) -> Option<[f64; 2]> {
     let place = [degrees(latitude, ['N', 'S'], 90.0)?, degrees(longitude, ['E', 'W'], 180.0)?];
     place.iter().any(|degrees| degrees.abs() > 0.0).then_some(place)
@@ -24,7 +24,8 @@ fn degrees(([degrees, minutes, seconds], side): Angle, [above, below]: [char; 2]
     (degrees.abs() <= most).then_some(degrees)
 }
 
-/// A time with its difference from UTC, of `2026:06:21 14:30:00` and `+02:00`; none if one of them is blank or cannot be.
+/// A time with its difference from UTC, of `2026:06:21 14:30:00` and `+02:00`; none if one of them is blank
+/// or cannot be.
 pub(super) fn local(date_and_time: &str, offset: &str) -> Option<String> {
     let offset = offset.trim();
     let is_offset = match offset.as_bytes() {

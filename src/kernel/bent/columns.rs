@@ -1,4 +1,5 @@
-//! Columns along the crease: what a place sees of a strip's columns, those that are mirror images of each other taken together.
+//! Columns along the crease: what a place sees of a strip's columns, those that are mirror images of each
+//! other taken together.
 
 use super::view::SeenStrip;
 
@@ -9,7 +10,8 @@ const SAME: f64 = 1e-9;
 pub struct Columns {
     /// Distances along the crease that occur, positive and each once.
     distances: Vec<f64>,
-    /// For every place and every edge of a column: the number of its distance, and 1 or -1 for the side it lies on.
+    /// For every place and every edge of a column: the number of its distance, and 1 or -1 for the side it
+    /// lies on.
     edges: Vec<Vec<(usize, f64)>>,
     /// Columns of one half, the middle one included.
     half: usize,
@@ -18,8 +20,8 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`, in light whose mirror image about the middle is `image`
-    /// times itself.
+    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`, in light whose mirror
+    /// image about the middle is `image` times itself.
     pub fn seen_from(places: &[f64], count: usize, width: f64, image: f64) -> Self {
         let mut distances: Vec<f64> = Vec::new();
         let mut number = |offset: f64| {
@@ -38,7 +40,8 @@ impl Columns {
         Self { distances, edges, half: count.div_ceil(2), image }
     }
 
-    /// Adds `weight` times the shares of each place's light that land on the columns of `strip`, place by column of one half.
+    /// Adds `weight` times the shares of each place's light that land on the columns of `strip`, place by
+    /// column of one half.
     pub fn add_shares(&self, strip: &SeenStrip, weight: f64, shares: &mut [f64]) {
         let up_to: Vec<f64> = self.distances.iter().map(|y| weight * strip.up_to(*y)).collect();
         for (edges, shares) in self.edges.iter().zip(shares.chunks_exact_mut(self.half)) {

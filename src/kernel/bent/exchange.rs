@@ -47,16 +47,19 @@ pub struct BentExchange {
 }
 
 impl BentExchange {
-    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away from the direction `eye`.
+    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away from the direction
+    /// `eye`.
     ///
-    /// The eye decides what the facets show of a crease that is rounded: they divide the flat quadrilateral that was clicked, from the
-    /// bottom of the crease to the outer edge. Coordinates are those of [`Fold::panels`].
+    /// The eye decides what the facets show of a crease that is rounded: they divide the flat quadrilateral
+    /// that was clicked, from the bottom of the crease to the outer edge. Coordinates are those of
+    /// [`Fold::panels`].
     #[must_use]
     pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
         Self::of_light(bent, fold, eye, 1.0)
     }
 
-    /// The same for light whose mirror image about the plane that halves the crease is `image` (1 or -1) times itself.
+    /// The same for light whose mirror image about the plane that halves the crease is `image` (1 or -1)
+    /// times itself.
     pub(crate) fn of_light(bent: &BentFold, fold: &Fold, eye: Vector3<f64>, image: f64) -> Self {
         let panels = section::strips(bent, fold);
         let view = Vector2::new(eye.x, eye.z);
@@ -85,7 +88,8 @@ impl BentExchange {
         }
     }
 
-    /// Radiance of the facets in parallel light from the direction `sun`, as [`BentFold::facet_radiance`] has it.
+    /// Radiance of the facets in parallel light from the direction `sun`, as [`BentFold::facet_radiance`] has
+    /// it.
     ///
     /// # Errors
     /// [`Error::Numeric`] if light does not leave the fold.
@@ -94,8 +98,8 @@ impl BentExchange {
         self.radiance_in(|_, normal| normal.dot(&sun).max(0.0), albedos)
     }
 
-    /// The same in the light of a lamp in that direction, so far from the `middle` of the sheet (across the crease and out of it), where it is as
-    /// bright as that sun. Places along the crease are as its middle.
+    /// The same in the light of a lamp in that direction, so far from the `middle` of the sheet (across the
+    /// crease and out of it), where it is as bright as that sun. Places along the crease are as its middle.
     ///
     /// # Errors
     /// As [`BentExchange::facet_radiance`].
@@ -143,7 +147,8 @@ impl BentExchange {
         Ok(radiance)
     }
 
-    /// Middles of the patches of one half with their normals, in the order of [`BentExchange::bounced`]'s irradiances.
+    /// Middles of the patches of one half with their normals, in the order of [`BentExchange::bounced`]'s
+    /// irradiances.
     pub(crate) fn places(&self, width: f64) -> impl Iterator<Item = [Vector3<f64>; 2]> + '_ {
         self.strips.iter().flat_map(move |strip| {
             let middle = strip.at(0.5);
@@ -164,8 +169,8 @@ impl BentExchange {
         self.areas.len()
     }
 
-    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches get from outside: a column for
-    /// each light.
+    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches
+    /// get from outside: a column for each light.
     pub(crate) fn bounced(&self, irradiances: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
         let power = DMatrix::from_fn(irradiances.nrows(), irradiances.ncols(), |patch, light| {
             irradiances[(patch, light)] * self.areas[patch]

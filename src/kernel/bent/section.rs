@@ -1,4 +1,5 @@
-//! The cross-section of a bent fold: two bowed panels and a rounded crease as strips between points of the plane across the crease.
+//! The cross-section of a bent fold: two bowed panels and a rounded crease as strips between points of the
+//! plane across the crease.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -45,7 +46,8 @@ impl Strip {
     }
 }
 
-/// A panel's arc from the virtual crease, where the panels would meet if nothing were rounded, to its outer edge.
+/// A panel's arc from the virtual crease, where the panels would meet if nothing were rounded, to its outer
+/// edge.
 #[derive(Clone, Copy, Debug)]
 struct Arc {
     chord: Vector2<f64>,
@@ -95,7 +97,8 @@ struct Rounding {
 }
 
 impl Rounding {
-    /// The circle of `radius` that touches both arcs, by Newton's method from the one that touches their chords; none in a flat sheet.
+    /// The circle of `radius` that touches both arcs, by Newton's method from the one that touches their
+    /// chords; none in a flat sheet.
     fn between(arcs: &[Arc; 2], radius: f64, half_angle: f64) -> Option<Self> {
         let mut touches = arcs.map(|arc| radius / half_angle.tan() / arc.depth);
         let centres = |touches: [f64; 2]| {

@@ -1,4 +1,5 @@
-//! Which parts of a bent sheet a facet shows: facets divide the quadrilateral between the bottom of the crease and an outer edge.
+//! Which parts of a bent sheet a facet shows: facets divide the quadrilateral between the bottom of the
+//! crease and an outer edge.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -20,8 +21,8 @@ pub struct Sample {
     pub share: f64,
 }
 
-/// Points of the rows that end at `edges` (shares of the depth from 0 to 1) on the strips of one panel, seen from far away in the
-/// direction `view` (x, z).
+/// Points of the rows that end at `edges` (shares of the depth from 0 to 1) on the strips of one panel, seen
+/// from far away in the direction `view` (x, z).
 ///
 /// The panel as clicked is the flat one from the first strip's near end to the last one's far end.
 pub fn samples(strips: &[Strip], edges: &[f64], view: Vector2<f64>) -> Vec<Sample> {

@@ -1,4 +1,5 @@
-//! How much of its view a point of a sheet that is bent across the crease only has filled with a strip that runs along it.
+//! How much of its view a point of a sheet that is bent across the crease only has filled with a strip that
+//! runs along it.
 
 use std::f64::consts::TAU;
 
@@ -40,12 +41,12 @@ impl SeenStrip {
         Some(Self { near, far, normal })
     }
 
-    /// Share of the light leaving the point that lands on the strip between the point's place along the crease and `y` from it, for
-    /// `y` > 0.
+    /// Share of the light leaving the point that lands on the strip between the point's place along the
+    /// crease and `y` from it, for `y` > 0.
     ///
     /// # Source
-    /// Lambert's formula for polygons (*Photometria*, 1760) for a rectangle with two sides along the crease: the side in the plane of the
-    /// point's place along the crease gives nothing.
+    /// Lambert's formula for polygons (*Photometria*, 1760) for a rectangle with two sides along the crease:
+    /// the side in the plane of the point's place along the crease gives nothing.
     pub fn up_to(&self, y: f64) -> f64 {
         let (a, b, n) = (self.near, self.far, self.normal);
         let along = |end: Vector2<f64>| {

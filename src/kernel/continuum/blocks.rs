@@ -10,7 +10,8 @@ use super::rows::{RowWeights, Rows};
 use super::space::Space;
 use crate::geometry::Fold;
 
-/// What functions on one panel give to functions on the other, from the `table` of their strips along the crease.
+/// What functions on one panel give to functions on the other, from the `table` of their strips along the
+/// crease.
 pub(super) struct Blocks<'a> {
     spaces: [&'a Space; 2],
     rows: Rows<'a>,
@@ -43,7 +44,8 @@ impl<'a> Blocks<'a> {
         matrix
     }
 
-    /// Those that are not below `negligible`; of panels that are `alike`, the upper triangle with half the diagonal.
+    /// Those that are not below `negligible`; of panels that are `alike`, the upper triangle with half the
+    /// diagonal.
     pub(super) fn exchange(&self, alike: bool, negligible: f64) -> Exchange {
         let [of, with] = self.spaces;
         let first_column = if alike { 0 } else { of.len() };

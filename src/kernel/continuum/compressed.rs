@@ -1,8 +1,9 @@
 //! A block of a matrix without its small entries.
 //!
-//! Cells that are far from each other, measured by their size, exchange little but their lowest degrees: of the entries of a 45° fold that
-//! is solved to 1e-8, four of five are below a thousandth of that. Of those that are left, most are so small that single precision holds
-//! them: a product takes as long as it takes to read them.
+//! Cells that are far from each other, measured by their size, exchange little but their lowest degrees: of
+//! the entries of a 45° fold that is solved to 1e-8, four of five are below a thousandth of that. Of those
+//! that are left, most are so small that single precision holds them: a product takes as long as it takes to
+//! read them.
 
 use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
@@ -41,14 +42,16 @@ struct Pieces<T> {
 }
 
 impl Compressed {
-    /// Those entries of `block` that are not below `negligible`, to which all are rounded; `place`: row and column of its first entry.
+    /// Those entries of `block` that are not below `negligible`, to which all are rounded; `place`: row and
+    /// column of its first entry.
     pub(super) fn new(block: &DMatrix<f64>, place: [usize; 2], negligible: f64) -> Self {
         let (mut exact, mut rounded) = (Pieces::new(place[1]), Pieces::new(place[1]));
         for column in block.column_iter() {
             for (piece, row) in column.as_slice().chunks(PIECE).zip((place[0]..).step_by(PIECE)) {
                 let mut values = [0.0; PIECE];
                 values[..piece.len()].copy_from_slice(piece);
-                // All are looked at, which takes less time than to stop at the first; what is not a number is kept, so that it shows.
+                // All are looked at, which takes less time than to stop at the first; what is not a number is
+                // kept, so that it shows.
                 let below = |limit: f64| values.iter().fold(true, |all, entry| all & (entry.abs() < limit));
                 if !below(negligible) {
                     match below(negligible / SINGLE_ROUNDING) {

@@ -6,13 +6,15 @@ use super::nodes::Nodes;
 use super::strips::polynomials;
 use crate::kernel::quadrature::{Lagrange, Rule, bernstein_rho};
 
-/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0: it leaves a ρ of 2.09.
+/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0: it leaves a ρ of
+/// 2.09.
 const PEAK_GRADING: f64 = 8.0;
 
 /// Integrals `∫∫ P_b(x) P_d(y) q³/(q² + (x − y)²)² dx dy` over pairs of strips, for all distances q.
 ///
-/// Between the shifts at which the ends of two strips meet, their overlap is a polynomial of the shift: its values at a few shifts tell
-/// all of it, and the kernel's peak, which takes many more, is integrated against the polynomials through those few.
+/// Between the shifts at which the ends of two strips meet, their overlap is a polynomial of the shift: its
+/// values at a few shifts tell all of it, and the kernel's peak, which takes many more, is integrated against
+/// the polynomials through those few.
 pub(super) struct Correlation<'a> {
     orders: [usize; 2],
     nodes: &'a Nodes,

@@ -1,4 +1,5 @@
-//! Products with the matrix of the exchange: reading it is what takes time, so that half of a symmetric one is left out, and what is small.
+//! Products with the matrix of the exchange: reading it is what takes time, so that half of a symmetric one
+//! is left out, and what is small.
 
 use rayon::prelude::*;
 
@@ -6,11 +7,11 @@ use super::compressed::{Compressed, PIECE, Product};
 
 /// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1.
 pub(super) struct Exchange {
-    /// Numbers of functions of the panels; none where they are alike: the upper triangle with half the diagonal is then all there is, which
-    /// with its transpose is the matrix.
+    /// Numbers of functions of the panels; none where they are alike: the upper triangle with half the
+    /// diagonal is then all there is, which with its transpose is the matrix.
     pub(super) unlike: Option<[usize; 2]>,
-    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of threads. Where panels are
-    /// unlike, their columns are counted on from the last row.
+    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of
+    /// threads. Where panels are unlike, their columns are counted on from the last row.
     pub(super) strips: Vec<Vec<Compressed>>,
 }
 

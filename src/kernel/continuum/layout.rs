@@ -29,7 +29,8 @@ impl Layout {
     pub(super) fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let unit = fold.depths()[0];
         let (width, depths) = (fold.width() / unit, fold.depths().map(|depth| depth / unit));
-        // In a narrow fold the panels face each other closely: light then varies over their distance instead of their depth.
+        // In a narrow fold the panels face each other closely: light then varies over their distance instead
+        // of their depth.
         let narrow = EDGE * fold.angle_rad().min(1.0);
         let across = |panel: usize| {
             let (own, other) = (depths[panel], depths[1 - panel]);
@@ -43,15 +44,16 @@ impl Layout {
             }
             Strips::new(&edges, resolution.order)
         };
-        // Light varies over the panels' distance at the crease's ends too, but towards its middle hardly at all: the last strip
-        // may be as wide as it likes.
+        // Light varies over the panels' distance at the crease's ends too, but towards its middle hardly at
+        // all: the last strip may be as wide as it likes.
         let end = first_strip(resolution.end_strips) * narrow * width.min(depths[0]).min(depths[1]);
         let along = Strips::new(&graded(0.0, 0.5 * width, end, width, GROWTH), resolution.order);
         let panels = [0, 1].map(|panel| Space { across: across(panel), along: along.clone() });
         Self { width, panels, depths }
     }
 
-    /// The functions that are 1 on one facet of `panel`, in the first half of the crease, and 0 on all others.
+    /// The functions that are 1 on one facet of `panel`, in the first half of the crease, and 0 on all
+    /// others.
     pub(super) fn facets(&self, fold: &Fold, panel: usize) -> Space {
         let (unit, cols) = (fold.depths()[0], fold.facets().cols);
         let rows: Vec<_> = fold.row_edges()[panel].iter().map(|edge| edge / unit).collect();

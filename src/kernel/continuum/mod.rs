@@ -1,18 +1,20 @@
 //! The bounces between two undivided panels: eqs. (1) to (4) without facets.
 //!
-//! One flat patch per facet is 4 % off at the crease of a bright 45° fold, however exact its form factors. Here the
-//! radiosity is a function on the panel instead, a polynomial of both directions on each of a few cells (Galerkin's method,
-//! `space`). Cells narrow geometrically towards the crease and its ends, where light goes as a power of the distance, and in narrow folds
-//! towards the outer edges, where it escapes; so a few more polynomials make the error ten times smaller, wherever that is needed.
+//! One flat patch per facet is 4 % off at the crease of a bright 45° fold, however exact its form factors.
+//! Here the radiosity is a function on the panel instead, a polynomial of both directions on each of a few
+//! cells (Galerkin's method, `space`). Cells narrow geometrically towards the crease and its ends, where
+//! light goes as a power of the distance, and in narrow folds towards the outer edges, where it escapes; so a
+//! few more polynomials make the error ten times smaller, wherever that is needed.
 //!
-//! Facets are read one bounce later: what falls on one is the light that the radiosity throws on it, over its whole area, in which most
-//! of the radiosity's error averages out. A second set of functions takes that up (`reading`).
+//! Facets are read one bounce later: what falls on one is the light that the radiosity throws on it, over its
+//! whole area, in which most of the radiosity's error averages out. A second set of functions takes that up
+//! (`reading`).
 //!
-//! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only the shift
-//! `z = x − y` matters (`correlation`), and the result is a function of the distance q across it alone (`table`); the integrals
-//! across become weights of that function's values (`rows`), and all entries of two rows are a few matrix products (`blocks`). Of these,
-//! those that matter are kept (`compressed`) and multiplied (`exchange`).
-//! Lengths are in units of panel 0's depth.
+//! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only
+//! the shift `z = x − y` matters (`correlation`), and the result is a function of the distance q across it
+//! alone (`table`); the integrals across become weights of that function's values (`rows`), and all entries
+//! of two rows are a few matrix products (`blocks`). Of these, those that matter are kept (`compressed`) and
+//! multiplied (`exchange`). Lengths are in units of panel 0's depth.
 
 mod blocks;
 mod compressed;
@@ -45,7 +47,8 @@ pub struct Continuum {
     uniform: [Vec<f64>; 2],
     facets: FacetGrid,
     reading: Reading,
-    /// For each panel, the one only where they are alike: function that takes up its light by function of the other panel.
+    /// For each panel, the one only where they are alike: function that takes up its light by function of the
+    /// other panel.
     views: Vec<DMatrix<f64>>,
 }
 
@@ -53,8 +56,9 @@ impl Continuum {
     /// Discretises the exchange between the panels of `fold`.
     ///
     /// # Source
-    /// Deeb et al., eq. (2), as the kernel of the integral equation that eqs. (1) to (4) iterate. Facets are read as Sloan, *Improvement
-    /// by iteration for compact operator equations* (1976), improves Galerkin's method.
+    /// Deeb et al., eq. (2), as the kernel of the integral equation that eqs. (1) to (4) iterate. Facets are
+    /// read as Sloan, *Improvement by iteration for compact operator equations* (1976), improves Galerkin's
+    /// method.
     #[must_use]
     pub fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let layout = Layout::new(fold, resolution);
@@ -143,7 +147,8 @@ mod tests {
         }
     }
 
-    /// Facets that are read from polynomials, as there are many, are those that take up the light themselves, to half of what the resolution aims at.
+    /// Facets that are read from polynomials, as there are many, are those that take up the light themselves,
+    /// to half of what the resolution aims at.
     #[test]
     fn many_facets_are_parts_of_few() {
         for (angle_deg, depth1) in [(20.0, 1.0), (45.0, 0.6), (120.0, 1.0)] {

@@ -41,7 +41,8 @@ impl Nodes {
         self.rule.nodes.len()
     }
 
-    /// Gauss points that integrate a function whose ellipse of analyticity has this `rho` as well as the nodes interpolate.
+    /// Gauss points that integrate a function whose ellipse of analyticity has this `rho` as well as the
+    /// nodes interpolate.
     pub(super) fn points(&self, rho: f64) -> usize {
         (self.on_panel() as f64 * LN_RHO / (2.0 * rho.ln())).ceil() as usize
     }
@@ -54,8 +55,8 @@ impl Nodes {
         panel(nearest * (1.0 - 1e-9)) * on..(panel(furthest * (1.0 + 1e-9)) + 1) * on
     }
 
-    /// For each distance the first of the nodes between which it lies, and their weights: those of the first of them for all distances,
-    /// then those of the next. Below the nearest, a distance counts as that.
+    /// For each distance the first of the nodes between which it lies, and their weights: those of the first
+    /// of them for all distances, then those of the next. Below the nearest, a distance counts as that.
     pub(super) fn place(&self, distances: &[f64]) -> (Vec<usize>, Vec<f64>) {
         let place = |q: &f64| {
             let along = ((q.ln() - self.start) / PANEL).max(0.0);

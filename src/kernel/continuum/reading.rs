@@ -1,7 +1,8 @@
 //! Which functions on a panel take up what falls on it, and facet means from them.
 //!
-//! A few facets are such functions themselves. Many are more than it takes: polynomials of a few more degrees than those of the radiosity
-//! then take up the light, which is as smooth, and facets are read from them, across the crease and along it by itself.
+//! A few facets are such functions themselves. Many are more than it takes: polynomials of a few more degrees
+//! than those of the radiosity then take up the light, which is as smooth, and facets are read from them,
+//! across the crease and along it by itself.
 
 use nalgebra::{DMatrix, DVectorView};
 
@@ -10,10 +11,12 @@ use super::resolution::Resolution;
 use super::space::Space;
 use crate::geometry::Fold;
 
-/// Degrees beyond those of the radiosity: what the polynomials leave out is then far less than what the radiosity is off by.
+/// Degrees beyond those of the radiosity: what the polynomials leave out is then far less than what the
+/// radiosity is off by.
 const MORE_DEGREES: usize = 4;
 
-/// The functions that take up the light on each panel, and how facets are read from them; facets of the first half of the crease.
+/// The functions that take up the light on each panel, and how facets are read from them; facets of the first
+/// half of the crease.
 pub(super) struct Reading {
     pub(super) spaces: [Space; 2],
     /// None where the functions are the facets.

@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::geometry::Fold;
 
-/// Exchange that is left out, relative to the error that is aimed at and the share of light that a bounce loses at least.
+/// Exchange that is left out, relative to the error that is aimed at and the share of light that a bounce
+/// loses at least.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// How finely the radiosity of a panel is resolved.
@@ -23,7 +24,8 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// The resolution that reaches about `aim`, a relative error of facet means at reflectance 1; found by trying.
+    /// The resolution that reaches about `aim`, a relative error of facet means at reflectance 1; found by
+    /// trying.
     #[must_use]
     pub fn reaching(aim: f64, fold: &Fold) -> Self {
         // Less averages out on facets that are smaller, at the crease, than those of ten rows.
@@ -39,7 +41,8 @@ impl Resolution {
             end_strips: count(2.42, 0.85),
             order: count(6.7 + 1.3 * narrow + 0.35 * bounces, 1.6 + 0.45 * narrow),
             nodes: count(5.6 + narrow + 0.05 * bounces, 1.6).max(4),
-            // What is left out many times must not add up to what the solution may be off by, in narrow folds over many bounces.
+            // What is left out many times must not add up to what the solution may be off by, in narrow folds
+            // over many bounces.
             negligible: NEGLIGIBLE * aim * (0.5 * fold.angle_rad()).sin(),
         }
     }

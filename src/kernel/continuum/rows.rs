@@ -1,7 +1,8 @@
 //! Across the crease: pairs of strips, one on each panel.
 //!
 //! For a point at distance s the other panel's points are `t = s·(cosθ + sinθ·sinh w)`, at the distance
-//! `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however narrow the fold.
+//! `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however narrow
+//! the fold.
 
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -57,7 +58,8 @@ impl<'a> Rows<'a> {
         Rule::kept_legendre(self.orders[panel].div_ceil(2) + self.nodes.points(rho))
     }
 
-    /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f at the nodes.
+    /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f
+    /// at the nodes.
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2]) -> RowWeights {
         let [order_a, order_b] = self.orders;
         let (mut points, mut of_points) = (Vec::new(), Vec::new());
@@ -142,11 +144,12 @@ impl<'a> Rows<'a> {
         [near.into_iter().fold(f64::INFINITY, f64::min), far.into_iter().fold(0.0, f64::max)]
     }
 
-    /// Cuts strip `a` where the inner integral over `b` varies, near the ends of `b` and the crease; the ρ that its singularities leave
-    /// each of the pieces.
+    /// Cuts strip `a` where the inner integral over `b` varies, near the ends of `b` and the crease; the ρ
+    /// that its singularities leave each of the pieces.
     fn pieces(&self, a: [f64; 2], b: [f64; 2]) -> Vec<([f64; 2], f64)> {
         let mut pieces = vec![a];
-        // Towards the crease integrals go as s·ln s, which no polynomial follows: halves of halves make the rest harmless.
+        // Towards the crease integrals go as s·ln s, which no polynomial follows: halves of halves make the
+        // rest harmless.
         for _ in 0..if a[0] > 0.0 { 0 } else { HALVINGS } {
             let [low, high] = pieces[0];
             pieces.splice(0..1, [[low, 0.5 * high], [0.5 * high, high]]);

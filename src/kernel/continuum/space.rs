@@ -1,12 +1,15 @@
 //! Functions on a panel: polynomials of both directions on every cell of a grid of strips.
 //!
-//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. Products of two high degrees, half of all, add least to smooth light.
+//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. Products of two high degrees, half of
+//! all, add least to smooth light.
 
 use super::strips::Strips;
 
-/// Strips across a panel and along the first half of its crease, with as many polynomials in one direction as in the other.
+/// Strips across a panel and along the first half of its crease, with as many polynomials in one direction as
+/// in the other.
 ///
-/// Functions are ordered by strip across, degree across, degree along and strip along, the last being the fastest.
+/// Functions are ordered by strip across, degree across, degree along and strip along, the last being the
+/// fastest.
 #[derive(Clone, Debug)]
 pub(super) struct Space {
     pub(super) across: Strips,

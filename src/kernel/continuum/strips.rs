@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 use crate::kernel::quadrature::{Rule, legendre_series};
 use crate::solve::dot;
 
-/// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across them.
+/// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across
+/// them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strips {
     pub(super) ends: Vec<[f64; 2]>,
@@ -23,7 +24,8 @@ impl Strips {
         self.ends.len() * self.order
     }
 
-    /// Means of the functions over intervals: interval by function, in the order of degree and strip, the last being the fastest.
+    /// Means of the functions over intervals: interval by function, in the order of degree and strip, the
+    /// last being the fastest.
     pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
         let strips = self.ends.len();
         let mut means = DMatrix::zeros(intervals.len(), self.order * strips);
@@ -56,8 +58,8 @@ pub(super) fn polynomials(strip: [f64; 2], points: &[f64], order: usize) -> DMat
     values
 }
 
-/// Edges of strips from `low` to `high`, the first and the last at most as wide as asked for, and each at most `growth` times
-/// as wide as all before it from its end.
+/// Edges of strips from `low` to `high`, the first and the last at most as wide as asked for, and each at
+/// most `growth` times as wide as all before it from its end.
 pub(super) fn graded(low: f64, high: f64, first: f64, last: f64, growth: f64) -> Vec<f64> {
     let middle = match (first < high - low, last < high - low) {
         (_, false) => high,

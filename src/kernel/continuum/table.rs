@@ -1,8 +1,8 @@
 //! The integrals of all pairs of strips along the crease, tabulated over the distance across it.
 //!
 //! Every pair of rows has a distance between the same two bounds. In ln q the integrals are analytic up to
-//! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes per e-fold give them all.
-//! Times q³ they tend to a constant where q is small.
+//! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes per e-fold
+//! give them all. Times q³ they tend to a constant where q is small.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -11,9 +11,10 @@ use super::correlation::Correlation;
 use super::nodes::Nodes;
 use super::strips::Strips;
 
-/// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included: function of `of` and of
-/// `with` by node, times q³. The functions are in the order of [`super::space::Space`]: strip of `of`, degree on `of`, strip of `with`,
-/// degree on `with`, the first being the fastest.
+/// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included:
+/// function of `of` and of `with` by node, times q³. The functions are in the order of
+/// [`super::space::Space`]: strip of `of`, degree on `of`, strip of `with`, degree on `with`, the first being
+/// the fastest.
 pub(super) fn tabulate(of: &Strips, with: &Strips, width: f64, nodes: &Nodes) -> DMatrix<f64> {
     let distances = nodes.distances();
     let correlation = Correlation::new([of.order, with.order], nodes, &distances);

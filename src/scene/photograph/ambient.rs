@@ -13,15 +13,17 @@ use crate::kernel::environment::{Environment, Surroundings as Part, facet_radian
 
 /// Radii of the crease for which light is computed, in panel depths.
 pub(super) const CREASE_RADII: [f64; 2] = [0.012, 0.03];
-/// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle at most, and bow.
+/// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle
+/// at most, and bow.
 const ANGLE_DEG: f64 = 3.0;
 const ANGLE_MOST: f64 = 0.15;
 const BOW_DEG: f64 = 3.0;
 
-/// Skies and the ground on a fold that is turned to `sun`, the `zenith` being where somebody stated it, or where people hold their cameras.
+/// Skies and the ground on a fold that is turned to `sun`, the `zenith` being where somebody stated it, or
+/// where people hold their cameras.
 ///
-/// `even` is what facets have in light that is alike in all directions and gives an open plane 1, facet by node: what they have in other light is
-/// coarse, and off in proportion.
+/// `even` is what facets have in light that is alike in all directions and gives an open plane 1, facet by
+/// node: what they have in other light is coarse, and off in proportion.
 pub fn of(
     fold: &Fold,
     (pose, sun, zenith): (&Pose, Vector3<f64>, Option<Vector3<f64>>),

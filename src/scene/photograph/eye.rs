@@ -53,7 +53,8 @@ pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
     Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
 }
 
-/// Errors of curves that are predicted: those of cameras whose sensitivities are known; none in builds that do not know them.
+/// Errors of curves that are predicted: those of cameras whose sensitivities are known; none in builds that
+/// do not know them.
 fn of_predicted(
     sensitivities: &[Vec<f64>],
     grid: &WavelengthGrid,
@@ -65,7 +66,8 @@ fn of_predicted(
     Ok(errors.map(|(channel, error)| (channel, peak * error.component_mul(&widths))).collect())
 }
 
-/// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow filter, and is right.
+/// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow
+/// filter, and is right.
 fn errors(
     sensitivities: &[Vec<f64>],
     wavelengths_nm: &[f64],

@@ -8,7 +8,8 @@ use crate::image::{Framing, Homography, Point, camera_pose};
 
 /// A camera before a fold, as the corners of the panels tell it.
 pub struct Pose {
-    /// Place of the camera in the fold's coordinates (across, along the crease, out of the opening), in the fold's unit.
+    /// Place of the camera in the fold's coordinates (across, along the crease, out of the opening), in the
+    /// fold's unit.
     pub eye: Vector3<f64>,
     /// The direction of space, square to the view, that goes up in the picture.
     up: Vector3<f64>,
@@ -37,13 +38,15 @@ impl Pose {
         }))
     }
 
-    /// Square of the distance from the picture's centre, that of a corner being 1, of a place on a panel: shares of its width and depth.
+    /// Square of the distance from the picture's centre, that of a corner being 1, of a place on a panel:
+    /// shares of its width and depth.
     pub fn off_centre(&self, panel: usize, along: f64, depth: f64) -> f64 {
         let Point { x, y } = self.outlines[panel].to_image(along, depth);
         ((x - self.centre.x).powi(2) + (y - self.centre.y).powi(2)) / self.half_diagonal.powi(2)
     }
 
-    /// The zenith, if the sun stands at this sine of its height, on the side of the one that was stated, or of what is up for the camera.
+    /// The zenith, if the sun stands at this sine of its height, on the side of the one that was stated, or
+    /// of what is up for the camera.
     pub fn up(&self, sun: Vector3<f64>, sun_height: f64, stated: Option<Vector3<f64>>) -> Vector3<f64> {
         let up = stated.unwrap_or(self.up);
         let sideways = (up - up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);

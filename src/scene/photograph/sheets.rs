@@ -12,8 +12,9 @@ use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
 use crate::transport::departures;
 
-/// Each of the measured sheets described by the others from what its facets show: by how much its 45:0 reflectance is off in all bands
-/// (6.3 to 6.7 %, left out in turn on two folds), and, of the six that were photographed, how far each band is off beside that.
+/// Each of the measured sheets described by the others from what its facets show: by how much its 45:0
+/// reflectance is off in all bands (6.3 to 6.7 %, left out in turn on two folds), and, of the six that were
+/// photographed, how far each band is off beside that.
 const INSTRUMENT: Instrument = Instrument { shared: 0.065, own: 0.06 };
 
 /// The sheets that are known, seen on this fold, but for a measured one of that name.

@@ -1,5 +1,5 @@
-//! Matrices of a bispectrometer Labsphere BFC-450, as its program exports them: lines on the sample, then a table in tabs that begins with `r:c:`,
-//! emission in rows, excitation in columns, nm.
+//! Matrices of a bispectrometer Labsphere BFC-450, as its program exports them: lines on the sample, then a
+//! table in tabs that begins with `r:c:`, emission in rows, excitation in columns, nm.
 
 use super::csv;
 use super::place::Place;

@@ -1,7 +1,8 @@
 //! CGATS.17 tables with spectra: one row per sample, one column per wavelength.
 //!
-//! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and what i1Profiler (`SPECTRAL_NM400`), ColorPort and
-//! ProfileMaker (`nm400`) export. Other columns are passed over, and tables without spectra, of which a file may have several. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
+//! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and what i1Profiler
+//! (`SPECTRAL_NM400`), ColorPort and ProfileMaker (`nm400`) export. Other columns are passed over, and tables
+//! without spectra, of which a file may have several. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -67,7 +68,8 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
 /// A line, and where it is.
 type Line<'a> = (&'a str, Place<'a>);
 
-/// The rows up to `END_DATA`, and where that is: lines as they stand, whose words take many times their memory.
+/// The rows up to `END_DATA`, and where that is: lines as they stand, whose words take many times their
+/// memory.
 fn rows<'a>(
     lines: &mut impl Iterator<Item = Line<'a>>,
     header: &Header<'a>,
@@ -196,7 +198,8 @@ fn wavelength_nm(field: &str) -> Option<f64> {
     digits.parse().ok().filter(|nm| (100.0..=3000.0).contains(nm))
 }
 
-/// Wavelengths by `SPECTRAL_BANDS`, `SPECTRAL_START_NM` and `SPECTRAL_END_NM`, which have the digits that names lack.
+/// Wavelengths by `SPECTRAL_BANDS`, `SPECTRAL_START_NM` and `SPECTRAL_END_NM`, which have the digits that
+/// names lack.
 fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
     header.agrees("SPECTRAL_BANDS", named_nm.len(), "columns of spectra")?;
     let ends = (header.number("SPECTRAL_START_NM")?, header.number("SPECTRAL_END_NM")?);

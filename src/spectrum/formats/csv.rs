@@ -1,8 +1,9 @@
 //! Tables of spectra in CSV: a header row, the wavelength in nm first, then one column per spectrum.
 //!
-//! Any grid will do, in nm, micrometres or ångström; cells are separated by commas, semicolons or tabs, or as a first line `sep=;` says. A
-//! column `red_sd` beside `red` is its standard deviation and left out, as are row numbers before the wavelengths. The first column needs no
-//! name, and a row of units may follow the names. Quoted cells and blank lines at the end are accepted.
+//! Any grid will do, in nm, micrometres or ångström; cells are separated by commas, semicolons or tabs, or as
+//! a first line `sep=;` says. A column `red_sd` beside `red` is its standard deviation and left out, as are
+//! row numbers before the wavelengths. The first column needs no name, and a row of units may follow the
+//! names. Quoted cells and blank lines at the end are accepted.
 
 use std::collections::HashSet;
 
@@ -97,8 +98,8 @@ fn declared_separator(text: &str) -> Option<(u8, &str)> {
     }
 }
 
-/// The first separator that divides the header and the row below it into equally many cells, two or more; if there is none, the
-/// first that divides the header.
+/// The first separator that divides the header and the row below it into equally many cells, two or more; if
+/// there is none, the first that divides the header.
 fn separator(text: &str) -> u8 {
     let divides = |separator: &u8| {
         let mut counts = records(text, *separator).map(|record| record.map_or(0, |record| record.len()));
@@ -144,7 +145,8 @@ fn is_deviation(name: &str, known: &HashSet<&str>) -> bool {
     deviation_of(name).is_some_and(|of| known.contains(of) || of.is_empty() && known.len() == 2)
 }
 
-/// The name of that whose standard deviation a column of this name may have: `red` of `red_sd`, `Red std`, `red (uncertainty)`.
+/// The name of that whose standard deviation a column of this name may have: `red` of `red_sd`, `Red std`,
+/// `red (uncertainty)`.
 pub(super) fn deviation_of(name: &str) -> Option<&str> {
     let name = name.trim_end_matches([')', ']']);
     let is_end = |letter: char| !letter.is_alphanumeric();
@@ -237,7 +239,8 @@ fn read_row(
     Ok(())
 }
 
-/// What a table writes before decimals: a point or a comma, but not both, since one of them may separate thousands.
+/// What a table writes before decimals: a point or a comma, but not both, since one of them may separate
+/// thousands.
 struct DecimalMarks {
     /// Not where commas separate cells: in quotes they separate thousands.
     comma_allowed: bool,

@@ -1,6 +1,7 @@
 //! Files of spectra: one file per format, chosen here by ending and content.
 //!
-//! Readers give a [`Table`]: spectra in nm, with what had to be converted. JSON is the stream's affair: its reader is handed in.
+//! Readers give a [`Table`]: spectra in nm, with what had to be converted. JSON is the stream's affair: its
+//! reader is handed in.
 
 mod bfc;
 mod cgats;

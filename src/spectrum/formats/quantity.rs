@@ -1,4 +1,5 @@
-//! What files say their spectra are: `SpectralQuantity` of IES TM-27, `units` of rawtoaces, `MEAS_TYPE` of Argyll CMS.
+//! What files say their spectra are: `SpectralQuantity` of IES TM-27, `units` of rawtoaces, `MEAS_TYPE` of
+//! Argyll CMS.
 
 use crate::spectrum::names::What;
 

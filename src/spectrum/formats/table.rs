@@ -80,8 +80,8 @@ impl Table {
         }
     }
 
-    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the file does not say it are in
-    /// percent, if that is known.
+    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the
+    /// file does not say it are in percent, if that is known.
     pub(in crate::spectrum) fn in_fractions(mut self, path: &str, percent: Option<bool>) -> Result<Self> {
         let scales: Vec<_> = self.stated.iter().map(|stated| stated.scale).collect();
         let percent = units::percent(path, &self.spectra, &scales, percent)?;

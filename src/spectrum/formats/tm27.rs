@@ -1,8 +1,8 @@
 //! IES TM-27: one spectrum as XML (`.spdx`).
 //!
-//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". It has one spectrum and the header
-//! of one product; files of several, which it does not provide for, are read all the same. Entities and document types are refused, so
-//! that no small file becomes a large one.
+//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". It has
+//! one spectrum and the header of one product; files of several, which it does not provide for, are read all
+//! the same. Entities and document types are refused, so that no small file becomes a large one.
 
 use std::fmt::Write;
 
@@ -18,7 +18,8 @@ use crate::spectrum::Spectrum;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
-/// Elements within elements: the standard has three, and a parser that calls itself must not run out of stack.
+/// Elements within elements: the standard has three, and a parser that calls itself must not run out of
+/// stack.
 const MAX_DEPTH: usize = 64;
 /// Attributes of an element: the standard has two, and the parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 100;
@@ -80,7 +81,8 @@ fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = 
     node.children().filter(move |child| child.tag_name().name() == name)
 }
 
-/// The line, if any, on which elements lie within too many others, or have too many attributes; and which of them.
+/// The line, if any, on which elements lie within too many others, or have too many attributes; and which of
+/// them.
 fn overgrown(text: &str) -> Option<(usize, String)> {
     let mut depth = 0_usize;
     let opens = |tag: &str| {

@@ -14,7 +14,8 @@ enum Unit {
     Angstroms,
 }
 
-/// Wavelengths as a file has them, the first in line `first_line`, in nm; and a note if they were in another unit.
+/// Wavelengths as a file has them, the first in line `first_line`, in nm; and a note if they were in another
+/// unit.
 ///
 /// `header` may name the unit; if not, it is known by the size of the numbers.
 ///
@@ -108,7 +109,8 @@ pub(super) fn is_of_wavelengths(column: &str) -> bool {
     unit(column).is_some() || words(column).any(|word| NAMES.contains(&word.as_str()))
 }
 
-/// Whether the name of a column says that it holds what else spectra are plotted over: frequency, photon energy, wavenumber.
+/// Whether the name of a column says that it holds what else spectra are plotted over: frequency, photon
+/// energy, wavenumber.
 fn is_other_axis(column: &str) -> bool {
     const NAMES: [&str; 8] = ["thz", "ghz", "hz", "ev", "frequency", "energy", "wavenumber", "wavenumbers"];
     let per_cm = column.to_lowercase().replace([' ', '^'], "");
@@ -128,8 +130,8 @@ pub(super) enum Scale {
     Unclear,
 }
 
-/// What the name of a column says: `R [%]`, `Sample1 %` and `reflectance_percent` are in percent, `50% grey` is a name, and `grey 50%` may
-/// be either.
+/// What the name of a column says: `R [%]`, `Sample1 %` and `reflectance_percent` are in percent, `50% grey`
+/// is a name, and `grey 50%` may be either.
 pub(super) fn scale(column: &str) -> Scale {
     if words(column).any(|word| word == "percent" || word == "pct") {
         return Scale::Percent;
@@ -151,8 +153,8 @@ const FRACTION_MAX: f64 = 2.0;
 /// Largest number that can be a reflectance in percent, fluorescence included.
 const PERCENT_MAX: f64 = 200.0;
 
-/// Which of the reflectances of a file are in percent: what the file says of each, else what is `stated` for all, else all of them if one
-/// has a value above 2.
+/// Which of the reflectances of a file are in percent: what the file says of each, else what is `stated` for
+/// all, else all of them if one has a value above 2.
 ///
 /// # Errors
 /// [`crate::Error::Spectrum`] if that leaves it open.

@@ -24,12 +24,14 @@ pub struct Measured {
     pub reflectance_sd: Option<Vec<f64>>,
 }
 
-/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, one column per sample and beside it that of its standard
-/// deviation (`red`, `red_sd`), before names that a spreadsheet would take for a formula a `'`; CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
+/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, one column per sample and
+/// beside it that of its standard deviation (`red`, `red_sd`), before names that a spreadsheet would take for
+/// a formula a `'`; CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
 ///
 /// # Errors
-/// [`Error::Usage`] if the ending is another or `.spdx` should hold several; [`Error::Spectrum`] if there is none, or if wavelengths differ
-/// or are uneven in a format that has one step for all; [`Error::File`] if it cannot be written.
+/// [`Error::Usage`] if the ending is another or `.spdx` should hold several; [`Error::Spectrum`] if there is
+/// none, or if wavelengths differ or are uneven in a format that has one step for all; [`Error::File`] if it
+/// cannot be written.
 ///
 /// # Example
 /// ```
@@ -101,7 +103,8 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample or its standard deviation has, with control characters escaped and without those `unfit` for the format.
+/// Names that no other sample or its standard deviation has, with control characters escaped and without
+/// those `unfit` for the format.
 fn names(samples: &[Measured], unfit: &str) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut unique = |sample: &Measured| {

@@ -1,10 +1,12 @@
-//! Which facets may stand between two others: cheap tests that never miss one, so that most pairs need no look for shadows.
+//! Which facets may stand between two others: cheap tests that never miss one, so that most pairs need no
+//! look for shadows.
 
 use crate::geometry::Vec3;
 use crate::surfaces::merged::merged;
 use crate::surfaces::polygon::{Plane, Polygon, edges};
 
-/// Distances below this, relative to the surface's size, count as zero: a facet touching the line of sight hides nothing.
+/// Distances below this, relative to the surface's size, count as zero: a facet touching the line of sight
+/// hides nothing.
 pub const TOUCHING: f64 = 1e-9;
 
 /// A box along the axes.
@@ -68,9 +70,11 @@ pub struct Caster {
 }
 
 impl Caster {
-    /// Whether all between the corners `a` is hidden from all between the corners `b`, or nothing is; none if neither is certain.
+    /// Whether all between the corners `a` is hidden from all between the corners `b`, or nothing is; none if
+    /// neither is certain.
     ///
-    /// Lines from a hull on one side of a plane to one on the other cross it in the hull of the crossings of lines between corners.
+    /// Lines from a hull on one side of a plane to one on the other cross it in the hull of the crossings of
+    /// lines between corners.
     fn hides(&self, a: &[Vec3], b: &[Vec3], margin: f64) -> Option<bool> {
         let heights = |corners: &[Vec3]| {
             let heights = corners.iter().map(|corner| self.plane.height(corner));
@@ -143,8 +147,8 @@ impl Casters {
         &self.all[number].plane
     }
 
-    /// Those among `candidates` that may stand between things in two boxes: which reach into the box round both, and have not both
-    /// on the same side of their plane.
+    /// Those among `candidates` that may stand between things in two boxes: which reach into the box round
+    /// both, and have not both on the same side of their plane.
     #[must_use]
     pub fn between_boxes(&self, a: &Bounds, b: &Bounds, candidates: &[usize]) -> Vec<usize> {
         let both = a.with(b);
@@ -171,8 +175,8 @@ impl Casters {
         if parts.is_empty() { Between::Nothing } else { Between::Some(parts) }
     }
 
-    /// Those of `candidates` that may hide some of all between the corners `a` from some of all between the corners `b`; none if one
-    /// hides all from all.
+    /// Those of `candidates` that may hide some of all between the corners `a` from some of all between the
+    /// corners `b`; none if one hides all from all.
     #[must_use]
     pub fn between_hulls(&self, a: &[Vec3], b: &[Vec3], candidates: &[usize]) -> Option<Vec<usize>> {
         let mut may = Vec::new();

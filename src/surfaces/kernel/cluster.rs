@@ -17,10 +17,11 @@ const EVEN: f64 = 0.9;
 pub(super) struct Cluster {
     pub(super) patches: Range<usize>,
     pub(super) bounds: Bounds,
-    /// The box round all: of an even cluster along the axes of the largest one that it is in, so that what is a polynomial along
-    /// the axes of one is so in all of its parts.
+    /// The box round all: of an even cluster along the axes of the largest one that it is in, so that what is
+    /// a polynomial along the axes of one is so in all of its parts.
     pub(super) cuboid: Cuboid,
-    /// Whether the patches lie in one plane, or, with no flat part that would be better off alone, are turned alike.
+    /// Whether the patches lie in one plane, or, with no flat part that would be better off alone, are turned
+    /// alike.
     pub(super) is_even: bool,
     /// Planes of the patches, neighbours in one plane once.
     planes: Vec<Plane>,
@@ -85,7 +86,8 @@ impl Tree {
     /// The tree of some patches; lengths below `margin` count as zero.
     pub(super) fn new(sites: &[Site], margin: f64) -> Self {
         let size = Bounds::of(sites.iter().flat_map(|site| site.polygon.corners())).size();
-        // A quarter turn counts as much as the whole surface is long: panels come apart before they are divided.
+        // A quarter turn counts as much as the whole surface is long: panels come apart before they are
+        // divided.
         let key = |site: &Site| {
             let (place, turn) = (site.centre, size * site.plane.normal);
             [place.x, place.y, place.z, turn.x, turn.y, turn.z]

@@ -1,8 +1,9 @@
 //! Form factors of two polygons that see each other wholly, as integrals round their edges.
 //!
-//! Stokes' theorem turns the two area integrals of eq. (2) into `A·F = (1/2π) ∮∮ ln r dl·dl'` (Sparrow 1963). Round one
-//! polygon the integral has a closed form, and where two edges are parallel so has the other. What is left is a Gauss rule
-//! of the order that the nearest singularity asks for, on intervals that shrink towards points where edges meet.
+//! Stokes' theorem turns the two area integrals of eq. (2) into `A·F = (1/2π) ∮∮ ln r dl·dl'` (Sparrow 1963).
+//! Round one polygon the integral has a closed form, and where two edges are parallel so has the other. What
+//! is left is a Gauss rule of the order that the nearest singularity asks for, on intervals that shrink
+//! towards points where edges meet.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -22,7 +23,8 @@ const PARALLEL: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
-/// Area times form factor between `a` and `b`, each wholly in front of the other, in the unit of length squared.
+/// Area times form factor between `a` and `b`, each wholly in front of the other, in the unit of length
+/// squared.
 ///
 /// # Example
 /// ```
@@ -37,7 +39,8 @@ static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::g
 /// ```
 #[must_use]
 pub fn exchange(a: &Polygon, b: &Polygon) -> f64 {
-    // ln r is known but for a constant, which a closed contour does not feel: in units of the distance it is small.
+    // ln r is known but for a constant, which a closed contour does not feel: in units of the distance it is
+    // small.
     let unit = (a.corners()[0] - b.corners()[0]).norm().max(a.diameter()).max(b.diameter());
     let edges =
         |polygon: &Polygon| polygon.edges().map(|(from, to)| Edge::new(from, to, unit)).collect::<Vec<_>>();
@@ -130,8 +133,8 @@ impl Edge {
     }
 }
 
-/// Order of the Gauss rule on `[low, high]` for singularities at `±i·im` (Trefethen, *Approximation Theory and Approximation
-/// Practice*, theorem 19.3).
+/// Order of the Gauss rule on `[low, high]` for singularities at `±i·im` (Trefethen, *Approximation Theory
+/// and Approximation Practice*, theorem 19.3).
 fn gauss_order(low: f64, high: f64, im: f64) -> f64 {
     let axis = (low.hypot(im) + high.hypot(im)) / (high - low);
     let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();

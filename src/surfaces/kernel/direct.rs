@@ -22,12 +22,14 @@ pub struct DirectLight {
 }
 
 impl DirectLight {
-    /// What `source` gives to `patches` of `shape`, between which `kernel` says the exchange. A uniform sky gives what the patches do
-    /// not hide from each other, less the backs that they see, which are sampled; other skies are sampled where more than a few flat parts hide them. A light of which nothing
-    /// but its irradiance is known gives nothing.
+    /// What `source` gives to `patches` of `shape`, between which `kernel` says the exchange. A uniform sky
+    /// gives what the patches do not hide from each other, less the backs that they see, which are sampled;
+    /// other skies are sampled where more than a few flat parts hide them. A light of which nothing but its
+    /// irradiance is known gives nothing.
     ///
     /// # Source
-    /// CIE S 011/E:2003: the overcast sky's irradiance of a horizontal plane is 7/9 of π times the radiance of its zenith.
+    /// CIE S 011/E:2003: the overcast sky's irradiance of a horizontal plane is 7/9 of π times the radiance
+    /// of its zenith.
     #[must_use]
     pub fn of(source: &LightSource, shape: &Shape, patches: &[Patch], kernel: &SurfaceKernel) -> Self {
         match source {
@@ -55,7 +57,8 @@ impl DirectLight {
         }
     }
 
-    /// What the sun or a lamp gives to `patches`, exact but for lamps of some size, which are as exact as patches are small; nothing if `source` is neither.
+    /// What the sun or a lamp gives to `patches`, exact but for lamps of some size, which are as exact as
+    /// patches are small; nothing if `source` is neither.
     #[must_use]
     pub fn of_lamp(source: &LightSource, shape: &Shape, patches: &[Patch]) -> Vec<f64> {
         let (unit, amount) = match source {
@@ -100,7 +103,8 @@ impl DirectLight {
     }
 }
 
-/// Radiance times π of an overcast sky that gives a horizontal plane irradiance 1, by the sine of the elevation.
+/// Radiance times π of an overcast sky that gives a horizontal plane irradiance 1, by the sine of the
+/// elevation.
 fn overcast(sin_elevation: f64) -> f64 {
     if sin_elevation > 0.0 { 9.0 / 7.0 * (1.0 + 2.0 * sin_elevation) / 3.0 } else { 0.0 }
 }

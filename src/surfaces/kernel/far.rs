@@ -14,8 +14,8 @@ pub const TOLERANCE: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
-/// Area times form factor between triangles or quadrilaterals that see each other wholly, to a relative `tolerance`; none if they
-/// are too near.
+/// Area times form factor between triangles or quadrilaterals that see each other wholly, to a relative
+/// `tolerance`; none if they are too near.
 ///
 /// `a` and `b` lie in spheres of radii `radii` whose centres are `distance` apart.
 #[must_use]
@@ -37,8 +37,8 @@ pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64, tolera
     Some(sum / PI)
 }
 
-/// Gauss order for a polygon of this radius whose neighbour leaves this gap, if it is moderate (Trefethen, *Approximation
-/// Theory and Approximation Practice*, theorem 19.3).
+/// Gauss order for a polygon of this radius whose neighbour leaves this gap, if it is moderate (Trefethen,
+/// *Approximation Theory and Approximation Practice*, theorem 19.3).
 fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
     if gap <= 0.0 {
         return None;

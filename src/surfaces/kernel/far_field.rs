@@ -1,13 +1,14 @@
 //! The exchange between clusters that see each other from afar, without a matrix.
 //!
-//! The kernel of eq. (2) is `(n·d)(−n'·d)/(π d⁴)`, with `d` from one point to the other: normals apart it is smooth for clusters that are far
-//! apart, and is taken at the nodes of a [`Grid`] in each. What leaves a cluster is gathered in one vector per node (its patches'
-//! light times their normals), carried to the nodes of others, and read there along the normals of their patches. Larger clusters
-//! gather from their halves, and halves read what arrives at the whole, so that nothing is kept but what leaves and enters the
+//! The kernel of eq. (2) is `(n·d)(−n'·d)/(π d⁴)`, with `d` from one point to the other: normals apart it is
+//! smooth for clusters that are far apart, and is taken at the nodes of a [`Grid`] in each. What leaves a
+//! cluster is gathered in one vector per node (its patches' light times their normals), carried to the nodes
+//! of others, and read there along the normals of their patches. Larger clusters gather from their halves,
+//! and halves read what arrives at the whole, so that nothing is kept but what leaves and enters the
 //! smallest.
 //!
-//! Source: Hackbusch and Börm, *H²-matrix approximation of integral operators by interpolation*, Appl. Numer. Math. 43 (2002), p. 129;
-//! Hackbusch, *Hierarchical Matrices: Algorithms and Analysis* (2015), chapter 8.
+//! Source: Hackbusch and Börm, *H²-matrix approximation of integral operators by interpolation*, Appl. Numer.
+//! Math. 43 (2002), p. 129; Hackbusch, *Hierarchical Matrices: Algorithms and Analysis* (2015), chapter 8.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -51,7 +52,8 @@ struct Leaf {
 type Vectors = Vec<Vec<Vec3>>;
 
 impl FarField {
-    /// The exchange of pairs of clusters in `tree`, right to about `tolerance` times what they would exchange if they faced each other.
+    /// The exchange of pairs of clusters in `tree`, right to about `tolerance` times what they would exchange
+    /// if they faced each other.
     pub(super) fn new(tree: &Tree, sites: &[Site], pairs: &[[usize; 2]], tolerance: f64) -> Self {
         let mut partners = vec![Vec::new(); tree.clusters.len()];
         for [a, b] in pairs {

@@ -26,7 +26,8 @@ struct Line {
     through: Lagrange,
 }
 
-/// How many nodes a box has along each axis, for functions that are singular no nearer than [`GAP`] and wanted to `tolerance`.
+/// How many nodes a box has along each axis, for functions that are singular no nearer than [`GAP`] and
+/// wanted to `tolerance`.
 ///
 /// Trefethen, *Approximation Theory and Approximation Practice*, theorem 8.2.
 pub(super) fn orders(cuboid: &Cuboid, tolerance: f64) -> [usize; 3] {

@@ -1,7 +1,9 @@
-//! All pairs of patches, cluster by cluster: what one look at two clusters settles is not asked of their patches.
+//! All pairs of patches, cluster by cluster: what one look at two clusters settles is not asked of their
+//! patches.
 //!
-//! Clusters that show each other their backs, or that one wall parts, exchange nothing. Clusters that see each other wholly from afar
-//! exchange what [`FarField`](super::far_field::FarField) carries. Only what is left is found pair by pair.
+//! Clusters that show each other their backs, or that one wall parts, exchange nothing. Clusters that see
+//! each other wholly from afar exchange what [`FarField`](super::far_field::FarField) carries. Only what is
+//! left is found pair by pair.
 
 use rayon::prelude::*;
 
@@ -29,7 +31,8 @@ pub(super) struct Hierarchy<'a> {
 }
 
 impl Hierarchy<'_> {
-    /// The exchange of all pairs of patches: blocks of near ones, and the numbers of clusters that see each other from afar.
+    /// The exchange of all pairs of patches: blocks of near ones, and the numbers of clusters that see each
+    /// other from afar.
     pub(super) fn parts(&self) -> (Vec<Block>, Vec<[usize; 2]>) {
         let (mut blocks, mut pairs) = (Vec::new(), Vec::new());
         for part in self.between([0, 0], &self.assembly.casters.numbers()) {
@@ -67,7 +70,8 @@ impl Hierarchy<'_> {
         parts.into_par_iter().flat_map(|pair| self.between(pair, &casters)).collect()
     }
 
-    /// Those of `candidates` that may hide some of one cluster from some of the other; none if one hides all from all.
+    /// Those of `candidates` that may hide some of one cluster from some of the other; none if one hides all
+    /// from all.
     fn casters(&self, pair: [usize; 2], candidates: &[usize]) -> Option<Vec<usize>> {
         let [a, b] = pair.map(|n| &self.tree.clusters[n]);
         let casters = &self.assembly.casters;

@@ -21,7 +21,8 @@ pub struct LitSurface {
 }
 
 impl LitSurface {
-    /// A surface under these sources, divided as [`solve`](super::refinement::solve) did when it ended with this many `unknowns`.
+    /// A surface under these sources, divided as [`solve`](super::refinement::solve) did when it ended with
+    /// this many `unknowns`.
     ///
     /// # Errors
     /// [`Error::Field`] if it never has that many; as [`SurfaceKernel::new`].

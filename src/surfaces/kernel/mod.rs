@@ -1,9 +1,10 @@
 //! The exchange of light between the facets of any surface, or between patches that divide them.
 //!
-//! A pair that nothing can stand between ([`casters`]) takes a formula ([`contour`], or [`far`] where it is right to ten digits);
-//! any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]). Pairs of one plane and pairs that show each
-//! other their backs exchange nothing. One number stands for both directions, so that reciprocity holds by construction. In large meshes
-//! clusters that see each other from afar exchange light without a number for every pair (`far_field`, `hierarchy`).
+//! A pair that nothing can stand between ([`casters`]) takes a formula ([`contour`], or [`far`] where it is
+//! right to ten digits); any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]).
+//! Pairs of one plane and pairs that show each other their backs exchange nothing. One number stands for both
+//! directions, so that reciprocity holds by construction. In large meshes clusters that see each other from
+//! afar exchange light without a number for every pair (`far_field`, `hierarchy`).
 
 pub mod arealight;
 mod assembly;
@@ -44,15 +45,18 @@ use super::shape::{FACETS_MAX, Shape};
 use crate::error::{Error, Result};
 use crate::kernel::skipped::Skipped;
 
-/// Groups of rows that are multiplied apart: their number is fixed, so that sums do not depend on the threads.
+/// Groups of rows that are multiplied apart: their number is fixed, so that sums do not depend on the
+/// threads.
 const GROUPS: usize = 16;
-/// Meshes of at least this many patches exchange light by clusters; below, all pairs take a few seconds and are right to single precision.
+/// Meshes of at least this many patches exchange light by clusters; below, all pairs take a few seconds and
+/// are right to single precision.
 const CLUSTERED: usize = 3000;
-/// Error of what clusters exchange and of the rules for pairs that are far apart, relative to the tolerance, and the least that is
-/// worth while beside entries in single precision.
+/// Error of what clusters exchange and of the rules for pairs that are far apart, relative to the tolerance,
+/// and the least that is worth while beside entries in single precision.
 const AFAR: f64 = 0.01;
 const ROUNDING: f64 = 1e-7;
-/// More than this share of its light no patch hands on; the rest is rounding and the tolerance of partial shadows.
+/// More than this share of its light no patch hands on; the rest is rounding and the tolerance of partial
+/// shadows.
 const ALL: f64 = 1.001;
 
 /// Form factors between the patches of a surface.
@@ -73,11 +77,12 @@ impl SurfaceKernel {
     /// Form factors between `patches` of `shape`, all of them, in the order of its facets.
     ///
     /// # Arguments
-    /// - `tolerance`: error of a partly hidden pair's form factor, relative to what it would be unhidden. From 3000 patches on open pairs
-    ///   have an error too: row sums are off by less than a hundredth of it.
+    /// - `tolerance`: error of a partly hidden pair's form factor, relative to what it would be unhidden.
+    ///   From 3000 patches on open pairs have an error too: row sums are off by less than a hundredth of it.
     ///
     /// # Errors
-    /// [`Error::FullExchange`] if their exchange fills more than a gigabyte; [`Error::Shape`] if the patches are too many, or they hand on more light than they have: facets that cross.
+    /// [`Error::FullExchange`] if their exchange fills more than a gigabyte; [`Error::Shape`] if the patches
+    /// are too many, or they hand on more light than they have: facets that cross.
     ///
     /// # Source
     /// Deeb et al., eq. (10), averaged over both patches.
@@ -190,7 +195,8 @@ impl SurfaceKernel {
         self.facet_means(&self.start(&self.row_sums()))
     }
 
-    /// One row of the matrix K of eq. (10) between the patches: the share of the light leaving patch `row` that reaches each.
+    /// One row of the matrix K of eq. (10) between the patches: the share of the light leaving patch `row`
+    /// that reaches each.
     #[must_use]
     pub fn matrix_row(&self, row: usize) -> Vec<f64> {
         let (mut unit, mut exchange) = (vec![0.0; self.unknowns()], vec![0.0; self.unknowns()]);

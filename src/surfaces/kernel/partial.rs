@@ -1,8 +1,9 @@
 //! Form factors of two polygons that others hide from each other in part.
 //!
-//! From a point on one the visible part of the other is exact (`shadow`); what is left is a function with kinks, integrated on
-//! quarters of the polygon until they agree with the whole. The visible share multiplies the exact unhidden exchange, so that
-//! nothing is lost where nothing is hidden and nothing is left where all is.
+//! From a point on one the visible part of the other is exact (`shadow`); what is left is a function with
+//! kinks, integrated on quarters of the polygon until they agree with the whole. The visible share multiplies
+//! the exact unhidden exchange, so that nothing is lost where nothing is hidden and nothing is left where all
+//! is.
 
 use super::far::nodes;
 use super::shadow::{Eye, point_factor, visible};
@@ -33,8 +34,8 @@ impl Light {
     }
 }
 
-/// Share in [0, 1] of the unhidden exchange between `a` and `b`, each wholly in front of the other, that `casters` between them let
-/// pass; wrong by about `tolerance`.
+/// Share in [0, 1] of the unhidden exchange between `a` and `b`, each wholly in front of the other, that
+/// `casters` between them let pass; wrong by about `tolerance`.
 #[must_use]
 pub fn visible_share(a: &Polygon, b: &Polygon, casters: &[Polygon], tolerance: f64) -> f64 {
     let (from, to) = if a.area() <= b.area() { (a, b) } else { (b, a) };
@@ -69,7 +70,8 @@ impl Pair<'_> {
         })
     }
 
-    /// The light of a part whose rule gave `coarse`, on quarters until it changes by no more than `tolerance`.
+    /// The light of a part whose rule gave `coarse`, on quarters until it changes by no more than
+    /// `tolerance`.
     fn refine(&self, part: &Polygon, coarse: Light, tolerance: f64, depth: u32) -> Light {
         let quarters: Vec<(Polygon, Light)> =
             quarters(part).into_iter().map(|quarter| (quarter.clone(), self.light(&quarter))).collect();

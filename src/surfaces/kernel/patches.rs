@@ -1,7 +1,9 @@
-//! The patches into which facets are divided: even cells, more and narrower ones towards edges where facets meet in a valley.
+//! The patches into which facets are divided: even cells, more and narrower ones towards edges where facets
+//! meet in a valley.
 //!
-//! Beside a valley irradiance goes with a power of the distance, often below one. Cells as wide as the root of their distance, so that their
-//! ends are squares, make the error of facet means fall with the square of their number there as elsewhere; cells of equal ratios do not.
+//! Beside a valley irradiance goes with a power of the distance, often below one. Cells as wide as the root
+//! of their distance, so that their ends are squares, make the error of facet means fall with the square of
+//! their number there as elsewhere; cells of equal ratios do not.
 
 use std::collections::HashMap;
 
@@ -24,7 +26,8 @@ pub struct Patch {
 /// How finely facets are divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Division {
-    /// Cells along each side of a quadrilateral; a triangle is three quadrilaterals unless it is not divided at all.
+    /// Cells along each side of a quadrilateral; a triangle is three quadrilaterals unless it is not divided
+    /// at all.
     pub cells: usize,
     /// Whether there are twice as many towards a valley, narrower the nearer they are.
     pub graded: bool,

@@ -13,17 +13,19 @@ use crate::surfaces::{Exchange, SurfaceResponse};
 const LADDER: [usize; 6] = [1, 2, 4, 8, 16, 32];
 /// How many times as many cells a side has on a facet in which a shadow ends.
 const SHADOW: usize = 2;
-/// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a shadow's end.
+/// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a
+/// shadow's end.
 const UNEVEN: f64 = 0.01;
 /// Most cells along a side that anybody asks for: of one facet they are all the patches that there may be.
 const CELLS_MAX: usize = 316;
 /// Most patches of the first mesh, and of others but for one that should reach the tolerance.
 const FIRST_MAX: usize = 8000;
 const PATCHES_MAX: usize = 40_000;
-/// Most pairs of patches that may hide parts of each other, which take most of the time where there are any: half a minute or so.
+/// Most pairs of patches that may hide parts of each other, which take most of the time where there are any:
+/// half a minute or so.
 const HIDDEN_MAX: f64 = 2e6;
-/// What the difference between two meshes falls to in the next finer one. Cells being halved it should be a quarter; on coarse meshes, and
-/// where a shadow ends, it falls as far once and less the next time.
+/// What the difference between two meshes falls to in the next finer one. Cells being halved it should be a
+/// quarter; on coarse meshes, and where a shadow ends, it falls as far once and less the next time.
 const FALL: f64 = 0.45;
 /// What it falls to where only two meshes tell, and where it did not fall at all.
 const FIRST_FALL: f64 = 0.6;
@@ -47,12 +49,14 @@ pub struct Solved {
 
 /// Solves the bounces on `shape` under each of `sources` for every reflectance, on `mesh`.
 ///
-/// [`Mesh::Auto`] divides facets until no facet mean should be further off than `tolerance`, relative to itself or, in the dark, to a
-/// tenth of the mean, at reflectances up to 0.9; it stops earlier, and the accuracy says so, at 40 000 patches or two million pairs of patches
-/// that are partly hidden from each other.
+/// [`Mesh::Auto`] divides facets until no facet mean should be further off than `tolerance`, relative to
+/// itself or, in the dark, to a tenth of the mean, at reflectances up to 0.9; it stops earlier, and the
+/// accuracy says so, at 40 000 patches or two million pairs of patches that are partly hidden from each
+/// other.
 ///
 /// # Errors
-/// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns, which a shape does not have.
+/// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns,
+/// which a shape does not have.
 ///
 /// # Example
 /// ```
@@ -176,7 +180,8 @@ impl Scene<'_> {
     }
 }
 
-/// What all finer meshes together would change, after the `last` difference between two and the one `before` it.
+/// What all finer meshes together would change, after the `last` difference between two and the one `before`
+/// it.
 fn left(before: Option<f64>, last: f64) -> f64 {
     let fall = before.map_or(FIRST_FALL, |before| (last / before).clamp(FALL, LEAST_FALL));
     last * fall / (1.0 - fall)

@@ -1,8 +1,9 @@
 //! What is left of a polygon that other polygons hide from an eye: exact, by cutting their shadows out.
 //!
-//! A polygon between the eye and the target hides the target's part inside the pyramid over it (a prism if the eye is a
-//! direction). What is outside one of its sides stays, in convex pieces, so that grazing light is a matter of areas: an edge exactly on
-//! the line of sight hides nothing or leaves nothing, and never flips a pair from dark to bright.
+//! A polygon between the eye and the target hides the target's part inside the pyramid over it (a prism if
+//! the eye is a direction). What is outside one of its sides stays, in convex pieces, so that grazing light
+//! is a matter of areas: an edge exactly on the line of sight hides nothing or leaves nothing, and never
+//! flips a pair from dark to bright.
 
 use std::f64::consts::PI;
 
@@ -34,7 +35,8 @@ impl Eye {
     }
 }
 
-/// What is left of `target` when polygons that cast shadows stand before it, all of them in front of its plane.
+/// What is left of `target` when polygons that cast shadows stand before it, all of them in front of its
+/// plane.
 ///
 /// # Returns
 /// Convex pieces; none where all is hidden.
@@ -95,7 +97,8 @@ fn cut(piece: Polygon, planes: &[Plane], crumb: f64, left: &mut Vec<Polygon>) {
     }
 }
 
-/// Share of the light leaving a Lambertian point in the direction of `normal` that lands on `target`, wholly above its horizon.
+/// Share of the light leaving a Lambertian point in the direction of `normal` that lands on `target`, wholly
+/// above its horizon.
 ///
 /// # Source
 /// Lambert, *Photometria* (1760).

@@ -12,7 +12,8 @@ use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Polygon, edges};
 use crate::surfaces::shape::Shape;
 
-/// Sets of rays from a patch, each a shift of the same even one: how much they differ says how far off their mean is.
+/// Sets of rays from a patch, each a shift of the same even one: how much they differ says how far off their
+/// mean is.
 const SETS: usize = 16;
 /// Rays of a set.
 const RAYS: usize = 512;
@@ -20,12 +21,12 @@ const RAYS: usize = 512;
 const STEPS: [f64; 4] =
     [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_820_3, 0.538_597_257_223_610_7];
 
-/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, seen past all facets, and the largest
-/// standard error among them.
+/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, seen past all facets,
+/// and the largest standard error among them.
 ///
 /// # Source
-/// Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences* (2018), for the even set; shifts as of Cranley and Patterson,
-/// *SIAM J. Numer. Anal.* 13 (1976), p. 904.
+/// Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences* (2018), for the even set; shifts as of
+/// Cranley and Patterson, *SIAM J. Numer. Anal.* 13 (1976), p. 904.
 ///
 /// # Example
 /// ```
@@ -49,8 +50,8 @@ pub fn skylight(shape: &Shape, patches: &[Patch], radiance: impl Fn(&Vec3) -> f6
     })
 }
 
-/// Share of every patch's view that the backs of facets fill, and the largest standard error among them; exactly zero where no
-/// back is seen.
+/// Share of every patch's view that the backs of facets fill, and the largest standard error among them;
+/// exactly zero where no back is seen.
 #[must_use]
 pub fn backs(shape: &Shape, patches: &[Patch]) -> (Vec<f64>, f64) {
     means(shape, patches, |screens, point, towards| {

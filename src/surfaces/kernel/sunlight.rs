@@ -11,8 +11,8 @@ use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Polygon, edges};
 use crate::surfaces::shape::Shape;
 
-/// Mean irradiance of every patch in parallel light that gives 1 on a plane facing it: the cosine of its incidence times the share of
-/// the patch that no facet shades, exact.
+/// Mean irradiance of every patch in parallel light that gives 1 on a plane facing it: the cosine of its
+/// incidence times the share of the patch that no facet shades, exact.
 ///
 /// # Arguments
 /// - `towards`: direction to the light, of any length.
@@ -38,8 +38,8 @@ pub fn sunlight(shape: &Shape, patches: &[Patch], towards: &Vec3) -> Vec<f64> {
     light(shape, patches, Eye::Direction(towards), lit)
 }
 
-/// Mean irradiance of every patch in the light of a point source that gives 1 on a plane facing it at distance 1: the solid angle of
-/// what it sees of the patch, over the patch's area, exact.
+/// Mean irradiance of every patch in the light of a point source that gives 1 on a plane facing it at
+/// distance 1: the solid angle of what it sees of the patch, over the patch's area, exact.
 #[must_use]
 pub fn lamplight(shape: &Shape, patches: &[Patch], lamp: &Vec3) -> Vec<f64> {
     let lit = |patch: &Polygon, lit: &[Polygon]| {
@@ -84,7 +84,8 @@ fn light(
     patches.par_iter().map(on).collect()
 }
 
-/// Solid angle of a polygon seen from a point, up to 2π (Van Oosterom and Strackee 1983, triangle by triangle).
+/// Solid angle of a polygon seen from a point, up to 2π (Van Oosterom and Strackee 1983, triangle by
+/// triangle).
 #[must_use]
 pub fn solid_angle(point: &Vec3, corners: &[Vec3]) -> f64 {
     let rays: Vec<Vec3> = corners.iter().map(|corner| corner - point).collect();

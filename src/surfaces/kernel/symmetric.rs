@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// The entries right of the diagonal, in runs of neighbours that are not zero, in single precision: 6e-8 of an entry is below
-/// what any mesh is worth, and half the memory is twice the facets.
+/// The entries right of the diagonal, in runs of neighbours that are not zero, in single precision: 6e-8 of
+/// an entry is below what any mesh is worth, and half the memory is twice the facets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rows {
     /// Row and column at which each run begins, and where its entries are.

@@ -1,7 +1,8 @@
 //! Light of a sky with a horizon on patches that few facets hide it from, by quadrature.
 //!
-//! About an axis in the patch's plane, half-planes cut the sky in half-circles, on each of which the horizon and every facet hide an arc. The
-//! rules begin anew where a corner of a facet comes into view, so that what they add up is smooth.
+//! About an axis in the patch's plane, half-planes cut the sky in half-circles, on each of which the horizon
+//! and every facet hide an arc. The rules begin anew where a corner of a facet comes into view, so that what
+//! they add up is smooth.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -17,15 +18,16 @@ use crate::surfaces::shape::Shape;
 
 /// Most flat parts of a surface between which the sky is seen: with more, rays tell it sooner.
 const FEW: usize = 8;
-/// Points along each side of a patch, on a half-circle between what hides it, and of half-circles between corners.
+/// Points along each side of a patch, on a half-circle between what hides it, and of half-circles between
+/// corners.
 const POINTS: usize = 2;
 const ON_ARC: usize = 16;
 const ARCS: usize = 12;
 /// A zenith that is this little along the axis has its horizon along it.
 const ALONG: f64 = 1e-9;
 
-/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, dark below the horizon of `zenith`, seen past all facets;
-/// none if these are too many.
+/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, dark below the horizon
+/// of `zenith`, seen past all facets; none if these are too many.
 ///
 /// # Example
 /// ```
@@ -109,7 +111,8 @@ impl<'a> Place<'a> {
         pieces.map(|(angle, weight)| weight * of_arc(angle)).sum::<f64>() / PI
     }
 
-    /// Angles at which a corner of a facet comes into view, or the horizon crosses the plane that is square to the axis.
+    /// Angles at which a corner of a facet comes into view, or the horizon crosses the plane that is square
+    /// to the axis.
     fn breaks(&self, zenith: &Vec3) -> Vec<f64> {
         let corners = self.before.iter().flat_map(Polygon::corners).map(|corner| corner - self.point);
         let angle = |towards: Vec3| towards.dot(&self.normal).atan2(towards.dot(&self.aside));

@@ -1,4 +1,5 @@
-//! What is fuzzed: functions that take any bytes, and panic if a reader does anything but take them or refuse them in one plain line.
+//! What is fuzzed: functions that take any bytes, and panic if a reader does anything but take them or refuse
+//! them in one plain line.
 //!
 //! `sheen/` calls them with new inputs, `tests/corpus` with those that were kept.
 

@@ -16,7 +16,8 @@ use super::{assert_finite, taken};
 /// A glossy sheet.
 const STREAM: &str = include_str!("../streams/photograph.ndjson");
 
-/// A photograph with edits, alone or, as the first byte says, with the same before the edits: an estimate, or a reason why there is none.
+/// A photograph with edits, alone or, as the first byte says, with the same before the edits: an estimate, or
+/// a reason why there is none.
 pub fn sheet(bytes: &[u8]) {
     let (how, edits) = bytes.split_first().unwrap_or((&0, &[]));
     let beside = parts_of(STREAM).filter(|_| how % 4 == 0);

@@ -31,7 +31,8 @@ pub fn surface(bytes: &[u8]) {
     }
 }
 
-/// Clusters that exchange light from afar give what their pairs do: in a pit whose walls see each other whole.
+/// Clusters that exchange light from afar give what their pairs do: in a pit whose walls see each other
+/// whole.
 pub fn clusters(bytes: &[u8]) {
     let mut drawn = Drawn::from(bytes);
     let Some(shape) = taken(pit(&mut drawn)) else { return };

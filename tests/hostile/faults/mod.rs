@@ -1,5 +1,6 @@
-//! What machines do to programs: streams that close, disks that fill, signals, files that may not be read, lines and streams
-//! without end. Whatever happens, a file under the wanted name is whole, and the exit status says what became of it.
+//! What machines do to programs: streams that close, disks that fill, signals, files that may not be read,
+//! lines and streams without end. Whatever happens, a file under the wanted name is whole, and the exit
+//! status says what became of it.
 
 mod disks;
 mod permissions;

@@ -3,9 +3,10 @@
 use crate::common::Workdir;
 use crate::ready::{ready, sh};
 
-/// Each tool in the middle of its work, more to come from the pipe `slow`, its standard input or a photograph, or from a
-/// computation that takes long, and how many files are then open. Photographs on one thread: of several, one that waits for
-/// the rest of a photograph may take up the next, and hold the first back until that has come.
+/// Each tool in the middle of its work, more to come from the pipe `slow`, its standard input or a
+/// photograph, or from a computation that takes long, and how many files are then open. Photographs on one
+/// thread: of several, one that waits for the rest of a photograph may take up the next, and hold the first
+/// back until that has come.
 const HALFWAY: [(&str, &str, usize); 5] = [
     ("vkernel --method monte-carlo --samples 100000000 -o old", "true", 1),
     ("vforward - --reflectance cc24 -o old --save facet_rgb=old.npy", "cat scene.json", 2),

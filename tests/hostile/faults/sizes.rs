@@ -1,5 +1,5 @@
-//! Lines and streams without end: in bounded memory, none lost. `VFOLD_LINE_MB` and `VFOLD_RECORDS` set other sizes than the
-//! suite's, such as 1000 and 10000000.
+//! Lines and streams without end: in bounded memory, none lost. `VFOLD_LINE_MB` and `VFOLD_RECORDS` set other
+//! sizes than the suite's, such as 1000 and 10000000.
 
 use crate::ready::{ready, sh};
 
@@ -93,7 +93,8 @@ fn a_list_that_is_read_is_bounded() {
     }
 }
 
-/// So long that it cannot be a record. Memory for a line that grows may have to be moved, and counts twice then.
+/// So long that it cannot be a record. Memory for a line that grows may have to be moved, and counts twice
+/// then.
 #[test]
 fn a_line_without_end_ends() {
     let folder = ready();

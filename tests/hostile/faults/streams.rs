@@ -41,7 +41,8 @@ fn a_full_or_closed_standard_error_changes_nothing() {
     }
 }
 
-/// A closed standard output is the null device by the time a program starts: nobody wants the records. Those that go to files do.
+/// A closed standard output is the null device by the time a program starts: nobody wants the records. Those
+/// that go to files do.
 #[test]
 fn a_closed_standard_output_is_nobody() {
     let folder = ready();

@@ -1,5 +1,6 @@
-//! BabelColor (D. Pascale), *ColorChecker data*, mean of 30 charts: xyY under D50 for the 2° observer, as colour-science 0.4.7
-//! transcribes them (`colour.CCS_COLOURCHECKERS["BabelColor Average"]`), beside what their spectra look like here.
+//! BabelColor (D. Pascale), *ColorChecker data*, mean of 30 charts: xyY under D50 for the 2° observer, as
+//! colour-science 0.4.7 transcribes them (`colour.CCS_COLOURCHECKERS["BabelColor Average"]`), beside what
+//! their spectra look like here.
 
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::spectrum::{Outside, WavelengthGrid, illuminant, reflectances};

@@ -1,5 +1,6 @@
-//! CIE 015:2018, *Colorimetry*, 4th edition: white points of its illuminants, as colour-science 0.4.7 transcribes them
-//! (`colour.TVS_ILLUMINANTS`, `colour.CCS_ILLUMINANTS`). The CIE sums over 380..780 nm by 5, as [`meter`] does.
+//! CIE 015:2018, *Colorimetry*, 4th edition: white points of its illuminants, as colour-science 0.4.7
+//! transcribes them (`colour.TVS_ILLUMINANTS`, `colour.CCS_ILLUMINANTS`). The CIE sums over 380..780 nm by 5,
+//! as [`meter`] does.
 
 use vfold::colorimetry::Observer;
 
@@ -50,7 +51,8 @@ fn lamps_have_the_chromaticity_of_the_tables() {
     }
 }
 
-/// Section 4.1.2: daylight of the temperatures that these illuminants were named after, times 1.4388/1.4380 of Planck's constant.
+/// Section 4.1.2: daylight of the temperatures that these illuminants were named after, times 1.4388/1.4380
+/// of Planck's constant.
 #[test]
 fn daylight_of_their_temperatures_has_their_tristimulus_values() {
     for (cct_k, (light, small, large)) in [5003, 5503, 6504, 7504].into_iter().zip(&WHITE[1..]) {

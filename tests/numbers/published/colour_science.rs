@@ -1,4 +1,5 @@
-//! colour-science 0.4.7 judges estimates of all 1269 Munsell chips as vscore does: the same spectra, light and observer, sums by NumPy.
+//! colour-science 0.4.7 judges estimates of all 1269 Munsell chips as vscore does: the same spectra, light
+//! and observer, sums by NumPy.
 
 use crate::common::Workdir;
 

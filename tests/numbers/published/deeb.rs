@@ -1,5 +1,6 @@
-//! R. Deeb, D. Muselet, M. Hébert, A. Trémeau, *Applied Optics* 57 (2018), p. 4918, table 1: mean RMSE and CIEDE2000 of the
-//! ColorChecker's 24 patches. Its camera's curves are not published, nor its three lights named: ours are like them.
+//! R. Deeb, D. Muselet, M. Hébert, A. Trémeau, *Applied Optics* 57 (2018), p. 4918, table 1: mean RMSE and
+//! CIEDE2000 of the ColorChecker's 24 patches. Its camera's curves are not published, nor its three lights
+//! named: ours are like them.
 
 use serde_json::Value;
 

@@ -1,5 +1,6 @@
-//! R. V. Dunkle, "Geometric mean beam lengths for radiant heat-transfer calculations", *Journal of Heat Transfer* 86 (1964), p. 75, as
-//! table A-2 of Howell, Mengüç, Daun and Siegel, *Thermal Radiation Heat Transfer*, web appendix: rectangles at right angles.
+//! R. V. Dunkle, "Geometric mean beam lengths for radiant heat-transfer calculations", *Journal of Heat
+//! Transfer* 86 (1964), p. 75, as table A-2 of Howell, Mengüç, Daun and Siegel, *Thermal Radiation Heat
+//! Transfer*, web appendix: rectangles at right angles.
 
 use super::{assert_near, between_panels};
 
@@ -23,7 +24,8 @@ const EXCHANGES: [(f64, &[f64]); 7] = [
     (2.0, &[0.29860, 0.33462, 0.34386, 0.34916, 0.35142]),
 ];
 
-/// Entries that are misprinted: closed form C-14 and reference values with 60 digits have 0.01437 and 0.34910.
+/// Entries that are misprinted: closed form C-14 and reference values with 60 digits have 0.01437 and
+/// 0.34910.
 const MISPRINTS: [[f64; 2]; 2] = [[0.05, 0.05], [2.0, 10.0]];
 
 /// Five decimals.

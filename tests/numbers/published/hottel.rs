@@ -1,5 +1,5 @@
-//! H. C. Hottel and A. F. Sarofim, *Radiative Transfer* (1967), chapter 2: crossed strings, exact for surfaces without end. A V of depths a and
-//! b whose outer edges are c apart has a F = (a + b - c) / 2.
+//! H. C. Hottel and A. F. Sarofim, *Radiative Transfer* (1967), chapter 2: crossed strings, exact for
+//! surfaces without end. A V of depths a and b whose outer edges are c apart has a F = (a + b - c) / 2.
 
 use super::{assert_near, between_panels};
 

@@ -1,5 +1,6 @@
-//! J. R. Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*: closed forms of configurations C-11, C-14 and C-16, and the
-//! catalogue's table of C-16 at 120° but for its last column, which is up to 6e-6 off the catalogue's own closed form.
+//! J. R. Howell, *A Catalog of Radiation Heat Transfer Configuration Factors*: closed forms of configurations
+//! C-11, C-14 and C-16, and the catalogue's table of C-16 at 120° but for its last column, which is up to
+//! 6e-6 off the catalogue's own closed form.
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,9 @@
-//! Numbers that others have published, or that others' programs compute from the same input: one source per file, which names it.
+//! Numbers that others have published, or that others' programs compute from the same input: one source per
+//! file, which names it.
 //!
-//! None is copied from what vfold prints. Reference values with 60 digits are in `tests/numbers/reference_form_factors.rs`, random walks in
-//! `tests/numbers/shapes.rs`, other solvers' estimates in `tests/tools/flat_sheets.rs`.
+//! None is copied from what vfold prints. Reference values with 60 digits are in
+//! `tests/numbers/reference_form_factors.rs`, random walks in `tests/numbers/shapes.rs`, other solvers'
+//! estimates in `tests/tools/flat_sheets.rs`.
 
 mod babelcolor;
 mod cie15;

@@ -1,5 +1,6 @@
-//! G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000 color-difference formula: implementation notes, supplementary test data, and
-//! mathematical observations", *Color Research and Application* 30 (2005), p. 21: the 34 pairs of table 1.
+//! G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000 color-difference formula: implementation notes,
+//! supplementary test data, and mathematical observations", *Color Research and Application* 30 (2005), p.
+//! 21: the 34 pairs of table 1.
 
 use vfold::colorimetry::ciede2000;
 

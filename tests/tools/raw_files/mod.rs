@@ -1,7 +1,9 @@
-//! RAW files of real cameras beside `LibRaw`, which rawpy brings: levels, filters, where the picture begins, and the light of its sites.
+//! RAW files of real cameras beside `LibRaw`, which rawpy brings: levels, filters, where the picture begins,
+//! and the light of its sites.
 //!
-//! Such files are large, and whose they are is seldom said: none is here. Put some into the folder `VFOLD_RAW_FILES` to test with them; the
-//! `PowerShot` and EOS cameras of 2000 to 2004 wrote CRW files of 3 MB.
+//! Such files are large, and whose they are is seldom said: none is here. Put some into the folder
+//! `VFOLD_RAW_FILES` to test with them; the `PowerShot` and EOS cameras of 2000 to 2004 wrote CRW files of 3
+//! MB.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,9 +14,11 @@ use vfold::image::{Photograph, Pixel, ReadOptions};
 use crate::common::left_out;
 
 const LIBRAW: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/tools/raw_files/libraw.py");
-/// Black levels may be a camera's own or the mean of dark sites: apart by this much of a number of the sensor.
+/// Black levels may be a camera's own or the mean of dark sites: apart by this much of a number of the
+/// sensor.
 const BLACK: f64 = 1.5;
-/// Light of sites, of white: black levels differ, and an old Kodak's curve is rounded by one and not by the other.
+/// Light of sites, of white: black levels differ, and an old Kodak's curve is rounded by one and not by the
+/// other.
 const LIGHT: f64 = 5e-4;
 /// Programs differ in how much of a sensor is picture by a few rows and columns.
 const EDGE_PX: f64 = 12.0;

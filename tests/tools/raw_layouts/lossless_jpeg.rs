@@ -1,6 +1,7 @@
 //! A writer of lossless JPEG, each number as its difference from the one to the left (ITU T.81, annex H).
 
-/// Width, height, components and bits of a picture, of whose numbers the components of a pixel stand side by side.
+/// Width, height, components and bits of a picture, of whose numbers the components of a pixel stand side by
+/// side.
 pub fn encode([width, height, components, bits]: [usize; 4], numbers: &[u16]) -> Vec<u8> {
     let mut jpeg = vec![0xff, 0xd8, 0xff, 0xc3, 0, (8 + 3 * components) as u8, bits as u8];
     jpeg.extend([height, width].into_iter().flat_map(|size| (size as u16).to_be_bytes()));

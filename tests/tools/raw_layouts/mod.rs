@@ -1,4 +1,5 @@
-//! RAW files laid out as cameras, phones and converters lay them out, made here: what is measured is what was written.
+//! RAW files laid out as cameras, phones and converters lay them out, made here: what is measured is what was
+//! written.
 //!
 //! Files of real cameras beside `LibRaw`: `raw_files`.
 
@@ -177,8 +178,8 @@ fn gain_map([row, column]: [u32; 2], gain: impl Fn(f64, f64) -> f64) -> (u32, Ve
 
 // ---- layouts ----
 
-/// A thumbnail first, then the mosaic in tiles of lossless JPEG, two numbers a pixel of theirs, then a preview; big end first. Levels begin at
-/// the active area's corner, the picture a little within.
+/// A thumbnail first, then the mosaic in tiles of lossless JPEG, two numbers a pixel of theirs, then a
+/// preview; big end first. Levels begin at the active area's corner, the picture a little within.
 #[test]
 fn a_converters_mosaic_in_tiles() {
     const SENSOR: [usize; 2] = [WIDTH + 12, HEIGHT + 8];
@@ -220,7 +221,8 @@ fn a_converters_mosaic_in_tiles() {
     assert_written(&tiff(first.concat(), true), 1.0 / 13972.0);
 }
 
-/// A mosaic in strips, the last one shorter, and the shading of the lens in four maps of gains, one for each site of the mosaic's square.
+/// A mosaic in strips, the last one shorter, and the shading of the lens in four maps of gains, one for each
+/// site of the mosaic's square.
 #[test]
 fn a_phones_mosaic_with_gain_maps() {
     let gain =
@@ -252,8 +254,8 @@ fn a_phones_mosaic_with_gain_maps() {
     assert_written(&tiff(raw, false), 4.0 / 50000.0);
 }
 
-/// Three samples a pixel in strips of lossless JPEG that follow one another, one black level and three white ones; beside them a mask and a
-/// picture that a program made.
+/// Three samples a pixel in strips of lossless JPEG that follow one another, one black level and three white
+/// ones; beside them a mask and a picture that a program made.
 #[test]
 fn linear_colours_with_masks() {
     let white = [3800.0, 3900.0, 4000.0];
@@ -346,7 +348,8 @@ fn packed_numbers_with_a_linearization() {
     assert_written(&tiff(raw, false), 1e-3);
 }
 
-/// A quarter of the picture for each site of the mosaic's square, as they are before JPEG XL: even rows first, even columns to the left.
+/// A quarter of the picture for each site of the mosaic's square, as they are before JPEG XL: even rows
+/// first, even columns to the left.
 #[test]
 fn a_mosaic_in_quarters() {
     let numbers = sites(WIDTH, HEIGHT, |_, _, light| 4000.0 * light);
@@ -386,7 +389,8 @@ fn black_levels_by_column_and_row() {
     );
 }
 
-/// A Pentax's own file, big end first, uncompressed, with its black levels among its notes and more sensor than picture.
+/// A Pentax's own file, big end first, uncompressed, with its black levels among its notes and more sensor
+/// than picture.
 #[test]
 fn a_pentax() {
     let [left, top, right, bottom] = [8, 8, 56, 24]; // as rawler knows a K10D

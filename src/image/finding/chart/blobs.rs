@@ -3,14 +3,14 @@
 use super::super::outline::Place;
 use super::super::plane::Plane;
 
-/// A blob has less change of light in a pixel than one of these: square roots of light, so that noise is alike everywhere. Dark patches
-/// on black need the least, noise the most.
+/// A blob has less change of light in a pixel than one of these: square roots of light, so that noise is
+/// alike everywhere. Dark patches on black need the least, noise the most.
 const EVEN: [f32; 4] = [0.012, 0.025, 0.05, 0.09];
 /// The least and, of the picture, the largest part that a patch covers, px.
 const LEAST_PX: usize = 16;
 const LARGEST_PART: f64 = 1.0 / 40.0;
-/// A parallelogram covers twelve times the root of the determinant of its pixels' covariance. Rounded corners make it a little more,
-/// holes and bays less.
+/// A parallelogram covers twelve times the root of the determinant of its pixels' covariance. Rounded corners
+/// make it a little more, holes and bays less.
 const FILLED: [f64; 2] = [0.72, 1.12];
 /// A patch is at most so many times as long as wide.
 const SLIMMEST: f64 = 6.0;

@@ -10,8 +10,9 @@ pub(super) const PATCHES: usize = COLUMNS * ROWS;
 /// Colours of patches, row by row.
 pub(super) type Colours = [[f64; 3]; PATCHES];
 
-/// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through `share/canon-5d-mark-ii.csv` in D55, 400 to
-/// 700 nm. Other lights and cameras change them by hardly more than a linear map.
+/// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through
+/// `share/canon-5d-mark-ii.csv` in D55, 400 to 700 nm. Other lights and cameras change them by hardly more
+/// than a linear map.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant)] // colours
 pub(super) const REFERENCE: Colours = [
@@ -41,8 +42,8 @@ pub(super) struct Departure {
     pub worst: f64,
 }
 
-/// How far patches are off those of the chart in any light, before any camera: from the linear map of the chart's colours that is nearest.
-/// Nothing is said of a picture without light.
+/// How far patches are off those of the chart in any light, before any camera: from the linear map of the
+/// chart's colours that is nearest. Nothing is said of a picture without light.
 pub(super) fn departure(seen: &Colours) -> Option<Departure> {
     let light = |patch: &[f64; 3]| patch.iter().sum::<f64>() / 3.0;
     let brightest = seen.iter().map(light).fold(0.0, f64::max);

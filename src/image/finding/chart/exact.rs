@@ -9,10 +9,12 @@ use super::flat::{Flat, PER_CELL};
 use super::placement::patch;
 use super::plane_map::{projective, seen};
 
-/// Where a patch's edge is looked for, in points from its centre, and half of the part of the edge that is looked at.
+/// Where a patch's edge is looked for, in points from its centre, and half of the part of the edge that is
+/// looked at.
 const EDGE: [usize; 2] = [PER_CELL / 4, PER_CELL / 2];
 const ALONG: isize = PER_CELL as isize / 4;
-/// An edge is at least this step of light from point to point, all channels together, relative to the patch's light and this part of white.
+/// An edge is at least this step of light from point to point, all channels together, relative to the patch's
+/// light and this part of white.
 const LEAST_STEP: f64 = 0.03;
 const DARK: f64 = 0.03;
 /// Fewest patches by whose edges a chart is placed.

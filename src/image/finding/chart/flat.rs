@@ -25,7 +25,8 @@ const MIDDLE: usize = PER_CELL / 4;
 pub(super) struct Flat(Vec<[f64; 3]>);
 
 impl Flat {
-    /// The chart where a map from columns and rows to the picture without what the lens bends has it. Beyond the picture its edge goes on.
+    /// The chart where a map from columns and rows to the picture without what the lens bends has it. Beyond
+    /// the picture its edge goes on.
     pub fn of(photograph: &Photograph, lens: &Lens, to_picture: &Matrix3<f64>) -> Self {
         let at = |x: f64, y: f64| {
             let ideal = seen(to_picture, Place::new(x, y));
@@ -58,7 +59,8 @@ impl Flat {
         })
     }
 
-    /// The point so many points to the right of and below a patch's centre, that of point 0 being half a point beyond it.
+    /// The point so many points to the right of and below a patch's centre, that of point 0 being half a
+    /// point beyond it.
     pub fn offset(&self, k: usize, x: isize, y: isize) -> [f64; 3] {
         let centre = patch(k) * PER_CELL as f64;
         let at = |centre: f64, off: isize, size: usize| {

@@ -12,14 +12,17 @@ use super::plane_map::{affine, projective, seen};
 const SEEDS: usize = 80;
 /// Blobs nearest to one are looked at as its neighbours.
 const NEIGHBOURS: usize = 9;
-/// Neighbours are at most this far from each other, in longer sides of the first, and at most so many times as large or small.
+/// Neighbours are at most this far from each other, in longer sides of the first, and at most so many times
+/// as large or small.
 const NEAR: f64 = 2.6;
 const ALIKE: f64 = 2.0;
-/// Blobs of a lattice are at most so many times as large or small as the first: what is further off looks smaller.
+/// Blobs of a lattice are at most so many times as large or small as the first: what is further off looks
+/// smaller.
 const ALIKE_IN_ALL: f64 = 2.3;
 /// The least sine of the angle between neighbours.
 const LEAST_SINE: f64 = 0.3;
-/// The area of a cell of the lattice, in areas of the blob: patches lie close to each other, and edges take some of a blob.
+/// The area of a cell of the lattice, in areas of the blob: patches lie close to each other, and edges take
+/// some of a blob.
 const CELL: [f64; 2] = [0.9, 8.0];
 /// A blob is of the lattice if it is this near to a node, in cells.
 const OFF: f64 = 0.22;
@@ -77,7 +80,8 @@ fn neighbours(blobs: &[Blob], k: usize) -> Vec<usize> {
     near
 }
 
-/// Ways to the next columns and rows that a blob's neighbours may show, those to the nearest first; the four turns of a lattice are one.
+/// Ways to the next columns and rows that a blob's neighbours may show, those to the nearest first; the four
+/// turns of a lattice are one.
 fn pairs(blobs: &[Blob], seed: usize, neighbours: &[usize]) -> Vec<(Place, Place)> {
     let this = &blobs[seed];
     let steps: Vec<Place> = neighbours.iter().map(|k| blobs[*k].centre - this.centre).collect();

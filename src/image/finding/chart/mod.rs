@@ -4,10 +4,12 @@
 //!
 //! 1. [`blobs`]: places of even light;
 //! 2. [`lattice`], [`plane_map`]: those of them that lie in rows and columns, in any perspective;
-//! 3. [`placement`], [`colours`], [`search`]: the four rows of six, turned any way, whose colours a linear map makes of the chart's, whatever light and camera are;
+//! 3. [`placement`], [`colours`], [`search`]: the four rows of six, turned any way, whose colours a linear
+//!    map makes of the chart's, whatever light and camera are;
 //! 4. [`flat`], [`exact`]: exactly where its patches end, in the whole picture.
 //!
-//! What a hand, a shadow or the edge of the picture takes of a chart shows in the colours, which make the confidence.
+//! What a hand, a shadow or the edge of the picture takes of a chart shows in the colours, which make the
+//! confidence.
 
 mod blobs;
 mod colours;
@@ -36,7 +38,8 @@ use search::searched;
 /// A chart of four rows of six patches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DetectedChart {
-    /// Outer corners of the block of patches, px of the upright picture, in the order of [`CHART_CORNERS`](crate::image::CHART_CORNERS).
+    /// Outer corners of the block of patches, px of the upright picture, in the order of
+    /// [`CHART_CORNERS`](crate::image::CHART_CORNERS).
     pub corners: [Point; 4],
     /// Probability that all of them are within a third of a patch of where they should be.
     pub confidence: f64,
@@ -55,7 +58,8 @@ const HALF: f64 = 0.44;
 impl DetectedChart {
     /// Rows and columns of its patches.
     pub const GRID: [usize; 2] = [ROWS, COLUMNS];
-    /// From this confidence on a chart is used without a look at it: of pictures of sheets left out of the fit none of so much was wrong.
+    /// From this confidence on a chart is used without a look at it: of pictures of sheets left out of the
+    /// fit none of so much was wrong.
     pub const SURE: f64 = 0.97;
 
     /// Whether it may be used without a look at it.
@@ -85,7 +89,8 @@ pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<DetectedChart>
     weighed_chart(photograph, lens).map(|(found, _)| found)
 }
 
-/// The same, and what its confidence is made of, to fit that: logarithms of how far off its patches' colours are, in the mean and at most.
+/// The same, and what its confidence is made of, to fit that: logarithms of how far off its patches' colours
+/// are, in the mean and at most.
 #[must_use]
 pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedChart, [f64; CLUES])> {
     let reduced = Reduced::of(photograph);
@@ -107,7 +112,8 @@ pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedCh
     Some((DetectedChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
 }
 
-/// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels are a pixel of.
+/// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels
+/// are a pixel of.
 fn ideal(lens: &Lens, to_picture: &Matrix3<f64>, scale: f64) -> Option<Matrix3<f64>> {
     let pair = |k: usize| {
         let at = seen(to_picture, patch(k)) * scale;

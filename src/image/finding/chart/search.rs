@@ -1,4 +1,5 @@
-//! The chart of a reduced picture: in a picture of half its size first, as noise breaks up the blobs of the whole.
+//! The chart of a reduced picture: in a picture of half its size first, as noise breaks up the blobs of the
+//! whole.
 
 use nalgebra::Matrix3;
 
@@ -15,7 +16,8 @@ const BLUR_PX: f32 = 0.8;
 const SEEN: usize = 16;
 const NEAR: f64 = 0.08;
 
-/// The map of the chart in a reduced picture, or in half of it, and how many pixels of the photograph a pixel there is.
+/// The map of the chart in a reduced picture, or in half of it, and how many pixels of the photograph a pixel
+/// there is.
 pub(super) fn searched(reduced: &Reduced) -> Option<(f64, Matrix3<f64>)> {
     let half = reduced.halved();
     let in_half = search(&half);

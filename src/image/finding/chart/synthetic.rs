@@ -17,8 +17,8 @@ const BORDER: f64 = 0.06;
 /// Points of a pixel, each way.
 const POINTS: usize = 3;
 
-/// The outer corners of a chart in the middle of the picture: turned, leaning back to the right and downwards by these parts, and as wide
-/// as this part of the picture before.
+/// The outer corners of a chart in the middle of the picture: turned, leaning back to the right and downwards
+/// by these parts, and as wide as this part of the picture before.
 pub(super) fn tilted(turn_deg: f64, lean: [f64; 2], width: f64) -> [Point; 4] {
     let (sin, cos) = turn_deg.to_radians().sin_cos();
     [(-0.5, -1.0 / 3.0), (0.5, -1.0 / 3.0), (0.5, 1.0 / 3.0), (-0.5, 1.0 / 3.0)].map(|(x, y)| {
@@ -32,7 +32,8 @@ pub(super) fn tilted(turn_deg: f64, lean: [f64; 2], width: f64) -> [Point; 4] {
     })
 }
 
-/// A photograph of a chart in coloured light by another camera, with noise. `patch` may change the colour of a patch.
+/// A photograph of a chart in coloured light by another camera, with noise. `patch` may change the colour of
+/// a patch.
 pub(super) fn drawn(corners: [Point; 4], patch: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> Photograph {
     drawn_through(Lens::STRAIGHT, corners, patch)
 }

@@ -1,6 +1,7 @@
 //! What a DNG says of a sensor's numbers: how they are laid out, and what they mean.
 //!
-//! Its decoder unpacks them and does no more: it is shown a directory that has their layout alone. All else is taken from the file's own tags.
+//! Its decoder unpacks them and does no more: it is shown a directory that has their layout alone. All else
+//! is taken from the file's own tags.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapters 2, 4 and 5.
@@ -98,7 +99,8 @@ fn number(directory: &Directory, tag: u16) -> Option<usize> {
     directory.number(tag).map(|number| number as usize)
 }
 
-/// The directory of what the sensor saw: no preview, mask, map of depth, or picture that a program made of it.
+/// The directory of what the sensor saw: no preview, mask, map of depth, or picture that a program made of
+/// it.
 fn sensor<'a, 'b>(path: &Path, directories: &'b [Directory<'a>]) -> Result<&'b Directory<'a>> {
     let is = |directory: &Directory, photometric: &[usize]| {
         number(directory, NEW_SUBFILE_TYPE).unwrap_or(0) == 0

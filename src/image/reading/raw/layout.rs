@@ -26,7 +26,8 @@ const SUB_TILE: u16 = 50974;
 const INTERLEAVE: [u16; 2] = [50975, 52547];
 const JXL_DISTANCE: u16 = 52553;
 
-/// Make, model, orientation, directories of EXIF and GPS, version and colours: what the decoder is shown of the first directory.
+/// Make, model, orientation, directories of EXIF and GPS, version and colours: what the decoder is shown of
+/// the first directory.
 const OF_CAMERA: [u16; 10] = [271, 272, 274, 34665, 34853, 50706, 50721, 50722, 50778, 50779];
 
 /// What the decoder is shown in the place of the colours, which are none of its business.
@@ -127,7 +128,8 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Whether its decoder brings interleaved rows and columns to their places. It does so by halves of the numbers, and not with floats.
+    /// Whether its decoder brings interleaved rows and columns to their places. It does so by halves of the
+    /// numbers, and not with floats.
     fn is_deinterleaved(&self) -> bool {
         let Dim2 { w, h } = self.size;
         match self.interleave {
@@ -206,8 +208,8 @@ impl Layout {
 
     /// A directory of the layout, and of what the camera wrote, at the end of the file.
     ///
-    /// Strips that follow one another the decoder takes for one. Compressed ones are shown as tiles, therefore, and of others no more than their
-    /// numbers take.
+    /// Strips that follow one another the decoder takes for one. Compressed ones are shown as tiles,
+    /// therefore, and of others no more than their numbers take.
     pub fn shown(&self, tiff: Tiff, root: &Directory) -> Shown {
         let Self { size, segments, .. } = self;
         let are_tiles = segments.are_tiles || self.compression != UNCOMPRESSED;

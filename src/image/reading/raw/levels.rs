@@ -1,7 +1,7 @@
 //! Black and white levels of a sensor.
 //!
-//! Every site may have a black level of its own. What white is above black is one for all sites of a sample, the white level above the highest
-//! black one, so that equal numbers above black are equal light.
+//! Every site may have a black level of its own. What white is above black is one for all sites of a sample,
+//! the white level above the highest black one, so that equal numbers above black are equal light.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapter 5.
@@ -166,10 +166,11 @@ impl Levels {
         levels.indexed_iter().map(at).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The black level of a sample in the mean over an area's sites that `counts` picks by column and row of the area, and again after
-    /// `side` columns or rows.
+    /// The black level of a sample in the mean over an area's sites that `counts` picks by column and row of
+    /// the area, and again after `side` columns or rows.
     ///
-    /// That of the pattern, of the columns and of the rows are means by themselves, of as few sites as repeat: a photograph has tens of millions.
+    /// That of the pattern, of the columns and of the rows are means by themselves, of as few sites as
+    /// repeat: a photograph has tens of millions.
     pub fn mean_black(
         &self,
         area: Rect,
@@ -204,7 +205,8 @@ fn mean_of(
     sum / count
 }
 
-/// A number for each sample of each site, from one for all, for each sample, for each site, or for each of both.
+/// A number for each sample of each site, from one for all, for each sample, for each site, or for each of
+/// both.
 fn spread(numbers: Vec<f64>, sites: usize, samples: usize, default: f64) -> Option<Vec<f64>> {
     let all = sites.checked_mul(samples).filter(|all| *all <= MAX_LEVELS)?;
     match numbers.len() {

@@ -99,7 +99,8 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
     Ok(decoded)
 }
 
-/// Panics are printed when they happen, also those that are caught: not while a file is decoded, on any thread.
+/// Panics are printed when they happen, also those that are caught: not while a file is decoded, on any
+/// thread.
 fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     static QUIET: AtomicUsize = AtomicUsize::new(0);
     static HOOK: Once = Once::new();

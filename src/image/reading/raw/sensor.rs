@@ -1,7 +1,7 @@
 //! What a sensor saw: light of each site between its black and white level.
 //!
-//! Nothing more is done to it: no white balance, no matrix, no demosaicing. The part of the sensor is the one that the
-//! camera recommends, so that coordinates are those of other programs.
+//! Nothing more is done to it: no white balance, no matrix, no demosaicing. The part of the sensor is the one
+//! that the camera recommends, so that coordinates are those of other programs.
 
 use std::path::Path;
 
@@ -44,8 +44,9 @@ impl Sensor {
     /// The sensor of a decoded file that is no DNG.
     ///
     /// # Errors
-    /// [`Error::Picture`] if its pixels have neither one of the colours red, green and blue, nor all three, nor none, or
-    /// the picture lies outside the sensor; [`Error::Usage`] if the white level is not above the black level.
+    /// [`Error::Picture`] if its pixels have neither one of the colours red, green and blue, nor all three,
+    /// nor none, or the picture lies outside the sensor; [`Error::Usage`] if the white level is not above the
+    /// black level.
     pub fn of_camera(path: &Path, image: RawImage, options: &ReadOptions) -> Result<Self> {
         let refused = |problem| Error::picture(path, problem, CONVERT);
         let area = area(&image).ok_or_else(|| refused("the picture lies outside the sensor"))?;
@@ -115,7 +116,8 @@ impl Sensor {
         }
     }
 
-    /// Linear light of the area by row, column and channel, infinite where it is clipped, NaN where a site saw nothing.
+    /// Linear light of the area by row, column and channel, infinite where it is clipped, NaN where a site
+    /// saw nothing.
     fn light<T: Copy + Into<f64> + Sync>(&self, data: &[T]) -> Array3<f32> {
         let Rect { p: corner, d: size } = self.area;
         let mut light = Array3::zeros((size.h, size.w, self.samples));

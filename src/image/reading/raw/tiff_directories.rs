@@ -1,7 +1,9 @@
-//! The directories of TIFF files, with which most RAW files begin: what they say, and whether a decoder can read them.
+//! The directories of TIFF files, with which most RAW files begin: what they say, and whether a decoder can
+//! read them.
 //!
-//! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than there is gives no error to
-//! catch: the program ends. A decoder that follows directories in a circle never ends.
+//! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than
+//! there is gives no error to catch: the program ends. A decoder that follows directories in a circle never
+//! ends.
 
 use crate::image::reading::tiff::tags::{DIRECTORIES_MAX, ENTRY_BYTES, SUB_DIRECTORIES, value_bytes};
 

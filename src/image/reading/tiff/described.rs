@@ -12,7 +12,8 @@ use super::written::{long, written};
 
 const HEAD_BYTES: u64 = 8;
 
-/// A file of which the first bytes lead to a directory that seems to lie behind its end. No strip or tile reaches there.
+/// A file of which the first bytes lead to a directory that seems to lie behind its end. No strip or tile
+/// reaches there.
 pub(super) struct Described<R> {
     file: R,
     head: [u8; HEAD_BYTES as usize],
@@ -23,8 +24,8 @@ pub(super) struct Described<R> {
 }
 
 impl<R: Read + Seek> Described<R> {
-    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of `chunks`. Tiles are whole: the decoder
-    /// of LZW fails where one is read row by row.
+    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of
+    /// `chunks`. Tiles are whole: the decoder of LZW fails where one is read row by row.
     pub fn new(file: R, length: u64, layout: &Layout, chunks: &[(u64, u64)]) -> Self {
         // its first byte is read after a seek alone, so that a strip cut short ends where the file does
         let end = length + 1;

@@ -49,7 +49,8 @@ pub(super) struct Directory {
     next: u32,
 }
 
-/// The values of a tag; no bytes if they lie beyond the end of the file, or there would be more of all tags together than the file has.
+/// The values of a tag; no bytes if they lie beyond the end of the file, or there would be more of all tags
+/// together than the file has.
 struct Values {
     kind: u16,
     bytes: Vec<u8>,
@@ -165,8 +166,8 @@ impl Directory {
     }
 }
 
-/// The bytes of so many values of a kind, which lie in the entry itself if there is room. `taken` counts those that do not: entries may share
-/// their values, and a small file could claim any number of them.
+/// The bytes of so many values of a kind, which lie in the entry itself if there is room. `taken` counts
+/// those that do not: entries may share their values, and a small file could claim any number of them.
 fn bytes(
     file: &mut (impl Read + Seek),
     (length, taken): (u64, &mut u64),

@@ -1,8 +1,9 @@
 //! TIFF files: which page is meant, how its samples lie, and what it says of them.
 //!
-//! The crate `tiff` decodes strips and tiles whose samples lie side by side. A file that keeps planes apart, or has more samples a pixel
-//! than colours and alpha, is shown to it as one that does neither, by a directory made here; what is wanted is picked from
-//! what comes out. What nobody decodes is refused by its name: only a file that contradicts itself is damaged.
+//! The crate `tiff` decodes strips and tiles whose samples lie side by side. A file that keeps planes apart,
+//! or has more samples a pixel than colours and alpha, is shown to it as one that does neither, by a
+//! directory made here; what is wanted is picked from what comes out. What nobody decodes is refused by its
+//! name: only a file that contradicts itself is damaged.
 
 mod described;
 mod directory;

@@ -27,8 +27,8 @@ impl Pages {
         &self.directories[self.meant]
     }
 
-    /// Whether the first directory is that of a DNG, of a mosaic, or of a preview without its picture behind it: then the picture itself is the
-    /// sensor's, as in NEF and ARW.
+    /// Whether the first directory is that of a DNG, of a mosaic, or of a preview without its picture behind
+    /// it: then the picture itself is the sensor's, as in NEF and ARW.
     pub fn is_raw(&self) -> bool {
         let first = &self.directories[0];
         let is_preview =

@@ -67,8 +67,8 @@ impl<R: BufRead + Seek> Pixels<'_, R> {
         Ok(Decoder::new(described)?.with_limits(limits))
     }
 
-    /// Decodes some of the strips or tiles, and brings each sample of `picked`, by its place among those that lie together, to
-    /// its place in a pixel.
+    /// Decodes some of the strips or tiles, and brings each sample of `picked`, by its place among those that
+    /// lie together, to its place in a pixel.
     fn pick(
         &mut self,
         chunks: &[(u64, u64)],

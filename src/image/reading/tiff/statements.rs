@@ -21,7 +21,8 @@ pub(super) fn statements(page: &Directory) -> Vec<Statement> {
     [profile, curve, colours].into_iter().flatten().collect()
 }
 
-/// The curve of which one table, or one for each of three colours, says where every stored number stands between no light and white.
+/// The curve of which one table, or one for each of three colours, says where every stored number stands
+/// between no light and white.
 fn transfer(page: &Directory) -> Option<Transfer> {
     let tables: Vec<f64> =
         page.numbers(TRANSFER_FUNCTION)?.into_iter().map(|light| light as f64 / 65535.0).collect();

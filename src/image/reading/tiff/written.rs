@@ -2,8 +2,8 @@
 
 use super::tags::{ENTRY_BYTES, LONG, SHORT};
 
-/// A directory that begins at `at`, of entries by tag, type and numbers, and of such as stand in another directory of the file by tag and
-/// bytes; values that do not fit into their entries are behind it.
+/// A directory that begins at `at`, of entries by tag, type and numbers, and of such as stand in another
+/// directory of the file by tag and bytes; values that do not fit into their entries are behind it.
 pub(in crate::image::reading) fn written(
     is_little: bool,
     entries: &[(u16, u16, Vec<u64>)],

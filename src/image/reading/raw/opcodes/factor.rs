@@ -105,7 +105,8 @@ impl GainMap {
         (1.0 - down) * along(above) + down * along(above + 1)
     }
 
-    /// The point of the grid before a pixel's middle, and how far that is behind it; beyond the grid, its edge.
+    /// The point of the grid before a pixel's middle, and how far that is behind it; beyond the grid, its
+    /// edge.
     fn place(&self, axis: usize, pixel: usize) -> (usize, f64) {
         let last = self.gains.shape()[axis] - 1;
         if last == 0 {
@@ -147,8 +148,8 @@ impl Radial {
     }
 }
 
-/// Multiplies an area's light; `top` and `left` are where the light begins, counted as the area is. Of a mosaic each site is of its colour's
-/// plane, if there is one; else of the first.
+/// Multiplies an area's light; `top` and `left` are where the light begins, counted as the area is. Of a
+/// mosaic each site is of its colour's plane, if there is one; else of the first.
 pub(super) fn multiply(
     light: &mut Array3<f32>,
     [top, left]: [usize; 2],

@@ -1,7 +1,8 @@
 //! DNG's lists of what is still to be done to a sensor's numbers.
 //!
-//! What multiplies light, or names pixels that saw none, is done, also where the file leaves it to the reader. Curves are not: such a file is
-//! refused. So is one that insists on anything else; what it leaves to the reader beyond that, such as the distortion of the lens, stays undone.
+//! What multiplies light, or names pixels that saw none, is done, also where the file leaves it to the
+//! reader. Curves are not: such a file is refused. So is one that insists on anything else; what it leaves to
+//! the reader beyond that, such as the distortion of the lens, stays undone.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapter 7.
@@ -42,7 +43,8 @@ const NAMES: [&str; 14] = [
     "WarpRectilinear2",
 ];
 
-/// Those without which numbers are not in proportion to light, so that none is passed over. Of the deltas readers differ about the unit.
+/// Those without which numbers are not in proportion to light, so that none is passed over. Of the deltas
+/// readers differ about the unit.
 const CHANGE_LIGHT: [u32; 8] = [3, 7, 8, 9, 10, 11, 12, 13];
 
 /// A sensor has a map of gains for each colour of its mosaic, sixteen at most, and little more.
@@ -77,7 +79,8 @@ impl Opcodes {
     /// The lists of a sensor's directory; those for light count from its active area's corner.
     ///
     /// # Errors
-    /// [`Error::Picture`] if a list is damaged, or has an opcode that cannot be done and must not be passed over.
+    /// [`Error::Picture`] if a list is damaged, or has an opcode that cannot be done and must not be passed
+    /// over.
     pub fn read(path: &Path, directory: &Directory, active: Rect) -> Result<Self> {
         let mut opcodes = Vec::new();
         for (tag, stage) in LISTS.into_iter().zip(1..) {
@@ -102,7 +105,8 @@ impl Opcodes {
         self.constants.iter().any(|number| same(*number, stored))
     }
 
-    /// Does what is to be done to light, of which the first row and column are those at `corner` of the sensor; the mosaic begins there, too.
+    /// Does what is to be done to light, of which the first row and column are those at `corner` of the
+    /// sensor; the mosaic begins there, too.
     pub fn apply(&self, light: &mut Array3<f32>, corner: Point, mosaic: Option<&Mosaic>) {
         for Opcode { origin, is_demosaiced, does } in &self.list {
             let [top, left] = [corner.y - origin.y, corner.x - origin.x];
