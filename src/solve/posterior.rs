@@ -46,11 +46,8 @@ const LEAST_PROMISE: f64 = 0.01;
 /// steps; with more than two some searches end in another maximum.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
-/// Where even this share of the cost that the linear model foresees at the last noise is too much, less noise
-/// is not tried.
-const FORESEEN: f64 = 0.1;
 /// A step that lowers the cost by less than this share of what it is too high leads nowhere.
-const TOO_LITTLE: f64 = 0.05;
+const TOO_LITTLE: f64 = 0.005;
 /// Columns of a symmetric product that are computed at once.
 const COLUMNS: usize = 32;
 
@@ -198,9 +195,6 @@ pub fn find_mode<M: Model>(
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;
             }
-            if limits.cost.is_finite() && search.foreseen_cost(last) * FORESEEN > limits.cost {
-                break Termination::NoProgress { gradient_norm };
-            }
         } else if gradient_norm <= tolerance {
             break Termination::Converged { gradient_norm };
         }
@@ -287,13 +281,6 @@ impl<M: Model> Search<'_, M> {
 
     fn cost(&self, newton: &GaussNewton) -> f64 {
         cost(newton.weight, &self.w, &self.at.residuals)
-    }
-
-    /// Cost at the minimum of the linear model, the noise being `tempering` times its size; not finite if the
-    /// model is not.
-    fn foreseen_cost(&self, tempering: f64) -> f64 {
-        let newton = self.gauss_newton(tempering.powi(-2));
-        newton.map_or(f64::INFINITY, |newton| self.cost(&newton) - newton.decrement.powi(2))
     }
 
     fn note(&mut self, newton: &GaussNewton) {
