@@ -37,6 +37,7 @@ struct Material {
     name: String,
     angle_deg: f64,
     tilt_deg: f64,
+    #[serde(rename = "reflectance_45_0")]
     reflectance_factor_45_0: [f64; 3],
     eye: [f64; 3],
     rows: [[f64; 3]; 10],
