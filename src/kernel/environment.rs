@@ -265,7 +265,7 @@ struct Along {
 }
 
 /// How many there are, but where columns are fewer.
-const PLACES: usize = 6;
+const PLACES: usize = 10;
 
 impl Along {
     fn of(cols: usize) -> Self {
