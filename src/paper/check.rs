@@ -92,7 +92,7 @@ impl fmt::Display for Law {
 /// use vfold::paper::check::check;
 /// use vfold::paper::{form_factors, midpoint};
 /// let fold = Fold::new(45.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 })?;
-/// let (exact, midpoint) = (exact::form_factors(&fold), midpoint::form_factors(&fold));
+/// let (exact, midpoint) = (form_factors(&fold), midpoint::form_factors(&fold));
 /// assert!(check(&exact, &exact).iter().all(|law| law.holds()));
 /// assert!(!check(&midpoint, &exact).iter().all(|law| law.holds()));
 /// # Ok::<(), vfold::Error>(())

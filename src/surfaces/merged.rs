@@ -18,8 +18,7 @@ const CORNERS_MAX: usize = 6;
 /// # Example
 /// ```
 /// use vfold::geometry::{FacetGrid, Fold};
-/// use vfold::surfaces::Accordion;
-/// use vfold::surfaces::merged::merged;
+/// use vfold::surfaces::{Accordion, merged};
 /// let valley = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 7, cols: 5 })?;
 /// let v = Accordion { valley, creases: 1, ridge_deg: 60.0, bow_deg: 0.0 }.shape()?;
 /// assert_eq!(merged(v.facets()).len(), 2);
