@@ -15,7 +15,6 @@ use crate::error::Result;
 use crate::geometry::{Fold, StandardSky};
 
 use super::bent::{BentExchange, BentFold, Seen};
-use super::quadrature::{Lagrange, Rule};
 
 /// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many
 /// of them (R. Swinbank, R. J. Purser, *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p.
@@ -206,22 +205,19 @@ pub fn facet_radiances<const PARTS: usize>(
     let half = cols.div_ceil(2);
     let panels = &[0, 1].map(|panel| Screen::of(bent, fold, panel));
     let exchanges = [1.0, -1.0].map(|image| (image, BentExchange::of_light(bent, fold, eye, image)));
-    let along = Along::of(cols);
     let direct = |light: &Environment<PARTS>| {
         let mut radiances: [Array2<f64>; PARTS] =
             std::array::from_fn(|_| Array2::zeros((2 * rows * cols, albedos.len())));
         for (row, seen) in exchanges[0].1.rows().iter().enumerate() {
-            for (y, shares) in along.places.iter().zip(&along.shares) {
-                let y = (y - 0.5) * fold.width();
+            for col in 0..cols {
+                let y = ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width();
                 for Seen { share, place, normal } in seen {
                     let (place, normal) =
                         (Vector3::new(place.x, y, place.y), Vector3::new(normal.x, 0.0, normal.y));
                     let direct = light.on_sheet(place, normal, panels);
                     for (radiance, direct) in radiances.iter_mut().zip(direct) {
-                        for (col, of_col) in shares.iter().enumerate() {
-                            for (node, albedo) in albedos.iter().enumerate() {
-                                radiance[(row * cols + col, node)] += of_col * share * albedo * direct;
-                            }
+                        for (node, albedo) in albedos.iter().enumerate() {
+                            radiance[(row * cols + col, node)] += share * albedo * direct;
                         }
                     }
                 }
@@ -254,31 +250,6 @@ pub fn facet_radiances<const PARTS: usize>(
         }
     }
     Ok(radiances)
-}
-
-/// Places along the crease between which direct light is interpolated, as it varies little.
-struct Along {
-    /// As shares of the crease.
-    places: Vec<f64>,
-    /// What each counts in the middle of each column of facets.
-    shares: Vec<Vec<f64>>,
-}
-
-/// How many there are, but where columns are fewer.
-const PLACES: usize = 10;
-
-impl Along {
-    fn of(cols: usize) -> Self {
-        let middles: Vec<f64> = (0..cols).map(|col| (col as f64 + 0.5) / cols as f64).collect();
-        let places = if cols > PLACES {
-            Rule::gauss_legendre(PLACES).on(0.0, 1.0).map(|(place, _)| place).collect()
-        } else {
-            middles.clone()
-        };
-        let mut weights = vec![0.0; places.len() * cols];
-        Lagrange::new(&places).at_all(&middles, &mut weights);
-        Self { shares: weights.chunks_exact(cols).map(<[f64]>::to_vec).collect(), places }
-    }
 }
 
 /// A panel as it hides light from the rest of the sheet.
