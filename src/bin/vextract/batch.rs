@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use vfold::Result;
 use vfold::files::composed;
-use vfold::image::{FileStamp, Photograph};
+use vfold::image::FileStamp;
 use vfold::parallel::{Item, in_order};
 use vfold::stream::{Kept, Output, Sample};
 
 use super::pictures::name;
+use super::reading::Opened;
 use super::sample::Setup;
 
 /// Forgets what an interrupted run measured from the first photograph on that was replaced since; which that
@@ -44,7 +45,7 @@ fn is_of(path: &Path) -> impl Fn(&Sample) -> bool {
 pub fn measure(
     setup: &Setup,
     images: &[PathBuf],
-    first: Result<Photograph>,
+    first: Result<Opened>,
     mut kept: Kept,
     mut done: impl FnMut(Sample) -> Result<()>,
 ) -> Result<()> {
@@ -58,7 +59,7 @@ pub fn measure(
         }
     });
     let measure = |(path, opened): (&PathBuf, Option<_>)| {
-        setup.sample_or_error(path, opened.unwrap_or_else(|| setup.reading.open(path)))
+        setup.sample_or_error(path, opened.unwrap_or_else(|| setup.reading.open_to_measure(path)))
     };
     in_order(steps, rayon::current_num_threads(), measure, |sample| done(sample?))
 }

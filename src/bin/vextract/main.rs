@@ -154,10 +154,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         return chart_camera::save(args, file, &images, first, (&regions, &calibration), flat_field);
     }
     let mut scene = read_scene(&args.scene)?;
-    let first = reading.open(&images[0]);
+    let first = reading.open_to_measure(&images[0]);
+    let seen = first.as_ref().ok().map(|opened| &opened.photograph);
     let mut notes = Vec::new();
-    if let Some(camera) = camera::camera(args.camera.as_deref(), first.as_ref().ok())? {
-        let (resolved, assumed) = light::optics(&args.optics, &images[0], first.as_ref().ok());
+    if let Some(camera) = camera::camera(args.camera.as_deref(), seen)? {
+        let (resolved, assumed) = light::optics(&args.optics, &images[0], seen);
         let mut optics =
             resolved.resolve(&camera.sensitivities(|spec| args.common.camera(spec))?, &args.common)?;
         let stands_in = camera.stands_in.is_some();

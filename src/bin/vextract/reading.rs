@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use vfold::files::sha256;
 use vfold::image::{FlatField, Photograph, PictureFile, ReadOptions, Transfer, is_for_the_eye};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
@@ -44,7 +45,23 @@ pub struct Reading {
     black_level: Option<BlackLevel>,
 }
 
+/// A photograph to be measured, and its file's checksum; none of a pipe, which is another each time.
+pub struct Opened {
+    pub photograph: Photograph,
+    pub sha256: Option<String>,
+}
+
 impl Reading {
+    /// Opens a photograph to be measured. Its checksum is taken beside, as it may take as long as reading.
+    ///
+    /// # Errors
+    /// As [`Reading::open`].
+    pub fn open_to_measure(&self, path: &Path) -> Result<Opened> {
+        let checksum = || path.is_file().then(|| sha256(path)).transpose();
+        let (photograph, sha256) = rayon::join(|| self.open(path), checksum);
+        Ok(Opened { photograph: photograph?, sha256: sha256? })
+    }
+
     /// Opens a photograph.
     ///
     /// # Errors

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use vfold::calibrate::Calibration;
 use vfold::cli;
-use vfold::files::sha256;
 use vfold::geometry::Panel;
 use vfold::image::{
     CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
@@ -19,7 +18,7 @@ use vfold::{Error, Result};
 
 use super::calibration::{ResolvedCalibration, apply};
 use super::pictures::name;
-use super::reading::Reading;
+use super::reading::{Opened, Reading};
 use super::regions::ResolvedRegions;
 use super::{Args, balance, camera, finding, numbers, placing};
 
@@ -39,10 +38,11 @@ pub struct Setup<'a> {
 }
 
 impl Setup<'_> {
-    pub fn sample(&self, path: &Path, photograph: Result<Photograph>) -> Result<Sample> {
+    pub fn sample(&self, path: &Path, opened: Result<Opened>) -> Result<Sample> {
+        let Opened { photograph, sha256 } = opened?;
         let photograph = match &self.flat_field {
-            Some(flat_field) => photograph?.with_flat_field(flat_field.clone(), path)?,
-            None => photograph?,
+            Some(flat_field) => photograph.with_flat_field(flat_field.clone(), path)?,
+            None => photograph,
         };
         self.check_colours(path, &photograph)?;
         let args = self.args;
@@ -89,7 +89,7 @@ impl Setup<'_> {
             sample.set_calibration(record)?;
         }
         let image = ImageRecord::new(path, photograph.info(), &placed.grids, margin, &pixels_sharing_noise)
-            .with_checksum(photograph.info().file.map(|_| sha256(path)).transpose()?)
+            .with_checksum(sha256)
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
             .with_other_fold(other_fold)
@@ -156,8 +156,8 @@ impl Setup<'_> {
     ///
     /// # Errors
     /// If the machine has no files left to open, which is no fault of the photograph's.
-    pub fn sample_or_error(&self, path: &Path, photograph: Result<Photograph>) -> Result<Sample> {
-        self.sample(path, photograph).or_else(|error| {
+    pub fn sample_or_error(&self, path: &Path, opened: Result<Opened>) -> Result<Sample> {
+        self.sample(path, opened).or_else(|error| {
             if error.is_out_of_files() {
                 return Err(error);
             }
