@@ -11,6 +11,7 @@ pub use light::{LightTaken, light_of};
 
 use crate::error::{Error, Result};
 use crate::estimate::Exposure;
+use crate::estimate::emission::Backing;
 use crate::estimate::light::Candidate;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
@@ -51,6 +52,8 @@ pub struct Setup<'a> {
     pub illuminant: Option<&'a str>,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, if it is known.
     pub exposure: Option<f64>,
+    /// What is behind the sheet.
+    pub backing: Backing,
 }
 
 impl Setup<'_> {
@@ -69,6 +72,7 @@ impl Setup<'_> {
             camera: None,
             illuminant: None,
             exposure: None,
+            backing: Backing::Unknown,
         })
     }
 
@@ -97,6 +101,7 @@ impl Setup<'_> {
             response: respond(&self.fold, TOLERANCE)?.0,
             optics: Some(optics),
             is_daylight_assumed: light.is_none(),
+            backing: self.backing,
             card: None,
             tolerance: Some(TOLERANCE),
         })

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use nalgebra::DVector;
 
+use super::fold::backing;
 use super::photograph::eye;
 use super::{FoldSetting, Setting};
 use crate::error::{Error, Result};
@@ -40,13 +41,13 @@ impl Setting<'_> {
                 Self::Surface(_) => return Err(needs_fold()),
             }
         };
-        let optics = match self {
-            Self::Fold(fold) => Cow::Borrowed(fold.optics()?),
-            Self::Surface(surface) => Cow::Owned(surface.scene.optics()?),
+        let (optics, backing) = match self {
+            Self::Fold(fold) => (Cow::Borrowed(fold.optics()?), fold.backing),
+            Self::Surface(surface) => (Cow::Owned(surface.scene.optics()?), backing(surface.scene)?),
         };
         // in several lights a sheet sends out several amounts
         Ok(match optics.illuminants.as_slice() {
-            [one] => model.under(optics.grid.wavelengths_nm(), &one.power),
+            [one] => model.under(optics.grid.wavelengths_nm(), &one.power, backing),
             _ => model,
         })
     }

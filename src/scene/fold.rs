@@ -5,6 +5,7 @@ use super::camera::{illuminant_responses, sky_response};
 use super::stated_light::{StatedLight, StatedSky};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
+use crate::estimate::emission::Backing;
 use crate::forward::{Card, FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::mesh::{Mesh, respond};
@@ -33,11 +34,18 @@ pub struct FoldSetting {
     pub optics: Option<Optics>,
     /// Whether the illuminant is daylight that was assumed, as nobody stated it.
     pub is_daylight_assumed: bool,
+    /// What is behind the sheet.
+    pub backing: Backing,
     /// The card that a panel is, if it is one.
     pub card: Option<Card>,
     /// Relative error to which folds of other angles are solved; none if they are to be divided as this one
     /// is.
     pub tolerance: Option<f64>,
+}
+
+/// What is behind a scene's sheet.
+pub(super) fn backing(scene: &Scene) -> Result<Backing> {
+    Ok(if scene.is_backed()? { Backing::Black } else { Backing::Unknown })
 }
 
 impl FoldSetting {
@@ -67,6 +75,7 @@ impl FoldSetting {
             response,
             optics: if is_lit { Some(scene.optics()?) } else { None },
             is_daylight_assumed: scene.is_daylight_assumed()?,
+            backing: backing(scene)?,
             card: if is_lit && !scene.has_sources() { card(scene)? } else { None },
             tolerance: if is_fine { Some(scene.tolerance()?) } else { None },
             fold,

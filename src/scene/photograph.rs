@@ -161,6 +161,7 @@ impl<'a> PhotographedFold<'a> {
             }),
             sun: light.sun(),
             has_sky_illuminant: optics.sky.is_some(),
+            backing: self.setting.backing,
             day: Day::Clear,
             shown: None,
         };

@@ -36,4 +36,20 @@ impl Scene {
     pub fn id(&self) -> Result<String> {
         self.fields.require("id", BY_VKERNEL)
     }
+
+    /// Marks the sheet as one that is backed by black card or its like.
+    ///
+    /// # Errors
+    /// As [`Fields::set`].
+    pub fn set_backed(&mut self) -> Result<()> {
+        self.fields.set("backed", true)
+    }
+
+    /// Whether the sheet is backed, so that no light comes through it from behind.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if that is neither true nor false.
+    pub fn is_backed(&self) -> Result<bool> {
+        Ok(self.fields.get("backed")?.unwrap_or(false))
+    }
 }

@@ -91,6 +91,10 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     reference_panel: Option<ReferencePanel>,
+    /// Whether the sheet is backed by black card or its like, so that no light comes through it from behind.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vestimate"))]
+    backed: Option<bool>,
     /// Groups of facets, of a surface that is not a fold, whose reflectance is known; all others are the
     /// sheet.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -248,3 +248,47 @@ fn what_visible_light_excites_is_named_and_never_good() {
     }
     assert!(named >= 6, "{named} of 8");
 }
+
+/// A thin sheet before a bright table: light from behind comes through it, in proportion to the square of its
+/// reflectance.
+const THIN: &str = "
+python3 - <<'END'
+from math import exp
+with open('r.csv', 'w') as r, open('f.csv', 'w') as f:
+    r.write('nm,r\\n')
+    f.write('nm,f\\n')
+    for nm in range(400, 705, 5):
+        reflectance = 0.62 - 0.25 * exp(-((nm - 470) / 60) ** 2 / 2)
+        r.write(f'{nm},{reflectance!r}\\n')
+        f.write(f'{nm},{0.12 * reflectance ** 2!r}\\n')
+END
+vkernel --angle-deg 45 >scene.json
+for flags in '--fluorescence f.csv' ''; do
+    vforward scene.json -q --reflectance r.csv $flags --illuminant D65 --camera canon-5d-mark-ii --noise-sd 1e-3 >sheet$((${n:=0})).ndjson
+    n=$((n + 1))
+done
+";
+
+#[test]
+fn light_comes_through_a_sheet_unless_it_is_backed() {
+    let folder = Workdir::new();
+    let run = folder.sh(THIN);
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    let off = |record: &Value| {
+        rmse(&record["estimate"], "reflectance", &numbers(&record["truth"]["reflectance"]))
+    };
+    let because = |record: &Value| record["estimate"]["verdict"]["because"].as_str().unwrap().to_owned();
+    let [open, backed] =
+        ["", "--backed"].map(|flag| estimated(&folder, "sheet0.ndjson", &format!("--exposure 1 {flag}")));
+    assert!(because(&open).contains("light from behind comes through the sheet"), "{}", because(&open));
+    assert!(!because(&backed).contains("from behind"), "{}", because(&backed));
+    assert!(off(&open) < 0.8 * off(&backed), "{} {}", off(&open), off(&backed));
+    // what nothing comes through is the same either way, and the scene says what it was taken to be
+    let [open, backed] =
+        ["", "--backed"].map(|flag| estimated(&folder, "sheet1.ndjson", &format!("--exposure 1 {flag}")));
+    assert!(because(&open).starts_with("facets within") && because(&open) == because(&backed));
+    let run = folder.sh("vestimate -q --exposure 1 --backed sheet0.ndjson | vestimate -q --exposure 1");
+    let [scene, record] = [0, 1].map(|n| run.stdout.lines().nth(n).unwrap());
+    assert_eq!(serde_json::from_str::<Value>(scene).unwrap()["backed"], true);
+    assert!(!record.contains("from behind"), "the scene says that it is backed");
+}

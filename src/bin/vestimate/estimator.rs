@@ -125,6 +125,9 @@ impl Transform for Estimator<'_> {
             let reflectance = card.on(&grid, Outside::Refuse)?;
             scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
+        if self.asked.args.backed {
+            scene.set_backed()?;
+        }
         let materials = self.asked.args.materials.on(&grid, &self.asked.args.common)?;
         if !materials.is_empty() {
             scene.set_materials(&materials)?;

@@ -81,6 +81,9 @@ struct Args {
     /// exposure
     #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec, conflicts_with_all = ["join", "plan"])]
     known_fold: Option<(String, String)>,
+    /// The sheet is backed by black card or its like: no light comes through it from behind
+    #[arg(long)]
+    backed: bool,
     /// Panel 1 is a card of this reflectance [default: the scene's]
     #[arg(long, value_name = "SPEC")]
     reference_panel: Option<String>,

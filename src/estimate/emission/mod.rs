@@ -124,7 +124,27 @@ const THROUGH: Band = Band {
 };
 
 static BANDS: [Band; 9] =
-    [BRIGHTENER, THROUGH, dye(480.0), dye(505.0), dye(530.0), dye(555.0), dye(580.0), dye(605.0), dye(630.0)];
+    [THROUGH, BRIGHTENER, dye(480.0), dye(505.0), dye(530.0), dye(555.0), dye(580.0), dye(605.0), dye(630.0)];
+
+/// What is behind a sheet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backing {
+    /// Nobody said: perhaps light, if the sheet is thin.
+    #[default]
+    Unknown,
+    /// A black card or its like, which sends no light through the sheet.
+    Black,
+}
+
+impl Backing {
+    /// Bands that a sheet before it may have.
+    fn bands(self) -> &'static [Band] {
+        match self {
+            Self::Unknown => &BANDS,
+            Self::Black => &BANDS[1..],
+        }
+    }
+}
 
 /// Where a brightener begins to take in light (Siegrist et al.), and how much further the fall of logits is
 /// its amount: at 400 nm.
@@ -140,6 +160,8 @@ const LEAST_POWER: f64 = 0.02;
 pub struct Emission {
     /// What is known of it; none of a sheet that sends out nothing.
     band: Option<&'static Band>,
+    /// What else sheets have.
+    all: &'static [Band],
     wavelengths_nm: DVector<f64>,
     /// Power of the light at the usual peak over that in every waveband.
     by_light: DVector<f64>,
@@ -152,7 +174,7 @@ pub struct Emission {
 const SKEW: f64 = 0.3;
 
 /// Number of unknowns of a band, and the place of the fall among them.
-const UNKNOWNS: usize = 4;
+pub(super) const UNKNOWNS: usize = 4;
 const FALL: usize = 3;
 
 /// Logarithm of the shape of a band, 1 at its peak, with its first and second derivative, `u` being
@@ -184,18 +206,29 @@ pub struct Sent {
 impl Emission {
     /// All bands that a sheet may have in light of this relative `power`, the sheet without a band first.
     #[must_use]
-    pub fn all(wavelengths_nm: &[f64], power: &[f64]) -> Vec<Self> {
-        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, band);
-        iter::once(None).chain(BANDS.iter().map(Some)).map(of).collect()
+    pub fn all(wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Vec<Self> {
+        let all = backing.bands();
+        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, (band, all));
+        iter::once(None).chain(all.iter().map(Some)).map(of).collect()
     }
 
-    fn on(wavelengths_nm: &[f64], power: &[f64], band: Option<&'static Band>) -> Self {
+    fn on(
+        wavelengths_nm: &[f64],
+        power: &[f64],
+        (band, all): (Option<&'static Band>, &'static [Band]),
+    ) -> Self {
         let wavelengths_nm = DVector::from_column_slice(wavelengths_nm);
         let power = DVector::from_column_slice(power);
         let power = power.map(|own| own.max(LEAST_POWER * power.mean()));
         let falling = wavelengths_nm.map(|nm| -(FALL_NM - nm).max(0.0) / FALL_WITHIN_NM);
-        let mut own =
-            Self { band, wavelengths_nm, by_light: power.map(f64::recip), falling, usual: DVector::zeros(0) };
+        let mut own = Self {
+            band,
+            all,
+            wavelengths_nm,
+            by_light: power.map(f64::recip),
+            falling,
+            usual: DVector::zeros(0),
+        };
         if let Some(Band { origin: Origin::Behind, .. }) = band {
             own.by_light.fill(1.0);
         } else if let Some(band) = band {
@@ -243,7 +276,7 @@ impl Emission {
         };
         match self.band {
             Some(band) => share(band).ln(),
-            None => (1.0 - BANDS.iter().map(share).sum::<f64>()).ln(),
+            None => (1.0 - self.all.iter().map(share).sum::<f64>()).ln(),
         }
     }
 
@@ -367,7 +400,7 @@ mod tests {
     fn what_is_sent_out_has_its_derivatives() {
         let power: Vec<f64> = grid().iter().map(|nm| 1.0 + 0.3 * (nm / 40.0).sin()).collect();
         let weights = DVector::from_fn(41, |n, _| (n as f64).cos());
-        for emission in &Emission::all(&grid(), &power)[1..] {
+        for emission in &Emission::all(&grid(), &power, Backing::Unknown)[1..] {
             let w = [0.3, -0.8, 0.5, 0.1];
             let sent = emission.at(&w);
             let moved = |k: usize, by: f64| {
@@ -390,7 +423,7 @@ mod tests {
     fn where_a_lamp_is_dark_is_no_peak() {
         // dark at 470 nm
         let power: Vec<f64> = (0..41).map(|n| if n == 9 { 0.1 } else { 1.0 }).collect();
-        let all = Emission::all(&grid(), &power);
+        let all = Emission::all(&grid(), &power, Backing::Black);
         let brightened = all[1].usual();
         assert!((brightened.imax(), all[0].peak(brightened.as_slice())) == (9, 6), "470 nm, 440 nm");
     }
@@ -398,11 +431,11 @@ mod tests {
     #[test]
     fn white_sheets_are_often_brightened_and_deep_ones_hardly() {
         let prior = Prior::built_in(&grid()).unwrap();
-        let all = Emission::all(&grid(), &[1.0; 41]);
+        let all = Emission::all(&grid(), &[1.0; 41], Backing::Black);
         for (n, class) in prior.classes().iter().enumerate() {
             let [plain, brightened] = [0, 1].map(|of| all[of].ln_share(class.mean()).exp());
             let at_430 = logistic(class.mean()[5]);
-            assert!((plain + brightened - 0.93).abs() < 1e-9);
+            assert!((plain + brightened - 0.98).abs() < 1e-9);
             assert!(if at_430 > 0.7 { brightened > 0.25 } else { brightened < 0.3 }, "{n}");
             assert!(at_430 > 0.15 || brightened < 0.02, "{n}: {brightened}");
         }

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::day::Day;
 use super::priors::Priors;
+use crate::estimate::emission::Backing;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::daylight_weights;
 
@@ -96,6 +97,8 @@ pub struct StatedScene {
     pub sun: f64,
     /// Whether the sky's colour is given.
     pub has_sky_illuminant: bool,
+    /// What is behind the sheet.
+    pub backing: Backing,
     /// The kind of day that it is taken to have been.
     pub day: Day,
     /// What a known sheet showed of the daylight, if one did.

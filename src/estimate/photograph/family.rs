@@ -9,7 +9,7 @@ use super::parts::Parts;
 use super::priors::Priors;
 use super::whitened::Photograph;
 use crate::estimate::Fitted;
-use crate::estimate::emission::Fall;
+use crate::estimate::emission::{Fall, UNKNOWNS};
 use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::LocalMode;
@@ -225,8 +225,13 @@ fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> D
     let bands = point.albedo.len();
     let mut slopes = DMatrix::zeros(3 * bands, unknowns);
     if let Some((_, by_number)) = first.model.fraction_sent(w) {
-        for (n, column) in by_number.column_iter().enumerate() {
-            slopes.view_mut((2 * bands, first.place(emission + n)), (bands, 1)).copy_from(&column);
+        let mut sent = slopes.rows_mut(2 * bands, bands);
+        for (n, column) in by_number.columns(0, UNKNOWNS).column_iter().enumerate() {
+            sent.set_column(first.place(emission + n), &column);
+        }
+        for n in 0..scene {
+            let by_spectrum = by_number.column(UNKNOWNS).component_mul(&basis.column(n));
+            sent.set_column(first.place(n), &by_spectrum);
         }
     }
     if let Some(Fall { place, sd, falling, .. }) = first.model.fall(w) {

@@ -20,7 +20,7 @@ use super::prediction::{Predicted, Predictor, Terms};
 use super::sheet_models::{SheetModel, SheetModels};
 use super::sheets::Departure;
 use super::sums::{add_product, columns};
-use crate::estimate::emission::{Emission, Fall, Sent};
+use crate::estimate::emission::{Emission, Fall, Sent, UNKNOWNS};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Known;
@@ -155,13 +155,14 @@ impl<'a> PhotographModel<'a> {
     }
 
     /// Terms for an albedo, and what the sheet sends out itself: it looks as one without does in light that
-    /// is (1 + f / albedo) times as strong.
+    /// is (1 + f / albedo) times as strong, f being a fraction of white or, of light from behind, in
+    /// proportion to the albedo's square.
     fn terms(&self, w: &DVector<f64>, albedo: &[f64]) -> Terms {
         let mut terms = self.reflected_terms(albedo);
-        if let Some(sent) = self.sent(w) {
+        if let Some((sent, power)) = self.sent(w) {
             let Terms { values, slopes } = &mut terms;
             for (n, (albedo, f)) in albedo.iter().zip(&sent.fraction).enumerate() {
-                let (of_light, slope) = of_albedo(*albedo, *f);
+                let (of_light, slope) = of_albedo(*albedo, *f, power);
                 let change = slope * values.column(n);
                 slopes.column_mut(n).scale_mut(of_light);
                 slopes.column_mut(n).add_assign(&change);
@@ -171,9 +172,10 @@ impl<'a> PhotographModel<'a> {
         terms
     }
 
-    /// What the sheet sends out itself at `w`; none if nothing.
-    fn sent(&self, w: &DVector<f64>) -> Option<Sent> {
-        Some(self.emission?.at(self.of_emission(w)))
+    /// What the sheet sends out itself at `w`, and the power of the albedo that it goes with; none if nothing.
+    fn sent(&self, w: &DVector<f64>) -> Option<(Sent, i32)> {
+        let emission = self.emission?;
+        Some((emission.at(self.of_emission(w)), emission.power_of_reflectance()))
     }
 
     /// The numbers of what the sheet sends out itself.
@@ -182,11 +184,19 @@ impl<'a> PhotographModel<'a> {
         &w.as_slice()[emission..end]
     }
 
-    /// The fraction of white that the sheet sends out at `w`, and how it moves with the numbers of that:
-    /// waveband by number. None if nothing.
+    /// The fraction of white that the sheet sends out at `w` in every waveband, and its derivatives by the
+    /// numbers of what is sent out, then by the logit of the albedo: waveband by number. None if nothing.
     #[must_use]
     pub fn fraction_sent(&self, w: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let Sent { fraction, slopes, .. } = self.sent(w)?;
+        let (Sent { mut fraction, slopes, .. }, power) = self.sent(w)?;
+        let mut slopes = slopes.insert_column(UNKNOWNS, 0.0);
+        for (band, z) in self.logit(w).iter().enumerate() {
+            let albedo = logistic(*z);
+            let of_albedo = albedo.powi(power);
+            fraction[band] *= of_albedo;
+            slopes.row_mut(band).scale_mut(of_albedo);
+            slopes[(band, UNKNOWNS)] = f64::from(power) * (1.0 - albedo) * fraction[band];
+        }
         Some((fraction, slopes))
     }
 
@@ -204,7 +214,7 @@ impl<'a> PhotographModel<'a> {
         albedo: &[f64],
         terms: &Terms,
     ) -> Option<Vec<DMatrix<f64>>> {
-        let sent = self.sent(w)?;
+        let (sent, power) = self.sent(w)?;
         let reflected = self.reflected_terms(albedo).values;
         let fall = self.fall(w);
         let by = |(k, slopes): (usize, nalgebra::DVectorView<f64>)| match &fall {
@@ -215,7 +225,7 @@ impl<'a> PhotographModel<'a> {
                 })
             }
             _ => DMatrix::from_fn(reflected.nrows(), albedo.len(), |node, n| {
-                reflected[(node, n)] * slopes[n] / albedo[n].max(DARKEST)
+                reflected[(node, n)] * slopes[n] * albedo[n].max(DARKEST).powi(power - 1)
             }),
         };
         Some(sent.slopes.column_iter().enumerate().map(by).collect())
@@ -448,11 +458,12 @@ fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
     DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
 }
 
-/// How many times as strong light looks to a sheet of an albedo that sends out a fraction f of white itself,
-/// and the derivative by albedo.
-fn of_albedo(albedo: f64, f: f64) -> (f64, f64) {
-    let from = albedo.max(DARKEST);
-    (1.0 + f / from, if albedo > DARKEST { -f / (from * from) } else { 0.0 })
+/// How many times as strong light looks to a sheet of an albedo that sends out itself a fraction f of white
+/// times a power of that, and the derivative by albedo.
+fn of_albedo(albedo: f64, f: f64, power: i32) -> (f64, f64) {
+    let (from, power) = (albedo.max(DARKEST), power - 1);
+    let slope = f64::from(power) * f * from.powi(power - 1);
+    (1.0 + f * from.powi(power), if albedo > DARKEST { slope } else { 0.0 })
 }
 
 /// Values in the order of residuals, channel by channel.

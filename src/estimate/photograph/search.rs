@@ -81,7 +81,7 @@ fn under(
     let stated = &family.0.first()?.parts.stated;
     let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&family.0));
     if let [only] = family.0.as_slice() {
-        add_fluorescing(&mut search, (&family, only), &mut sorted);
+        add_emitting(&mut search, (&family, only), &mut sorted);
     }
     // no light bounces between panels that are no fold
     let without_bounces = probability(&sorted, |one| !one.has_bounces());
@@ -203,34 +203,47 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds a fold of a sheet that is brightened, if that may be so: whichever real one has most evidence. The
-/// others then are of a sheet that is known to send out nothing. Of ideal folds nothing is asked, as the
-/// rounding of a JPEG looks like light that is sent out, nor of dyes that visible light excites: what real
-/// sheets do beyond all kinds that are known looks like them.
-fn add_fluorescing(
+/// Adds folds of a sheet that is brightened, and of a thin one where the exposure is known, which else takes up
+/// what comes from behind, if that may be so: of whichever real one has most evidence. The others then are of a
+/// sheet that is known to send out nothing. Of ideal folds nothing is asked, as the rounding of a JPEG looks
+/// like light that is sent out, nor of dyes that visible light excites: what real sheets do beyond all kinds
+/// that are known looks like them.
+fn add_emitting(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
     all: &mut Vec<Tried>,
 ) -> Option<()> {
     let is_asked = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
     let best = all.iter().find(is_asked)?;
-    let (w, ln_best) = (best.solution.w.clone(), best.ln_weight());
-    let place = photograph.emissions().iter().position(|one| one.origin() == Some(Origin::Ultraviolet))?;
-    let brightened = Hypothesis { emission: Some(place), ..best.hypothesis };
-    let model = family.model(brightened, search.broad())?;
-    let start = w.clone().resize_vertically(model.unknowns(), 0.0);
-    let change = &best.solution.at.residuals - model.residuals(&start);
-    drop(model);
+    let (of_best, w, ln_best, ln_share) =
+        (best.hypothesis, best.solution.w.clone(), best.ln_weight(), best.ln_share);
+    let test = search.score_test(best)?;
+    let residuals = best.solution.at.residuals.clone();
     let broad = search.broad();
     let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
-    if !is_hopeful(&search.score_test(best)?, &change, &photograph.emissions()[place], &logit) {
+    let is_exposure_known = photograph.parts.stated.exposure.is_some();
+    let mut found = Vec::new();
+    for (place, emission) in photograph.emissions().iter().enumerate() {
+        match emission.origin() {
+            Some(Origin::Ultraviolet) => {}
+            Some(Origin::Behind) if is_exposure_known => {}
+            Some(Origin::Behind | Origin::Visible) | None => continue,
+        }
+        let hypothesis = Hypothesis { emission: Some(place), ..of_best };
+        let model = family.model(hypothesis, search.broad())?;
+        let start = w.clone().resize_vertically(model.unknowns(), 0.0);
+        let change = &residuals - model.residuals(&start);
+        drop(model);
+        if is_hopeful(&test, &change, emission, &logit) {
+            found.extend(search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS));
+        }
+    }
+    if found.is_empty() {
         return None;
     }
-    let ln_share = best.ln_share;
-    let found = search.sort((brightened, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS)?;
     let folds = all.iter_mut().filter(|one| one.hypothesis.has_bounces());
     folds.for_each(|one| one.hypothesis.emission = Some(0));
-    all.push(found);
+    all.append(&mut found);
     all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     Some(())
 }

@@ -64,8 +64,8 @@ impl<'a> Photograph<'a> {
 
     /// What its sheet may send out itself in the light that was stated, nothing first.
     pub fn emissions(&self) -> &[Emission] {
-        let eye = &self.parts.eye;
-        self.emissions.get_or_init(|| Emission::all(&eye.wavelengths_nm, eye.sun.as_slice()))
+        let Parts { eye, stated, .. } = self.parts;
+        self.emissions.get_or_init(|| Emission::all(&eye.wavelengths_nm, eye.sun.as_slice(), stated.backing))
     }
 
     /// What makes residuals standard normal; none if facets are not finite.

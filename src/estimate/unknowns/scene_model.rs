@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::factor::Jet;
 use super::{Factor, Normal, Unknown};
 use crate::camera::CameraResponse;
-use crate::estimate::emission::Emission;
+use crate::estimate::emission::{Backing, Emission};
 use crate::forward::FacetModel;
 
 /// An unknown of a scene, and what is known of it before a picture is taken.
@@ -74,10 +74,11 @@ impl SceneModel {
         Self { facets, unknowns, factors, emissions: Arc::default() }
     }
 
-    /// The same scene, in which the sheet may fluoresce under light of this relative power.
+    /// The same scene, in which the sheet, backed so, may send out light itself under light of this relative
+    /// power.
     #[must_use]
-    pub fn under(self, wavelengths_nm: &[f64], power: &[f64]) -> Self {
-        Self { emissions: Emission::all(wavelengths_nm, power).into(), ..self }
+    pub fn under(self, wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Self {
+        Self { emissions: Emission::all(wavelengths_nm, power, backing).into(), ..self }
     }
 
     /// What the sheet may send out itself, nothing first; empty where that is not asked.
