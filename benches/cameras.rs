@@ -28,7 +28,8 @@ fn main() -> Result<()> {
         Some(sensitivity_error(curves(name)?, curves(&nearest.name())?))
     };
     println!(
-        "| camera left out | predicted | by computed matrix | nearest matrix | by maker | error | by neither | error | mean of all |"
+        "| camera left out | predicted | by computed matrix | nearest matrix | by maker | error | \
+         by neither | error | mean of all |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut columns: [Vec<f64>; 6] = Default::default();
@@ -47,7 +48,8 @@ fn main() -> Result<()> {
         let [predicted, by_computed, by_nearest, ..] =
             errors.map(|error| error.map_or_else(String::new, |error| format!("{error:.4}")));
         println!(
-            "| {camera} | {predicted} | {by_computed} | {by_nearest} | {} | {of_maker:.4} | {} | {of_any:.4} | {mean_error:.4} |",
+            "| {camera} | {predicted} | {by_computed} | {by_nearest} | {} | {of_maker:.4} | {} | \
+             {of_any:.4} | {mean_error:.4} |",
             maker.name, any.name
         );
     }

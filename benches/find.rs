@@ -31,5 +31,8 @@ fn chart(path: &str, photograph: &Photograph) -> Value {
 }
 
 fn record(fold: &WeighedFold) -> Value {
-    json!({ "panels": fold.panels.map(|panel| panel.map(|corner| [corner.x, corner.y])), "weighed": fold.weighed })
+    json!({
+        "panels": fold.panels.map(|panel| panel.map(|corner| [corner.x, corner.y])),
+        "weighed": fold.weighed,
+    })
 }

@@ -186,17 +186,21 @@ def main():
             print(f"wrong at {p:.3f}: {pick[3]} {pick[2]}, off by {pick[4]:.3f}", file=sys.stderr)
     base, trees = fit(tried)
     number = lambda x: "f64::INFINITY" if np.isinf(x) else repr(float(f"{x:.5g}"))
-    print("//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be edited.")
+    print("//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be\n//! edited.")
     print("\n#![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted\n")
     print("use super::features::FEATURES;\nuse super::tree::Tree;\n")
-    print(f"/// Weights of the features of a hypothesis.\n#[rustfmt::skip]\npub(super) const RANK: [f64; FEATURES] = [{', '.join(map(number, rank))}];")
+    print("/// Weights of the features of a hypothesis.\n#[rustfmt::skip]\npub(super) const RANK: [f64; FEATURES] = [")
+    for n in range(0, len(rank), 10):
+        print(f"    {', '.join(map(number, rank[n:n + 10]))},")
+    print("];")
     print(f"/// The score of \"no fold\".\npub(super) const NO_FOLD: f64 = {number(no_fold)};")
     print(f"/// What is said before any tree, and how sums are made log odds.\npub(super) const BASE: f64 = {number(base)};")
     print(f"pub(super) const SLOPE: f64 = {number(slope)};\npub(super) const OFFSET: f64 = {number(offset)};")
     print(f"#[rustfmt::skip]\npub(super) static TREES: [Tree; {len(trees)}] = [")
     for questions, answers in trees:
-        asked = ", ".join(f"({clue}, {number(bound)})" for clue, bound in questions)
-        print(f"    Tree {{ questions: [{asked}], answers: [{', '.join(map(number, answers))}] }},")
+        asked = [f"({clue}, {number(bound)})" for clue, bound in questions]
+        print(f"    Tree {{ questions: [{', '.join(asked[:3])},\n        {', '.join(asked[3:])}],")
+        print(f"        answers: [{', '.join(map(number, answers))}] }},")
     print("];")
 
 

@@ -163,8 +163,9 @@ fn photograph(page: &mut String, work: &Path) {
 fn real_sheet(page: &mut String, work: &Path) {
     const PHOTOGRAPHS: usize = 20;
     let path = work.join("sheets.ndjson");
-    let script = "vkernel --angle-deg 50 | vextract -q tests/data/photos/a_ideal_magenta_50.exr --camera sigma-sd-merrill \
-        --illuminant D65 --panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446' >\"$path\"";
+    let script = "vkernel --angle-deg 50 | vextract -q tests/data/photos/a_ideal_magenta_50.exr \
+        --camera sigma-sd-merrill --illuminant D65 --panel0 '332,462 345,77 122,12 104,442' \
+        --panel1 '332,462 345,77 485,17 472,446' >\"$path\"";
     assert!(shell(script).env("path", &path).status().unwrap().success());
     let text = fs::read_to_string(&path).unwrap();
     let (scene, sample) = text.split_once('\n').unwrap();

@@ -98,7 +98,8 @@ impl CameraResponse {
             Ok(other)
         } else {
             Err(Error::Numeric(
-                "the camera's strongest channel sees nothing of another light; check --illuminant and --sky-illuminant"
+                "the camera's strongest channel sees nothing of another light; \
+                 check --illuminant and --sky-illuminant"
                     .to_owned(),
             ))
         }

@@ -299,8 +299,8 @@ pub fn light(text: &str) -> std::result::Result<String, String> {
             let black_body = if (1000.0..=25000.0).contains(&value) { number } else { "2856" };
             let daylight = if (4000.0..=25000.0).contains(&value) { number } else { "5500" };
             Err(format!(
-                "a number may be a temperature ({black_body}K, a black body; daylight:{daylight}, daylight) or a flat spectrum (E, or 1): \
-                 write which"
+                "a number may be a temperature ({black_body}K, a black body; daylight:{daylight}, daylight) \
+                 or a flat spectrum (E, or 1): write which"
             ))
         }
         _ => Ok(text.to_owned()),

@@ -38,8 +38,8 @@
 //! measure              -> scene, stream, estimate, forward, kernel, geometry, camera, spectrum, image
 //! scene                -> stream, surfaces, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot
-//! stream               -> paper, surfaces, estimate, forward, kernel, response, solve, geometry, spectrum, image
-//! stream               -> calibrate, score, plot, colorimetry, progress, parallel, files, room
+//! stream               -> paper, surfaces, estimate, forward, kernel, response, solve, geometry, spectrum
+//! stream               -> image, calibrate, score, plot, colorimetry, progress, parallel, files, room
 //! paper                -> surfaces, estimate, forward, kernel, response, solve, geometry, camera, room
 //! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
 //! surfaces             -> forward, kernel, response, solve, geometry, camera, image

@@ -9,7 +9,10 @@ use crate::error::cut;
 ///
 /// # Example
 /// ```
-/// assert_eq!(vfold::message::one_line("column 'a\tb\x1b[31m' is no number"), "column 'a\\tb\\u{1b}[31m' is no number");
+/// assert_eq!(
+///     vfold::message::one_line("column 'a\tb\x1b[31m' is no number"),
+///     "column 'a\\tb\\u{1b}[31m' is no number"
+/// );
 /// assert_eq!(vfold::message::one_line(&"x".repeat(9999)).chars().count(), 2001);
 /// ```
 #[must_use]

@@ -31,7 +31,8 @@ pub fn compare(ours: &[Row], theirs: &[Row]) {
     };
     for row in theirs {
         println!(
-            "exact ({:.3} ms, entry error {:.1e}) is {:.0} times faster than pyviewfactor ({}: {:.0} ms, {:.1e}) at {:.1e} times less error",
+            "exact ({:.3} ms, entry error {:.1e}) is {:.0} times faster than pyviewfactor ({}: \
+             {:.0} ms, {:.1e}) at {:.1e} times less error",
             exact.kernel_ms,
             exact.entry_error,
             row.kernel_ms / exact.kernel_ms,

@@ -43,7 +43,8 @@ pub fn measure(sets: &[&str]) {
 fn photograph(set: &str, noise: &str, flags: &str, believed: &str) -> Batch {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("samples.ndjson");
-    let script = "photo() { vkernel $1 | vforward --reflectance \"$set\" --camera canon-5d-mark-ii --noise-sd $noise $2; }
+    let script = "photo() { vkernel $1 | vforward --reflectance \"$set\" --camera canon-5d-mark-ii \
+        --noise-sd $noise $2; }
         { photo \"$flags\" \"$believed\" | head -n 1; photo \"$flags\" '' | tail -n +2; } >\"$path\"";
     let variables = [("set", set), ("noise", noise), ("flags", flags), ("believed", believed)];
     let made = shell(script).envs(variables).env("path", &path).status();

@@ -59,7 +59,8 @@ fn main() {
     common::on_one_thread();
     let rows = [factors::rows(), bounces::rows(), wavebands::rows(), products::rows()].concat();
     let mut page = format!("# What is skipped\n\n{}; 45°, milliseconds.\n\n", machine());
-    page += "| skipped | without | with | without, ms | with, ms | ratio | difference |\n|---|---|---|---|---|---|---|\n";
+    page += "| skipped | without | with | without, ms | with, ms | ratio | difference |\n\
+             |---|---|---|---|---|---|---|\n";
     rows.iter().for_each(|row| writeln!(page, "{row}").unwrap());
     write!(page, "\n{}", products::break_even()).unwrap();
     print!("{page}");

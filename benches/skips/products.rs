@@ -32,7 +32,8 @@ fn by_fft(n: usize) -> String {
 /// The table of times by the number of facets.
 pub fn break_even() -> String {
     let mut page = String::from("Products by FFT, by the facets along a side, microseconds:\n\n");
-    page += "| facets | by entries | by FFT | transforming the kernel | 13 products by entries / by FFT |\n|---|---|---|---|---|\n";
+    page += "| facets | by entries | by FFT | transforming the kernel | 13 products by entries / by FFT |\n\
+             |---|---|---|---|---|\n";
     for n in SIDES {
         let (kernel, x) = (form_factors(&fold(ANGLE_DEG, n)), exitance(n));
         let (entries, _) = timed(|| direct(&kernel, &x));

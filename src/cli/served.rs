@@ -59,7 +59,8 @@ pub enum Reply<T> {
 ///     write!(stream, "POST /{folder}done HTTP/1.1\r\nHost: {host}\r\nContent-Length: 2\r\n\r\n42").unwrap();
 ///     thread::spawn(move || stream.read_to_string(&mut String::new()));
 /// };
-/// let reply = |_: &str, text: &str| text.parse().map_or(Reply::Refused("a number!".to_owned()), Reply::Answered);
+/// let reply =
+///     |_: &str, text: &str| text.parse().map_or(Reply::Refused("a number!".to_owned()), Reply::Answered);
 /// let answer: u8 = ask_on_page(&[page], Duration::from_secs(60), browse, reply)?;
 /// assert_eq!(answer, 42);
 /// # Ok::<(), vfold::Error>(())

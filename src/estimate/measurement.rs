@@ -275,7 +275,8 @@ pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> R
     let more = apart - together.ln_evidence;
     if more > LN_SEVERAL {
         let problem = format!(
-            "{} are not photographs of one sheet: the evidence favours separate sheets (log Bayes factor {more:.0}); join only photographs of one sheet",
+            "{} are not photographs of one sheet: the evidence favours separate sheets (log Bayes factor \
+             {more:.0}); join only photographs of one sheet",
             names.join(", ")
         );
         return Err(Error::field("id", problem));

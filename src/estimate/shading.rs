@@ -82,7 +82,8 @@ impl<'a> Shading<'a> {
         (mean.abs() > PANELS_APART).then(|| {
             Doubt::new(
                 format!(
-                    "panel {} is {:.1} times as bright beside the other as this sun makes it: a shadow, another light, or a sun far off the middle",
+                    "panel {} is {:.1} times as bright beside the other as this sun makes it: \
+                     a shadow, another light, or a sun far off the middle",
                     usize::from(mean < 0.0),
                     mean.abs().exp()
                 ),
@@ -110,7 +111,10 @@ impl<'a> Shading<'a> {
         };
         [0, 1].into_iter().find(|panel| is_uneven(*panel)).map(|panel| {
             Doubt::new(
-                format!("panel {panel} is not alike at both ends of the crease: a shadow, a lamp near by, a pattern, or corners not at the crease"),
+                format!(
+                    "panel {panel} is not alike at both ends of the crease: a shadow, a lamp near by, \
+                     a pattern, or corners not at the crease"
+                ),
                 "photograph a sheet of one colour, in even light; look at vextract --overlay",
             )
         })
@@ -136,7 +140,8 @@ impl<'a> Shading<'a> {
         Some(Doubt {
             level,
             because: format!(
-                "{which} at the outer side: a ridge instead of a valley, corners in another order, no direct sun, or a lamp near by"
+                "{which} at the outer side: a ridge instead of a valley, corners in another order, \
+                 no direct sun, or a lamp near by"
             ),
             remedy: "check the order of the corners; photograph a valley in direct sunlight".to_owned(),
         })
@@ -147,9 +152,10 @@ impl<'a> Shading<'a> {
         let (least, most) = extremes(self.panels_apart())?;
         (most.ln - least.ln - SURE * most.sd.hypot(least.sd) > COLOURS_APART).then(|| {
             Doubt::new(
-                "the panels have different colours: two sheets, or a coloured thing that shines on one of them",
-                "fold one sheet of one colour, away from coloured walls and cloth; a card of known colour as panel 1 is given by \
-                 --reference-panel",
+                "the panels have different colours: two sheets, or a coloured thing \
+                 that shines on one of them",
+                "fold one sheet of one colour, away from coloured walls and cloth; \
+                 a card of known colour as panel 1 is given by --reference-panel",
             )
         })
     }

@@ -77,7 +77,8 @@ fn processed(making: &Making) -> Option<Doubt> {
             "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's"
         }
         Processing::Matrix => {
-            "the noise of the channels goes opposite ways: a matrix mixed them, as programs do that develop RAW files"
+            "the noise of the channels goes opposite ways: a matrix mixed them, \
+             as programs do that develop RAW files"
         }
     };
     making.processing.map(|processing| Doubt {
@@ -91,7 +92,10 @@ fn black(making: &Making) -> Option<Doubt> {
     making.unsubtracted_black.map(|part| {
         let percent = 100.0 * part;
         Doubt::new(
-            format!("the darkest pixels are {percent:.2} % of white in all channels alike: black was not subtracted, it seems"),
+            format!(
+                "the darkest pixels are {percent:.2} % of white in all channels alike: \
+                 black was not subtracted, it seems"
+            ),
             "give vextract --black-level auto, or the camera's black level",
         )
     })
@@ -101,7 +105,10 @@ fn open_sides(making: &Making) -> Option<Doubt> {
     let sides = making.open_sides.join(", ");
     (!sides.is_empty()).then(|| {
         Doubt::new(
-            format!("no edge of the sheet lies along {sides}: it goes on beyond the corners, or does not reach them"),
+            format!(
+                "no edge of the sheet lies along {sides}: it goes on beyond the corners, \
+                 or does not reach them"
+            ),
             "mark the corners of the whole panels, as vextract --overlay shows them",
         )
     })
@@ -112,7 +119,8 @@ fn other_fold(making: &Making) -> Option<Doubt> {
     making.other_fold.map(|other| {
         Doubt::new(
             format!("the corners are not those of the fold that was stated, but {other}"),
-            "measure the sheet and the angle again, look at vextract --overlay, or give vkernel what vextract --find prints, as --regions",
+            "measure the sheet and the angle again, look at vextract --overlay, or give vkernel what \
+             vextract --find prints, as --regions",
         )
     })
 }
@@ -123,8 +131,12 @@ fn other_fold(making: &Making) -> Option<Doubt> {
 fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
     (*has_one_peak && !is_built_in(What::Cameras, camera)).then(|| {
         Doubt::new(
-            format!("all channels of the camera {camera} have the same peak: scaled one by one, they have lost their ratios"),
-            "give curves on one scale, or make them of a photograph of a colour chart (vextract --save-camera)",
+            format!(
+                "all channels of the camera {camera} have the same peak: scaled one by one, \
+                 they have lost their ratios"
+            ),
+            "give curves on one scale, or make them of a photograph \
+             of a colour chart (vextract --save-camera)",
         )
     })
 }

@@ -87,7 +87,8 @@ impl Verdict {
             None => Self {
                 level: Level::Good,
                 because: format!(
-                    "facets within {:.1} times their expected error; it rests on {assumed}, taken to be right",
+                    "facets within {:.1} times their expected error; it rests on {assumed}, \
+                     taken to be right",
                     estimate.residual_rms
                 ),
                 remedy: None,
@@ -111,7 +112,8 @@ pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f6
         return Ok(());
     }
     let problem = format!(
-        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, corners, light and camera",
+        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, \
+         corners, light and camera",
         100.0 * estimate.unexplained
     );
     Err(Error::field("facet_rgb", problem))
@@ -133,12 +135,14 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     let remedy = if stated.is_some() {
         "state the exposure as a fraction of the picture's white level, such as 0.8"
     } else {
-        "check that the sheet is folded, its proportions, angle, corners and light; put a white card or a chart in the picture"
+        "check that the sheet is folded, its proportions, angle, corners and light; \
+         put a white card or a chart in the picture"
     };
     (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
-            "white that faces the sun would be {exposure:.3} times the white level of the picture, which people do not expose to"
+            "white that faces the sun would be {exposure:.3} times the white level of the picture, \
+             which people do not expose to"
         ),
         remedy: remedy.to_owned(),
     })
@@ -187,10 +191,12 @@ fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
     let level = if estimate.without_bounces > NO_FOLD { Level::Wrong } else { Level::Doubtful };
     (estimate.without_bounces > PROBABLY_NO_FOLD).then(|| Doubt {
         level,
-        because: "the facets are those of panels between which no light bounces: a flat sheet, corners elsewhere than at the crease, or an \
-                  exposure that is not true"
+        because: "the facets are those of panels between which no light bounces: \
+                  a flat sheet, corners elsewhere than at the crease, or an exposure that is not true"
             .to_owned(),
-        remedy: "check that the sheet is folded, the corners and the exposure; put a white card or a chart in the picture".to_owned(),
+        remedy: "check that the sheet is folded, the corners and the exposure; \
+                 put a white card or a chart in the picture"
+            .to_owned(),
     })
 }
 

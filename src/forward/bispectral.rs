@@ -39,8 +39,13 @@ impl BispectralLight {
         if let Some(dark) = bands.position(|(power, emitted)| *power <= 0.0 && *emitted > 0.0) {
             return Err(Error::Spectrum {
                 name: light.name().to_owned(),
-                problem: format!("it has no power at {} nm, where the sheet fluoresces", grid.wavelengths_nm()[dark]),
-                remedy: "choose other wavelengths or another light: what is sent out is counted in parts of white's light".to_owned(),
+                problem: format!(
+                    "it has no power at {} nm, where the sheet fluoresces",
+                    grid.wavelengths_nm()[dark]
+                ),
+                remedy: "choose other wavelengths or another light: what is sent out is counted \
+                         in parts of white's light"
+                    .to_owned(),
             });
         }
         Ok(Self { in_scene, in_bands })
@@ -70,7 +75,8 @@ impl<'a> BispectralSheet<'a> {
     /// let (response, _) = SurfaceResponse::solve(&exchange, &[1.0, 1.0], 1e-12)?;
     /// let model = FacetModel::of_surface(&[(response, CameraResponse::from_weights(vec![vec![0.0, 1.0]]))]);
     /// let grid = WavelengthGrid::new(vec![400.0, 450.0])?;
-    /// let sheet = Donaldson::new("cloth", grid.clone(), grid.clone(), &dmatrix![0.5, 0.0; 0.1, 0.8])?.on(&grid)?;
+    /// let sheet =
+    ///     Donaldson::new("cloth", grid.clone(), grid.clone(), &dmatrix![0.5, 0.0; 0.1, 0.8])?.on(&grid)?;
     /// let light = BispectralLight::new(&Spectrum::flat("E", 1.0), &grid, &sheet)?;
     /// let rgb = BispectralSheet::new(&model, &sheet, &[light])?.facet_rgb();
     /// let first = 0.5 / (1.0 - 0.25);
@@ -85,7 +91,8 @@ impl<'a> BispectralSheet<'a> {
         if model.is_of_one_sheet() {
             return Ok(Self { model, sheet, lights });
         }
-        let problem = "nobody knows what parts of known reflectance hand on of the light that excites a sheet; fold the sheet alone";
+        let problem = "nobody knows what parts of known reflectance hand on of the light that excites \
+                       a sheet; fold the sheet alone";
         Err(Error::field("fluorescence", problem))
     }
 

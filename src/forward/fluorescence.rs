@@ -44,7 +44,8 @@ impl<'a> Fluorescing<'a> {
         if model.is_of_one_sheet() {
             return Ok(Self { model, reflectance, fluorescence });
         }
-        let problem = "light by way of parts of known reflectance excites a sheet by nobody knows how much; fold the sheet alone";
+        let problem = "light by way of parts of known reflectance excites a sheet by nobody knows how much; \
+                       fold the sheet alone";
         Err(Error::field("fluorescence", problem))
     }
 

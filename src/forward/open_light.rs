@@ -41,7 +41,8 @@ impl OpenLight {
     /// let camera = CameraResponse::from_weights(vec![vec![0.75, 0.25]]);
     /// let sun = (LightSource::directional([0.0, 0.0, 1.0], 1.0)?, camera.clone());
     /// let sky = (LightSource::uniform_sky(0.2)?, camera);
-    /// assert_eq!(OpenLight::new(&[sun, sky]).flat_rgb(0.8, &[1.0, 1.0]), [1.0]); // 0.8 from the sun, 0.2 from the sky
+    /// // 0.8 from the sun, 0.2 from the sky
+    /// assert_eq!(OpenLight::new(&[sun, sky]).flat_rgb(0.8, &[1.0, 1.0]), [1.0]);
     /// # Ok::<(), vfold::Error>(())
     /// ```
     #[must_use]

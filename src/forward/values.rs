@@ -19,7 +19,10 @@ impl FacetValues {
     /// ```
     /// use vfold::forward::FacetValues;
     /// let values = FacetValues::of_rows(&[Some(vec![0.1, 0.2]), None]).unwrap();
-    /// assert_eq!((values.len(), values.channels(), values.get(0, 1), values.get(1, 1)), (2, 2, Some(0.2), None));
+    /// assert_eq!(
+    ///     (values.len(), values.channels(), values.get(0, 1), values.get(1, 1)),
+    ///     (2, 2, Some(0.2), None)
+    /// );
     /// assert!(FacetValues::of_rows(&[Some(vec![0.1, 0.2]), Some(vec![0.3])]).is_none());
     /// ```
     #[must_use]

@@ -50,7 +50,8 @@ impl Panel {
     /// # Example
     /// ```
     /// use vfold::geometry::{Panel, Vec3};
-    /// let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    /// let square =
+    ///     |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
     /// let panel = Panel::of_facets(&[square(0.0), square(1.0)], 0).unwrap();
     /// assert_eq!((panel.row_edges, panel.col_edges), (vec![0.0, 1.0], vec![0.0, 0.5, 1.0]));
     /// assert_eq!(Panel::of_facets(&[square(0.0), square(1.0), square(3.0)], 0), None);

@@ -82,7 +82,9 @@ impl LightSource {
     /// # Example
     /// ```
     /// use vfold::geometry::LightSource;
-    /// let LightSource::Directional { towards, .. } = LightSource::directional([3.0, 0.0, 4.0], 1.0)? else { panic!() };
+    /// let LightSource::Directional { towards, .. } = LightSource::directional([3.0, 0.0, 4.0], 1.0)? else {
+    ///     panic!()
+    /// };
     /// assert_eq!([towards.x, towards.y, towards.z], [0.6, 0.0, 0.8]);
     /// assert!(LightSource::directional([0.0, 0.0, 0.0], 1.0).is_err());
     /// # Ok::<(), vfold::Error>(())
@@ -109,7 +111,11 @@ impl LightSource {
     /// # Example
     /// ```
     /// use vfold::geometry::{LightSource, Vec3};
-    /// let LightSource::Area { corners, distance, .. } = LightSource::area([0.0, 0.0, 3.0], Vec3::zeros(), [2.0, 1.0], 1.0)? else { panic!() };
+    /// let LightSource::Area { corners, distance, .. } =
+    ///     LightSource::area([0.0, 0.0, 3.0], Vec3::zeros(), [2.0, 1.0], 1.0)?
+    /// else {
+    ///     panic!()
+    /// };
     /// assert_eq!((corners[0] - corners[1]).norm(), 2.0);
     /// assert_eq!(distance, 3.0);
     /// # Ok::<(), vfold::Error>(())

@@ -145,9 +145,15 @@ impl Setup<'_> {
 ///
 /// let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
 /// let photograph = Photograph::open(file.as_ref(), &ReadOptions::default())?;
-/// let panel0 = [(332.1, 462.5), (345.3, 77.1), (121.9, 11.9), (103.9, 442.2)].map(|(x, y)| Point::new(x, y));
-/// let panel1 = [(332.1, 462.5), (345.3, 77.1), (484.9, 16.7), (472.0, 453.4)].map(|(x, y)| Point::new(x, y));
-/// let known = Setup { camera: Some("canon-5d-mark-ii"), illuminant: Some("D65"), ..Setup::new(50.0, [panel0, panel1])? };
+/// let panel0 =
+///     [(332.1, 462.5), (345.3, 77.1), (121.9, 11.9), (103.9, 442.2)].map(|(x, y)| Point::new(x, y));
+/// let panel1 =
+///     [(332.1, 462.5), (345.3, 77.1), (484.9, 16.7), (472.0, 453.4)].map(|(x, y)| Point::new(x, y));
+/// let known = Setup {
+///     camera: Some("canon-5d-mark-ii"),
+///     illuminant: Some("D65"),
+///     ..Setup::new(50.0, [panel0, panel1])?
+/// };
 ///
 /// let measured = sheet(&photograph, &known)?;
 /// assert_eq!(measured.verdict.level, Level::Good);

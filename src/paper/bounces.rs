@@ -39,7 +39,8 @@ impl Bounces {
     /// use vfold::forward::{FacetModel, Lighting};
     /// use vfold::geometry::{FacetGrid, Fold, Light};
     /// use vfold::kernel::mesh::Mesh;
-    /// // Two white squares at a right angle hand on a fifth of their light, whose sixth power is the first below 1e-4.
+    /// // Two white squares at a right angle hand on a fifth of their light, whose sixth power is the first
+    /// // below 1e-4.
     /// let fold = Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
     /// let (response, _) = respond(Method::Exact, &fold, Mesh::Facets, 1e-9)?;
     /// let eye = CameraResponse::from_weights(vec![vec![1.0]]);

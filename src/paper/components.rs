@@ -101,7 +101,8 @@ impl Components {
         if order.len() < count || count == 0 {
             let has = order.len();
             return Err(Error::Numeric(format!(
-                "{count} components asked for, but set, camera and lights have {has}; give --components {has} or fewer"
+                "{count} components asked for, but set, camera and lights have {has}; \
+                 give --components {has} or fewer"
             )));
         }
         let columns: Vec<_> = order[..count].iter().map(|k| spectrum(&eigen, *k)).collect();

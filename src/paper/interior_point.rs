@@ -43,15 +43,21 @@ pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64
 /// impl Gradient for Parabola {
 ///     type Param = DVector<f64>;
 ///     type Gradient = DVector<f64>;
-///     fn gradient(&self, x: &DVector<f64>) -> Result<DVector<f64>, Error> { Ok(DVector::from_element(1, 2.0 * (x[0] - 2.0))) }
+///     fn gradient(&self, x: &DVector<f64>) -> Result<DVector<f64>, Error> {
+///         Ok(DVector::from_element(1, 2.0 * (x[0] - 2.0)))
+///     }
 /// }
 /// impl Hessian for Parabola {
 ///     type Param = DVector<f64>;
 ///     type Hessian = DMatrix<f64>;
-///     fn hessian(&self, _: &DVector<f64>) -> Result<DMatrix<f64>, Error> { Ok(DMatrix::from_element(1, 1, 2.0)) }
+///     fn hessian(&self, _: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+///         Ok(DMatrix::from_element(1, 1, 2.0))
+///     }
 /// }
 /// let solver = InteriorPoint::new(0.0, 1.0, 1e-10);
-/// let result = Executor::new(Parabola, solver).configure(|state| state.param(DVector::from_element(1, 0.5)).max_iters(50)).run()?;
+/// let result = Executor::new(Parabola, solver)
+///     .configure(|state| state.param(DVector::from_element(1, 0.5)).max_iters(50))
+///     .run()?;
 /// assert!((result.state().get_best_param().unwrap()[0] - 1.0).abs() < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```

@@ -18,7 +18,8 @@ use crate::geometry::Fold;
 /// ```
 /// use vfold::geometry::{FacetGrid, Fold};
 /// use vfold::paper::midpoint::form_factors;
-/// // Unit squares at a right angle, centres at (½, 0) and (0, ½): (1/π)·½·½/(½)² = 1/π; the exact value is 0.20004.
+/// // Unit squares at a right angle, centres at (½, 0) and (0, ½): (1/π)·½·½/(½)² = 1/π; the exact value
+/// // is 0.20004.
 /// let kernel = form_factors(&Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?);
 /// assert!((kernel.form_factor(0, 0, 0, 0) - std::f64::consts::FRAC_1_PI).abs() < 1e-15);
 /// # Ok::<(), vfold::Error>(())

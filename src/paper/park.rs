@@ -36,7 +36,11 @@ pub const SMOOTHNESS: f64 = 1e-4;
 /// use vfold::paper::park;
 /// // Two spectra, and a camera with a channel for each of their three wavebands.
 /// let set = autocorrelation(&[vec![0.2, 0.4, 0.6], vec![0.6, 0.4, 0.2]]);
-/// let sheet = FlatSheet { view: dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 1.0], values: vec![0.3, 0.4, 0.5], exposure: Some(1.0) };
+/// let sheet = FlatSheet {
+///     view: dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0; 0.0, 0.0, 1.0],
+///     values: vec![0.3, 0.4, 0.5],
+///     exposure: Some(1.0),
+/// };
 /// let estimate = park::estimate(&sheet, &set, 2, 0.0)?;
 /// assert!((estimate.reflectance[2] - 0.5).abs() < 1e-6);
 /// # Ok::<(), vfold::Error>(())

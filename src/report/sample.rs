@@ -76,7 +76,8 @@ fn findings(estimate: &EstimateRecord) -> Option<Html> {
 
 fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
     let caption = format!(
-        "Estimated reflectance with a band of two standard deviations to either side. Colours: under {} for the {} observer.",
+        "Estimated reflectance with a band of two standard deviations to either side. \
+         Colours: under {} for the {} observer.",
         view.illuminant.name(),
         colours::observer(view.observer)
     );

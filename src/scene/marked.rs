@@ -109,7 +109,8 @@ fn meet(marked: &[Marked]) -> Result<()> {
                 let (of_a, of_b) = (a.corners[l], b.corners[k]);
                 if distance(of_a, of_b) > SAME_CORNER * longest {
                     let problem = format!(
-                        "{} of panel {} is at {},{} and {} of panel {} at {},{}: they are one point of the sheet",
+                        "{} of panel {} is at {},{} and {} of panel {} at {},{}: \
+                         they are one point of the sheet",
                         PANEL_CORNERS[l], a.panel, of_a.x, of_a.y, PANEL_CORNERS[k], b.panel, of_b.x, of_b.y
                     );
                     let remedy = format!("mark all panels from the same end: {}", PANEL_CORNERS.join(", "));

@@ -193,7 +193,9 @@ mod tests {
         }
 
         #[test]
-        fn a_full_matrix_as_well((count, entries) in (1_usize..12).prop_flat_map(|n| (Just(n), entries(n * n)))) {
+        fn a_full_matrix_as_well(
+            (count, entries) in (1_usize..12).prop_flat_map(|n| (Just(n), entries(n * n))),
+        ) {
             let matrix = DMatrix::from_vec(count, count, entries);
             let matrix = &matrix + matrix.transpose();
             let Eigen { values, vectors: q } = Eigen::of_symmetric(matrix.clone());

@@ -76,7 +76,9 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
     }
     if have_one_peak(channels.iter().map(Spectrum::values)) {
         notes.push(
-            "all channels have the same peak, as no camera's do: scaled one by one, they have lost their ratios".to_owned(),
+            "all channels have the same peak, as no camera's do: scaled one by one, \
+             they have lost their ratios"
+                .to_owned(),
         );
     }
     Ok((channels, notes))

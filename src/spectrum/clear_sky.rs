@@ -107,8 +107,10 @@ impl ClearSky {
         let scattered = passed.rayleigh.powf(1.5) * (1.0 - passed.aerosol_scattering);
         let by_aerosol = incoming * scattered * forward_share(cos_zenith); // eq. 3-6
         let back = self.sky_reflectivity(band) * self.ground_albedo;
-        let from_ground = (self.direct_at(band) * cos_zenith + by_air + by_aerosol) * back / (1.0 - back); // eq. 3-7
-        let ultraviolet = if band.nm <= 450.0 { ((band.nm + 550.0) / 1000.0).powf(1.8) } else { 1.0 }; // eq. 3-17
+        // eq. 3-7
+        let from_ground = (self.direct_at(band) * cos_zenith + by_air + by_aerosol) * back / (1.0 - back);
+        // eq. 3-17
+        let ultraviolet = if band.nm <= 450.0 { ((band.nm + 550.0) / 1000.0).powf(1.8) } else { 1.0 };
         (by_air + by_aerosol + from_ground) * ultraviolet
     }
 
@@ -127,7 +129,8 @@ impl ClearSky {
         let um = band.nm / 1000.0;
         let pressed = air_mass * self.pressure_pa / SEA_LEVEL_PA;
         let thickness = self.turbidity * (band.nm / 500.0).powf(-ANGSTROM); // eq. 2-7
-        let scattering = SCATTERING * (-SCATTERING_VARIATION * (band.nm / 400.0).ln().powi(2)).exp(); // eq. 3-16
+        // eq. 3-16
+        let scattering = SCATTERING * (-SCATTERING_VARIATION * (band.nm / 400.0).ln().powi(2)).exp();
         let water = band.water * self.water_cm * air_mass;
         let mixed = band.mixed * pressed;
         Passed {

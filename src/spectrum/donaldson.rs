@@ -54,8 +54,10 @@ impl Donaldson {
     /// ```
     /// use nalgebra::dmatrix;
     /// use vfold::spectrum::{Donaldson, WavelengthGrid};
-    /// let (emission, excitation) = (WavelengthGrid::new(vec![400.0, 450.0])?, WavelengthGrid::new(vec![350.0, 400.0, 450.0])?);
-    /// let brightened = Donaldson::new("cloth", emission.clone(), excitation, &dmatrix![0.0, 0.5, 0.0; 0.2, 0.1, 0.8])?;
+    /// let (emission, excitation) =
+    ///     (WavelengthGrid::new(vec![400.0, 450.0])?, WavelengthGrid::new(vec![350.0, 400.0, 450.0])?);
+    /// let brightened =
+    ///     Donaldson::new("cloth", emission.clone(), excitation, &dmatrix![0.0, 0.5, 0.0; 0.2, 0.1, 0.8])?;
     /// let cloth = brightened.on(&emission)?;
     /// assert_eq!(cloth.reflectance, [0.5, 0.8]);
     /// assert_eq!(cloth.fluorescence, dmatrix![0.0, 0.0, 0.0; 0.2, 0.1, 0.0]);

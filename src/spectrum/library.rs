@@ -27,7 +27,8 @@ struct Camera {
 const CAMERAS: [Camera; 3] = [
     Camera {
         name: "canon-5d-mark-ii",
-        description: "Canon EOS 5D Mark II, 380..780 nm by 5 (rawtoaces: scitech 2017), which its pictures mean",
+        description: "Canon EOS 5D Mark II, 380..780 nm by 5 \
+                      (rawtoaces: scitech 2017), which its pictures mean",
         exif_make: "Canon",
         exif_model: "Canon EOS 5D Mark II",
         channels: || shared!("canon-5d-mark-ii.csv"),
@@ -41,7 +42,8 @@ const CAMERAS: [Camera; 3] = [
     },
     Camera {
         name: "sigma-sd-merrill",
-        description: "Sigma SD1 Merrill, layered Foveon X3 sensor, 400..680 nm by 10 (National Physical Laboratory)",
+        description: "Sigma SD1 Merrill, layered Foveon X3 sensor, 400..680 nm by 10 \
+                      (National Physical Laboratory)",
         exif_make: "SIGMA",
         exif_model: "SIGMA SD1 Merrill",
         channels: || shared!("sigma-sd-merrill.csv"),
@@ -128,7 +130,8 @@ fn listed(what: What) -> Result<Vec<(String, String)>> {
         What::Illuminants => {
             let cie = cie_illuminants()?;
             let daylight = ("daylight:CCT", "CIE daylight of 4000..25000 K, such as daylight:5500");
-            let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
+            let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place \
+                       and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
             let sky =
                 "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
             let black_body = ("2856K", "black body of 1000..25000 K, such as 3200K for a lamp");

@@ -14,7 +14,8 @@ pub struct Sun {
 }
 
 /// How a sun is specified.
-const FORMS: &str = "write sun:40deg, its angle from the zenith, or sun:LAT,LON,TIME as in sun:48.1,11.6,2026-06-21T14:30+02:00";
+const FORMS: &str = "write sun:40deg, its angle from the zenith, or sun:LAT,LON,TIME as \
+                     in sun:48.1,11.6,2026-06-21T14:30+02:00";
 
 impl Sun {
     /// The sun at this angle from the zenith, at its mean distance.
@@ -60,7 +61,8 @@ impl Sun {
             return Err(wrong(text, problem, remedy));
         };
         let moment = Moment::parse(time.trim()).ok_or_else(|| {
-            let remedy = "write date, time and its difference from UTC, as in 2026-06-21T14:30+02:00 or 2026-06-21T12:30Z";
+            let remedy = "write date, time and its difference from UTC, as in 2026-06-21T14:30+02:00 \
+                          or 2026-06-21T12:30Z";
             wrong(text, format!("'{time}' is no time"), remedy)
         })?;
         let failed = |e: solar_positioning::Error| wrong(text, e.to_string(), FORMS);

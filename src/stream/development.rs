@@ -36,7 +36,8 @@ impl From<&Development> for DevelopmentRecord {
 /// ```
 /// use vfold::stream::read_development;
 /// let file = tempfile::NamedTempFile::new().unwrap();
-/// let text = r#"{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}"#;
+/// let text =
+///     r#"{"white_balance_gains": [2, 1, 1.5], "camera_to_linear_srgb": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}"#;
 /// std::fs::write(file.path(), text).unwrap();
 /// let development = read_development(file.path().to_str().unwrap())?;
 /// assert_eq!(development.camera_rgb([0.5, 0.5, 0.75]), Some([0.25, 0.5, 0.5]));

@@ -336,7 +336,8 @@ impl EstimateRecord {
     pub fn doubts(&self) -> Vec<String> {
         let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
             format!(
-                "the model misfits the facets by {rms:.0} times the noise; check angle, corners, light, camera and exposure"
+                "the model misfits the facets by {rms:.0} times the noise; check angle, corners, \
+                 light, camera and exposure"
             )
         });
         // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do

@@ -114,7 +114,8 @@ impl<'a> Walk<'a, '_> {
             for (field, value) in alike {
                 self.field(name(field), value, is_needed(field));
                 if let Some(last) = self.fields.last_mut().filter(|last| last.description.is_empty()) {
-                    last.description = text(schema, "description"); // a field that tells forms apart stands for its form
+                    // a field that tells forms apart stands for its form
+                    last.description = text(schema, "description");
                 }
                 if alike.len() < MANY {
                     self.fields_of(value, &name(field));

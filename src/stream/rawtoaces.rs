@@ -36,7 +36,8 @@ struct Main<T> {
 /// Wavelengths of light, as in other files.
 const NM: RangeInclusive<f64> = 100.0..=3000.0;
 
-const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
+const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \
+                       \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
 /// Finds what a SPEC names, JSON files among it.
 #[must_use]
@@ -53,7 +54,8 @@ pub fn specs() -> Specs {
 /// # Example
 /// ```
 /// let file = tempfile::Builder::new().suffix(".json").tempfile().unwrap();
-/// let text = r#"{"spectral_data": {"index": {"main": ["R", "G"]}, "data": {"main": {"500": [0.1, 1], "600": [1, 0.2]}}}}"#;
+/// let text = r#"{"spectral_data": {"index": {"main": ["R", "G"]},
+///     "data": {"main": {"500": [0.1, 1], "600": [1, 0.2]}}}}"#;
 /// std::fs::write(file.path(), text).unwrap();
 /// let camera = vfold::stream::camera(file.path().to_str().unwrap())?;
 /// assert_eq!((camera.channels[1].name(), camera.channels[1].values()), ("G", &[1.0, 0.2][..]));

@@ -35,7 +35,8 @@ impl RegionsFile {
     /// use vfold::stream::RegionsFile;
     /// let folder = tempfile::tempdir().unwrap();
     /// let path = folder.path().join("regions.json");
-    /// std::fs::write(&path, r#"{"panel0": [[0, 0], [9, 0], [9, 9], [0, 9]], "width": 10, "height": 10}"#).unwrap();
+    /// let text = r#"{"panel0": [[0, 0], [9, 0], [9, 9], [0, 9]], "width": 10, "height": 10}"#;
+    /// std::fs::write(&path, text).unwrap();
     /// let file = RegionsFile::open(&path)?;
     /// let regions = file.of(Path::new("photo.tif"), [100, 100])?; // ten times as large
     /// assert_eq!(regions.panels[&0][1].x, 90.0);

@@ -49,7 +49,9 @@ struct GroupRecord {
 /// use vfold::stream::read_shape;
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("floor.json");
-/// std::fs::write(&path, r#"{"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "facets": [[0, 1, 2]], "two_sided": true}"#).unwrap();
+/// let text = r#"{"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "facets": [[0, 1, 2]],
+///     "two_sided": true}"#;
+/// std::fs::write(&path, text).unwrap();
 /// assert_eq!(read_shape(&path)?.0.len(), 2);
 /// # Ok::<(), vfold::Error>(())
 /// ```

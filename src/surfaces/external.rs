@@ -58,7 +58,8 @@ fn check_reciprocity(kernel: &DMatrix<f64>, areas: &[f64]) -> Result<()> {
             let off = (there - back).abs() / areas[i].min(areas[j]);
             if off > RECIPROCITY {
                 let problem = format!(
-                    "facets {j} and {i} break reciprocity by {off:.1e}: area times entry must be alike in both directions"
+                    "facets {j} and {i} break reciprocity by {off:.1e}: \
+                     area times entry must be alike in both directions"
                 );
                 return Err(Error::field("kernel", problem));
             }

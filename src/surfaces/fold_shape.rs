@@ -16,7 +16,8 @@ impl Fold {
     /// let fold = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 })?;
     /// let shape = fold.shape()?;
     /// assert_eq!((shape.len(), shape.panels().len()), (12, 2));
-    /// assert!((shape.facet(0).normal().x - 30_f64.to_radians().cos()).abs() < 1e-12); // panel 0 looks to the other one
+    /// // panel 0 looks to the other one
+    /// assert!((shape.facet(0).normal().x - 30_f64.to_radians().cos()).abs() < 1e-12);
     /// # Ok::<(), vfold::Error>(())
     /// ```
     pub fn shape(&self) -> Result<Shape> {

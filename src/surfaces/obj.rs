@@ -95,7 +95,8 @@ mod tests {
     #[test]
     fn quads_and_triangles_of_several_groups_keep_their_order() {
         let vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
-        let faces = "g a\nf 1 2 3 4\nusemtl red\nf 4/1/1 3/1/1 2/1/1\nl 1 2\ng b c\nf -4 -2 -3\nf -4//1 -1//1 -2//1\n";
+        let faces = "g a\nf 1 2 3 4\nusemtl red\nf 4/1/1 3/1/1 2/1/1\nl 1 2\ng b c\n\
+                     f -4 -2 -3\nf -4//1 -1//1 -2//1\n";
         let (shape, _) = read_text(&format!("{vertices}{faces}")).unwrap();
         let sides: Vec<_> = (0..4).map(|n| shape.corners(n).len()).collect();
         assert_eq!(sides, [4, 3, 3, 3]);

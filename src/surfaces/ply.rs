@@ -61,7 +61,8 @@ fn number(property: &Property) -> Option<f64> {
 mod tests {
     use super::*;
 
-    const HEADER: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty double y\nproperty float z\n\
+    const HEADER: &str = "ply\nformat ascii 1.0\nelement vertex 4\n\
+                          property float x\nproperty double y\nproperty float z\n\
                           element face 2\nproperty list uchar int vertex_indices\nend_header\n";
 
     fn read_text(text: &str) -> Result<(Shape, Vec<String>)> {

@@ -30,7 +30,8 @@ impl SurfaceResponse {
     /// ```
     /// use nalgebra::dmatrix;
     /// use vfold::surfaces::{DenseExchange, SurfaceResponse};
-    /// // Two like patches hand half of their light to each other, and one is lit: it gets 1 + (r/2)² + (r/2)⁴ + ...
+    /// // Two like patches hand half of their light to each other, and one is lit: it gets
+    /// // 1 + (r/2)² + (r/2)⁴ + ...
     /// let exchange = DenseExchange::new(&dmatrix![0.0, 0.5; 0.5, 0.0], &[1.0, 1.0], vec![0, 1]);
     /// let (response, _) = SurfaceResponse::solve(&exchange, &[1.0, 0.0], 1e-12)?;
     /// assert!((response.irradiance(0, 0.8) - 1.0 / (1.0 - 0.16)).abs() < 1e-14);

@@ -146,12 +146,18 @@ mod tests {
     proptest! {
         /// Against a search through all facets, without a tree.
         #[test]
-        fn the_first_facet_is_the_nearest(eye in prop::array::uniform3(-3.0..3.0), at in prop::array::uniform3(-0.9..0.9)) {
+        fn the_first_facet_is_the_nearest(
+            eye in prop::array::uniform3(-3.0..3.0),
+            at in prop::array::uniform3(-0.9..0.9),
+        ) {
             let (shape, eye, at) = (w(), Vec3::from(eye), Vec3::from(at));
             let sight = Sight::new(&shape);
             let met = sight.boxes.iter().filter_map(|facet| facet.met(&eye, &(at - eye), 0.0));
             let nearest = met.min_by(|a, b| a.distance.total_cmp(&b.distance));
-            prop_assert_eq!(sight.first(&eye, &(at - eye)).map(|met| met.distance), nearest.map(|met| met.distance));
+            prop_assert_eq!(
+                sight.first(&eye, &(at - eye)).map(|met| met.distance),
+                nearest.map(|met| met.distance)
+            );
         }
     }
 

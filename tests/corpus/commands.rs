@@ -248,7 +248,14 @@ proptest! {
         tool in 0..TOOLS.len(),
         flags in prop::collection::vec((any::<usize>(), any::<usize>()), 0..6),
         positional in prop::option::weighted(0.7, 0..VALUES.len()),
-        input in prop::sample::select(vec!["samples.ndjson", "scene.json", "photographs.ndjson", "/dev/null", "deep.json", "photo.png"]),
+        input in prop::sample::select(vec![
+            "samples.ndjson",
+            "scene.json",
+            "photographs.ndjson",
+            "/dev/null",
+            "deep.json",
+            "photo.png",
+        ]),
     ) {
         let arguments: Vec<_> = positional
             .map(|k| OsString::from(VALUES[k]))
@@ -263,7 +270,8 @@ proptest! {
         let folder = folder();
         std::fs::write(folder.path().join("edited.ndjson"), edited_stream(&edits)).unwrap();
         let arguments = |line: &str| line.split(' ').map(OsString::from).collect::<Vec<_>>();
-        checked(folder.path(), 1, &arguments("--reflectance 0.5 --wavelengths-nm 400:700:50 -"), "edited.ndjson")?;
+        let flags = arguments("--reflectance 0.5 --wavelengths-nm 400:700:50 -");
+        checked(folder.path(), 1, &flags, "edited.ndjson")?;
         let estimated = checked(folder.path(), 3, &arguments("-q --prior cc24 -"), "edited.ndjson")?;
         std::fs::write(folder.path().join("estimated.ndjson"), &estimated).unwrap();
         checked(folder.path(), 4, &arguments("--table -"), "estimated.ndjson")?;
@@ -274,7 +282,8 @@ proptest! {
     fn photographs_that_no_tool_wrote_go_through(edits in prop::collection::vec(any::<u8>(), 4..13)) {
         let folder = folder();
         let photograph = std::fs::read_to_string(folder.path().join("photographs.ndjson")).unwrap();
-        std::fs::write(folder.path().join("two.ndjson"), photograph.clone() + &edited(&photograph, &edits)).unwrap();
+        let two = photograph.clone() + &edited(&photograph, &edits);
+        std::fs::write(folder.path().join("two.ndjson"), two).unwrap();
         let arguments = |line: &str| line.split(' ').map(OsString::from).collect::<Vec<_>>();
         for line in ["-q --prior cc24 --fit auto -", "-q --prior cc24 --join=id -"] {
             let estimated = checked(folder.path(), 3, &arguments(line), "two.ndjson")?;

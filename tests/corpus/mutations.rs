@@ -56,20 +56,20 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 fn apply(bytes: &mut Vec<u8>, edit: &Edit) {
-    let (Edit::Byte(at, _) | Edit::Insert(at, _) | Edit::Remove(at, _) | Edit::Repeat(at, _) | Edit::Cut(at)) =
-        edit;
+    use Edit::{Byte, Cut, Insert, Remove, Repeat};
+    let (Byte(at, _) | Insert(at, _) | Remove(at, _) | Repeat(at, _) | Cut(at)) = edit;
     let at = at.index(bytes.len() + 1);
     let up_to = |length: u8| (at + usize::from(length)).min(bytes.len());
     match *edit {
-        Edit::Byte(_, byte) if at < bytes.len() => bytes[at] = byte,
-        Edit::Byte(_, byte) => bytes.push(byte),
-        Edit::Insert(_, token) => drop(bytes.splice(at..at, token.get(TOKENS).iter().copied())),
-        Edit::Remove(_, length) => drop(bytes.drain(at..up_to(length))),
-        Edit::Repeat(_, length) => {
+        Byte(_, byte) if at < bytes.len() => bytes[at] = byte,
+        Byte(_, byte) => bytes.push(byte),
+        Insert(_, token) => drop(bytes.splice(at..at, token.get(TOKENS).iter().copied())),
+        Remove(_, length) => drop(bytes.drain(at..up_to(length))),
+        Repeat(_, length) => {
             let part = bytes[at..up_to(length)].to_vec();
             bytes.splice(at..at, part);
         }
-        Edit::Cut(_) => bytes.truncate(at),
+        Cut(_) => bytes.truncate(at),
     }
 }
 

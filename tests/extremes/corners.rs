@@ -64,7 +64,8 @@ proptest! {
         let run = through_the_tools(
             &folder,
             &format!("--angle-deg {angle} --panel {panel} --facets {facets} --tilt-deg {tilt} --sky {sky}"),
-            &format!("--reflectance {reflectance} --camera {camera} --illuminant {illuminant} --exposure {exposure}"),
+            &format!("--reflectance {reflectance} --camera {camera} --illuminant {illuminant} \
+                      --exposure {exposure}"),
             noise * exposure,
         );
         if tilt >= 0.5 * angle {

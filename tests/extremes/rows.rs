@@ -81,6 +81,8 @@ pub const ROWS: [Row; 35] = [
     undivided("undivided, 175°", "--angle-deg 175", 1e-5, 0.08),
     undivided("undivided, 179.9°", "--angle-deg 179.9", 1e-5, 0.08),
     undivided("undivided, 1000x1", "--panel 1000x1 --facets 10x1", 3e-4, 0.02),
-    undivided("undivided, 1000x1, 5°", "--panel 1000x1 --facets 10x1 --angle-deg 5 --tolerance 1e-4", 3e-4, 0.04),
-    undivided("undivided, 1000x1, 1°", "--panel 1000x1 --facets 10x1 --angle-deg 1 --tolerance 1e-3", 3e-4, 0.08),
+    undivided("undivided, 1000x1, 5°", "--panel 1000x1 --facets 10x1 --angle-deg 5 --tolerance 1e-4",
+        3e-4, 0.04),
+    undivided("undivided, 1000x1, 1°", "--panel 1000x1 --facets 10x1 --angle-deg 1 --tolerance 1e-3",
+        3e-4, 0.08),
 ];

@@ -14,13 +14,18 @@ const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results/extreme
 const HEAD: &str = "\
 # Extremes
 
-What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D Mark II and D65. First the bounds that
+What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D Mark II and D65. \
+First the bounds that
 `cargo test --test extremes` holds, then what was measured:
 
-- facets without noise, off by so much of the brightest. The sheet reflects 0.9, the row's reflectance, or is `cc24:red` (lights and
-  cameras). One flat patch per facet, solved to 1e-9, beside NumPy's form factors (Sparrow's double integral) and conjugate gradients;
-  \"undivided\" is `--mesh auto` beside the limit of NumPy's patches, that of panels 1000 times as wide as deep along a crease without end;
-- RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, of `cc24:red` or the row's reflectance;
+- facets without noise, off by so much of the brightest. \
+The sheet reflects 0.9, the row's reflectance, or is `cc24:red` (lights and
+  cameras). One flat patch per facet, solved to 1e-9, beside NumPy's form factors \
+(Sparrow's double integral) and conjugate gradients;
+  \"undivided\" is `--mesh auto` beside the limit of NumPy's patches, \
+that of panels 1000 times as wide as deep along a crease without end;
+- RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, \
+of `cc24:red` or the row's reflectance;
 - root mean square of its errors in units of their standard deviations;
 - seconds of the four tools, photographing twice. They are not promised.
 
@@ -93,9 +98,8 @@ fn a_tenth_of_a_degree_undivided_is_refused() {
 fn a_light_of_one_line_tells_the_reflectance_of_one_waveband() {
     let folder = Workdir::new();
     folder.sh(SPECTRA);
-    let run = folder.sh(
-        "vkernel --mesh facets | vforward --reflectance cc24:red --illuminant line.csv --noise-sd 1e-3 --seed 1 | vestimate -q | tail -n 1",
-    );
+    let run = folder.sh("vkernel --mesh facets | vforward --reflectance cc24:red --illuminant line.csv \
+        --noise-sd 1e-3 --seed 1 | vestimate -q | tail -n 1");
     let sample: Value = serde_json::from_str(&run.stdout).unwrap();
     let at = |spectrum: &Value, nm: usize| spectrum[(nm - 400) / 5].as_f64().unwrap();
     let estimate = &sample["estimate"];

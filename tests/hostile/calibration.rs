@@ -123,8 +123,8 @@ END
             case("sh card --white-reflectance 1.2", 1, &["1.2", "0..1"]),
             case("sh marked --white-region '1,1 9,1 9,9 1,9'", 1, &["white card", "does not rise"]),
             case(
-                "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii --panel0 '332,462 345,77 122,12 104,442' \
-                 --white-region '200,200 260,200 260,260 200,260'",
+                "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii \
+                 --panel0 '332,462 345,77 122,12 104,442' --white-region '200,200 260,200 260,260 200,260'",
                 1,
                 &["grey.tif", "a grey picture", "camera has 3 channels"],
             ),

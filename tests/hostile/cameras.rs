@@ -73,7 +73,8 @@ fn what_a_camera_did() {
         cat > extract <<'END'
         photo=$1 did=$2
         shift 2
-        vextract $photo --undo $did --panel0 '301.7,395.3 289.6,54.6 167.5,60.2 183.6,458.9' --scene scene.json --camera nikon-d5100 "$@"
+        vextract $photo --undo $did --panel0 '301.7,395.3 289.6,54.6 167.5,60.2 183.6,458.9' \
+            --scene scene.json --camera nikon-d5100 "$@"
 END
         "#
     );

@@ -8,7 +8,8 @@ fn cgats_tables() {
     assert_refused(
         r#"
         vkernel --facets 1x1 -o scene.json
-        table() { printf 'CGATS.17\n%s\nBEGIN_DATA_FORMAT\n%s\nEND_DATA_FORMAT\nBEGIN_DATA\n%s\nEND_DATA\n' "$1" "$2" "$3"; }
+        table() { printf 'CGATS.17\n%s\nBEGIN_DATA_FORMAT\n%s\nEND_DATA_FORMAT\nBEGIN_DATA\n%s\nEND_DATA\n' \
+            "$1" "$2" "$3"; }
         table 'SPECTRAL_BANDS "-5"' 'SPEC_400 SPEC_700' '1 2' > negative.sp
         table 'SPECTRAL_BANDS "99999999999999999999"' 'SPEC_400 SPEC_700' '1 2' > endless.sp
         table 'NUMBER_OF_SETS 4000000000' 'SPEC_400 SPEC_700' '1 2' > lying.ti3
@@ -21,7 +22,10 @@ fn cgats_tables() {
         table '' 'SAMPLE_ID SPEC_400 SPEC_700' 'a 0.1 0.2' > member.sp
         printf 'SPECT\nBEGIN_DATA_FORMAT\nSPEC_400 SPEC_700\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2\n' > cut.sp
         table 'MEAS_TYPE "TRANSMISSIVE"' 'SPEC_400 SPEC_700' '0.1 0.2' > film.sp
-        { cat device.ti3; printf 'BEGIN_DATA_FORMAT\nSPEC_400 SPEC_700\nEND_DATA_FORMAT\nBEGIN_DATA\n1\nEND_DATA\n'; } > second.ti3
+        {
+            cat device.ti3
+            printf 'BEGIN_DATA_FORMAT\nSPEC_400 SPEC_700\nEND_DATA_FORMAT\nBEGIN_DATA\n1\nEND_DATA\n'
+        } > second.ti3
         { cat member.sp; cat member.sp; } > twice.sp
         printf '"' > quote.sp
         head -c 300 /bin/sh > binary.sp
@@ -60,7 +64,10 @@ fn tm_27_files() {
     assert_refused(
         r#"
         vkernel --facets 1x1 -o scene.json
-        file() { printf '%s<IESTM2714 xmlns="http://www.ies.org/iestm2714"><SpectralDistribution>%s</SpectralDistribution></IESTM2714>' "$1" "$2"; }
+        file() {
+            printf '%s<IESTM2714 xmlns="http://www.ies.org/iestm2714"><SpectralDistribution>' "$1"
+            printf '%s</SpectralDistribution></IESTM2714>' "$2"
+        }
         at() { printf '<SpectralData wavelength="%s">%s</SpectralData>' "$1" "$2"; }
         file '<!DOCTYPE a [<!ENTITY b "bbbbbbbb"><!ENTITY c "&b;&b;&b;&b;">]>' "$(at 400 '&c;')" > bomb.spdx
         file '<!DOCTYPE a [<!ENTITY b SYSTEM "scene.json">]>' "$(at 400 '&b;')" > outside.spdx
@@ -84,7 +91,12 @@ fn tm_27_files() {
         of T-Factor factor.spdx
         of irradiance light.spdx
         of reflectance paint.spdx
-        units() { printf '{"spectral_data": {"units": "%s", "index": {"main": ["x"]}, "data": {"main": {"400": [0.1], "700": [0.2]}}}}' "$1" > "$2"; }
+        units() {
+            {
+                printf '{"spectral_data": {"units": "%s", "index": {"main": ["x"]}, ' "$1"
+                printf '"data": {"main": {"400": [0.1], "700": [0.2]}}}}'
+            } > "$2"
+        }
         units absorptance absorptance.json
         units transmittance transmittance.json
         units reflectance paint.json
@@ -170,7 +182,8 @@ fn files_of_estimates() {
         r"
         vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:blue | vestimate -o two.ndjson
         vkernel --facets 2x2 -o scene.json
-        vkernel --facets 2x2 | vforward --reflectance cc24:red --wavelengths-nm 400:700:10 | vestimate | cat two.ndjson - > grids.ndjson",
+        vkernel --facets 2x2 | vforward --reflectance cc24:red --wavelengths-nm 400:700:10 | vestimate \
+            | cat two.ndjson - > grids.ndjson",
         &[
             case("vestimate scene.json --spectra red.txt", 2, &["--spectra", "end it in .csv, .sp or .spdx"]),
             case("vestimate scene.json --spectra red", 2, &["end it in"]),

@@ -78,7 +78,8 @@ fn scenes() {
                 &["--bounces", "--material"],
             ),
             case(
-                "sed 's/\"unknowns\":[0-9]*/\"unknowns\":7/' two.json | vforward --reflectance 0.5 --material \"panel 0=1\"",
+                "sed 's/\"unknowns\":[0-9]*/\"unknowns\":7/' two.json \
+                    | vforward --reflectance 0.5 --material \"panel 0=1\"",
                 1,
                 &["accuracy.unknowns", "vkernel"],
             ),

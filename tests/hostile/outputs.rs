@@ -31,7 +31,8 @@ fn names_of_outputs() {
                 &["outputs"],
             ),
             case(
-                "vforward scene.json --reflectance 0.5 --save facet_rgb=x --save id=y --save truth.reflectance=x",
+                "vforward scene.json --reflectance 0.5 --save facet_rgb=x --save id=y \
+                    --save truth.reflectance=x",
                 2,
                 &["outputs"],
             ),
@@ -89,7 +90,8 @@ fn names_that_are_no_utf_8() {
 #[test]
 fn few_files_may_be_open() {
     let folder = Workdir::new();
-    folder.sh("vkernel --facets 2x2 -o scene; vforward scene --reflectance cc24:red -o samples; vestimate samples -o estimates");
+    folder.sh("vkernel --facets 2x2 -o scene; vforward scene --reflectance cc24:red -o samples; \
+        vestimate samples -o estimates");
     for files in 4..9 {
         for line in [
             "vkernel --facets 2x2 -o out --save kernel=k.npy --plot k.svg",

@@ -93,7 +93,8 @@ END
                 &["grey.tif", "a grey picture", "camera has 3 channels", "--camera"],
             ),
             case(
-                "vextract photo.exr --scene scene.json --camera one.csv --panel0 '332,462 345,77 122,12 104,442'",
+                "vextract photo.exr --scene scene.json --camera one.csv \
+                    --panel0 '332,462 345,77 122,12 104,442'",
                 1,
                 &["photo.exr", "in red, green and blue", "camera has 1 channels"],
             ),

@@ -19,12 +19,20 @@ head -c 100000 /dev/urandom > noise.obj
 cp noise.obj noise.ply
 cp noise.obj noise.json
 printf 'ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n' > bomb.ply
-printf 'ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n\0\0\0\0\0\0\0\0\0\0\0\0\377\377\377\377' > long.ply
-printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n1 1\n3 0 1 2\n' > flat.ply
+{
+    printf '%s\n' ply 'format binary_little_endian 1.0' 'element vertex 1' 'property float x' \
+        'property float y' 'property float z' 'element face 1' 'property list uint int vertex_indices' \
+        end_header
+    printf '\0\0\0\0\0\0\0\0\0\0\0\0\377\377\377\377'
+} > long.ply
+printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property float x' 'property float y' \
+    'element face 1' 'property list uchar int vertex_indices' end_header '0 0' '1 0' '1 1' '3 0 1 2' \
+    > flat.ply
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,2]], "colour": 1}' > more.json
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,1e999]], "facets": [[0,1,2]]}' > huge.json
 echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,18446744073709551615]]}' > index.json
-echo '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,2]], "groups": [{"name": "a", "facets": [7, 18446744073709551615]}]}' > group.json
+printf '%s %s\n' '{"vertices": [[0,0,0],[1,0,0],[1,1,0]], "facets": [[0,1,2]],' \
+    '"groups": [{"name": "a", "facets": [7, 18446744073709551615]}]}' > group.json
 echo solid > floor.stl
 truncate -s 20M large.ply
 ln -s /dev/zero endless.obj
@@ -33,7 +41,9 @@ mkdir folder.obj
 python3 -c '
 n = 320
 print("\n".join(f"v {i} {j} 0" for i in range(n + 1) for j in range(n + 1)))
-print("\n".join(f"f {i * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 2}" for i in range(n) for j in range(n)))
+print("\n".join(
+    f"f {i * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 1} {(i + 1) * (n + 1) + j + 2}"
+    for i in range(n) for j in range(n)))
 ' > many.obj
 "#;
 

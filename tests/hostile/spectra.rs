@@ -124,7 +124,8 @@ fn lights_by_number_and_grids_without_end() {
         vkernel --facets 1x1 -o scene.json
         vforward scene.json --reflectance 0.5 | vestimate -o sample.ndjson
         seq -s, 400 0.1 700 > nm
-        head -n 1 sample.ndjson | sed "s/\"wavelengths_nm\":\[[^]]*\]/\"wavelengths_nm\":[$(cat nm)]/" > fine.ndjson
+        head -n 1 sample.ndjson \
+            | sed "s/\"wavelengths_nm\":\[[^]]*\]/\"wavelengths_nm\":[$(cat nm)]/" > fine.ndjson
         tail -n 1 sample.ndjson >> fine.ndjson"#,
         &[
             case(

@@ -50,7 +50,8 @@ fn streams() {
             case("gzip -c good.ndjson | vscore", 1, &["-:1", "gzip -dc"]),
             case("gzip -c good.ndjson | vforward --reflectance 0.5", 1, &["-:1", "gzip -dc"]),
             case(
-                "gzip -c good.ndjson | vextract picture.tif --panel0 '5,9 5,1 1,1 1,9' --panel1 '5,9 5,1 9,1 9,9'",
+                "gzip -c good.ndjson | vextract picture.tif --panel0 '5,9 5,1 1,1 1,9' \
+                    --panel1 '5,9 5,1 9,1 9,9'",
                 1,
                 &["-:1", "gzip -dc"],
             ),
@@ -146,7 +147,8 @@ fn streams() {
             case("vestimate good.ndjson --plan --prior none", 2, &["--plan", "--prior"]),
             case("vestimate good.ndjson --trace no/such.ndjson", 1, &["no/such.ndjson"]),
             case(
-                "sed 's/\"sensitivities\":[^]]*/\"sensitivities\":[[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0/' good.ndjson | vestimate",
+                "sed 's/\"sensitivities\":[^]]*/\"sensitivities\":[[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\
+                    0,0,0,0,0,0,0,0,0,0,0/' good.ndjson | vestimate",
                 1,
                 &["-:1", "channel 0", "sees nothing"],
             ),

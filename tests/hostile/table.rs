@@ -267,7 +267,8 @@ const SETUP: &str = concat!(
     vforward scene.json --reflectance cc24:red --wavelengths-nm 400:700:10 --no-history -o samples.ndjson
     vestimate samples.ndjson --no-history -o estimates.ndjson
     cat > extract <<'END'
-    vextract -q "$@" --panel0 '332,462 345,77 122,12 104,442' --camera canon-5d-mark-ii $([ "$2" = --scene ] || echo --scene scene.json)
+    vextract -q "$@" --panel0 '332,462 345,77 122,12 104,442' --camera canon-5d-mark-ii \
+        $([ "$2" = --scene ] || echo --scene scene.json)
 END
     cat > full <<'END'
     trap '' XFSZ
@@ -279,7 +280,9 @@ END
     { cat points; printf 'v 1 nan 0\nf 1 2 5\n'; } > nan.obj
     { cat points; printf 'v 1 1e308 0\nf 1 2 5\n'; } > huge.obj
     { cat points; printf 'v 0 .5 0\nf 1 2 3 4 5\n'; } > fifth.obj
-    printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n' > cut.ply
+    printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property float x' 'property float y' \
+        'property float z' 'element face 1' 'property list uchar int vertex_indices' end_header \
+        '0 0 0' '1 0 0' > cut.ply
 
     printf 'nm,r\n400,0.1\n500,NaN\n700,0.3\n' > nan.csv
     printf 'nm,r\n400,0.1\n700,1e308\n' > huge.csv
@@ -296,17 +299,21 @@ np.save('wide.npy', np.zeros((2, 3)))
 whole = open('good.npy', 'rb').read()
 open('cut.npy', 'wb').write(whole[:-8])
 for name, count in [('vast.npy', 10**9), ('lying.npy', 19000)]:
-    text = (b"{'descr': '<f8', 'fortran_order': False, 'shape': (%d, %d), }" % (count, count)).ljust(117) + b'\n'
+    text = b"{'descr': '<f8', 'fortran_order': False, 'shape': (%d, %d), }" % (count, count)
+    text = text.ljust(117) + b'\n'
     open(name, 'wb').write(b'\x93NUMPY\x01\x00' + struct.pack('<H', len(text)) + text + bytes(16))
-nested = b"{'descr': " + b'[' * 50 + b"('a', '<f8')" + b']' * 50 + b", 'fortran_order': False, 'shape': (2, 2), }\n"
+nested = (b"{'descr': " + b'[' * 50 + b"('a', '<f8')" + b']' * 50
+          + b", 'fortran_order': False, 'shape': (2, 2), }\n")
 open('nested.npy', 'wb').write(b'\x93NUMPY\x01\x00' + struct.pack('<H', len(nested)) + nested + bytes(32))
 open('headed.npy', 'wb').write(b'\x93NUMPY\x02\x00\xff\xff\xff\xff' + whole[10:])
-chunk = lambda kind, data: struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+def chunk(kind, data):
+    return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
 for name, size in [('bomb.png', (65535, 65535)), ('lean.png', (26000, 13700)), ('wide.png', (2**31 - 1, 1))]:
     header = chunk(b'IHDR', struct.pack('>IIBBBBB', *size, 16, 2, 0, 0, 0))
-    open(name, 'wb').write(b'\x89PNG\r\n\x1a\n' + header + chunk(b'IDAT', zlib.compress(bytes(9))) + chunk(b'IEND', b''))
-tags = [(256, 4, 1, 65535), (257, 4, 1, 65535), (258, 3, 1, 16), (259, 3, 1, 1), (262, 3, 1, 1), (273, 4, 1, 8),
-        (277, 3, 1, 1), (278, 4, 1, 65535), (279, 4, 1, 2**32 - 1)]
+    data = chunk(b'IDAT', zlib.compress(bytes(9))) + chunk(b'IEND', b'')
+    open(name, 'wb').write(b'\x89PNG\r\n\x1a\n' + header + data)
+tags = [(256, 4, 1, 65535), (257, 4, 1, 65535), (258, 3, 1, 16), (259, 3, 1, 1), (262, 3, 1, 1),
+        (273, 4, 1, 8), (277, 3, 1, 1), (278, 4, 1, 65535), (279, 4, 1, 2**32 - 1)]
 entries = b''.join(struct.pack('<HHII', *tag) for tag in tags)
 open('bomb.tif', 'wb').write(b'II*\0' + struct.pack('<IH', 8, len(tags)) + entries + bytes(4))
 END

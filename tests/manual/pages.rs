@@ -51,11 +51,13 @@ fn schemas() -> Vec<(String, String)> {
 const SHELLS: [(&str, &str); 3] = [
     (
         "bash",
-        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T --progr); COMP_CWORD=1; _$T $T --progr $T; echo \\$COMPREPLY\"",
+        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T --progr); COMP_CWORD=1; \
+            _$T $T --progr $T; echo \\$COMPREPLY\"",
     ),
     (
         "zsh",
-        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -o -m 1 -e --progress",
+        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; \
+            functions _$T\" | grep -o -m 1 -e --progress",
     ),
     ("fish", "fish --no-config -c \"source $C/$T.fish; complete -C '$T --progr'\" | cut -f 1"),
 ];
@@ -81,12 +83,15 @@ fn every_shell_loads_its_completions() {
 const NAMES: [(&str, &str); 3] = [
     (
         "bash",
-        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T $F $B); COMP_CWORD=2; _$T $T $B $F; printf '%s\\n' \\${COMPREPLY[@]}\"",
+        "bash --norc -c \". $C/$T.bash; COMP_WORDS=($T $F $B); COMP_CWORD=2; _$T $T $B $F; \
+            printf '%s\\n' \\${COMPREPLY[@]}\"",
     ),
     // as it is defined: who completes is at a terminal
     (
         "zsh",
-        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; autoload +X _$T; functions _$T\" | grep -e \"^'$F=\" -e \"$F=\" | tr ' (' '\\n\\n' | sed 's/)*\".*//; s/_files/'$B'-file/' | grep -e \"^$B\"; echo $B-file",
+        "zsh -f -c \"fpath=($C \\$fpath); autoload -Uz compinit; compinit -u -D; \
+            autoload +X _$T; functions _$T\" | grep -e \"^'$F=\" -e \"$F=\" | tr ' (' '\\n\\n' \
+            | sed 's/)*\".*//; s/_files/'$B'-file/' | grep -e \"^$B\"; echo $B-file",
     ),
     ("fish", "fish --no-config -c \"source $C/$T.fish; complete -C '$T $F $B'\" | cut -f 1"),
 ];
@@ -146,10 +151,13 @@ const SETUP: &str = concat!(
     r#"
 vkernel --angle-deg 50 -o scene.json
 cp photo.exr 1.exr; cp photo.exr 2.exr
-echo '{"panel0": [[332,462],[345,77],[122,12],[104,442]], "panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
+printf '%s %s\n' '{"panel0": [[332,462],[345,77],[122,12],[104,442]],' \
+    '"panel1": [[332,462],[345,77],[485,17],[472,446]]}' > corners.json
 vforward scene.json --reflectance cc24:red -o samples.ndjson
 vestimate samples.ndjson -o estimates.ndjson
-for angle in 30 60; do vkernel --angle-deg $angle | vforward --reflectance 0.5 | vestimate -o angle-$angle.ndjson; done
+for angle in 30 60; do
+    vkernel --angle-deg $angle | vforward --reflectance 0.5 | vestimate -o angle-$angle.ndjson
+done
 printf 'nm,red\n380,0.05\n600,0.4\n780,0.6\n' > measured.csv
 vscore estimates.ndjson -o scored.ndjson
 "#

@@ -15,7 +15,8 @@ fn what_the_tools_write_fits_the_schema() {
     let written = folder.sh(include_str!("schema/streams.sh"));
     assert_eq!((written.status, written.stderr.as_str()), (0, ""), "{written:?}");
     let judged = folder.sh(&format!(
-        "vscore --generate schema > schema.json; python3 '{ROOT}/tests/manual/schema/validate.py' schema.json *.ndjson"
+        "vscore --generate schema > schema.json; \
+            python3 '{ROOT}/tests/manual/schema/validate.py' schema.json *.ndjson"
     ));
     assert_eq!((judged.status, judged.stderr.as_str()), (0, ""), "{judged:?}");
     println!("{}", judged.stdout);

@@ -379,14 +379,19 @@ fn the_number_of_threads_changes_no_bit() {
 proptest! {
     /// Facets share out the pixels wholly inside a panel: their counts add up whatever the division.
     #[test]
-    fn the_division_into_facets_loses_no_pixel(rows in 1_usize..9, cols in 1_usize..9, margin_px in 0.0..5.0) {
+    fn the_division_into_facets_loses_no_pixel(
+        rows in 1_usize..9,
+        cols in 1_usize..9,
+        margin_px in 0.0..5.0,
+    ) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("flat.png");
         write_linear(&path, 64, 48, &[0.5; 64 * 48 * 3]).unwrap();
         let photograph = open(&path);
         let sheet = [panel([(60.0, 3.0), (58.0, 44.0), (5.0, 40.0), (9.0, 11.0)])];
         let pixels = |rows, cols| -> f64 {
-            measure(&photograph, &grids(&sheet, [rows, cols]), margin_px).unwrap().iter().map(|facet| facet.pixels).sum()
+            let facets = measure(&photograph, &grids(&sheet, [rows, cols]), margin_px).unwrap();
+            facets.iter().map(|facet| facet.pixels).sum()
         };
         prop_assert!((pixels(rows, cols) - pixels(1, 1)).abs() < 1e-6);
     }

@@ -15,10 +15,14 @@ const WRITER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/numbers/tiff_fi
 const HEAD: &str = "\
 # TIFF, layout by layout
 
-`cargo test --test numbers tiff` writes one small picture in every layout, has OpenImageIO and vfold read it, and compares all pixels: strips or
-tiles; samples side by side or a plane each; uncompressed, PackBits, LZW, Deflate; without predictor, with differences (2), with that of floats
-(3); in turns little-endian and big-endian. A cell has how many files gave the same numbers within 1e-6, or were refused, and why. Where
-OpenImageIO reads a file otherwise than the same picture in strips, or not at all (2.4: floats of 64 bits in tiles), its numbers are those of the
+`cargo test --test numbers tiff` writes one small picture in every layout, \
+has OpenImageIO and vfold read it, and compares all pixels: strips or
+tiles; samples side by side or a plane each; uncompressed, PackBits, LZW, Deflate; \
+without predictor, with differences (2), with that of floats
+(3); in turns little-endian and big-endian. \
+A cell has how many files gave the same numbers within 1e-6, or were refused, and why. Where
+OpenImageIO reads a file otherwise than the same picture in strips, or not at all \
+(2.4: floats of 64 bits in tiles), its numbers are those of the
 strips; the test prints how many these are.
 
 ";
@@ -160,7 +164,8 @@ fn page(files: &[Made], came: &[Came]) -> String {
     }
     let same = came.iter().filter(|came| ***came == Came::Same).count();
     let mut page = format!(
-        "{HEAD}{} files: {same} are the same, {} are refused.\n\n| samples are | a pixel has | {} |\n|---|---|---|---|---|---|\n",
+        "{HEAD}{} files: {same} are the same, {} are refused.\n\n| samples are | a pixel has | {} |\n\
+         |---|---|---|---|---|---|\n",
         files.len(),
         files.len() - same,
         COLUMNS.join(" | ")

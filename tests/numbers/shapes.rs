@@ -352,7 +352,11 @@ proptest! {
     /// matters.
     #[test]
     fn accordions_obey_the_laws(
-        angle_deg in 20.0..150.0, ridge_deg in 30.0..170.0, creases in 1_usize..4, bow_deg in -40.0..60.0, size in 1e-3..1e3,
+        angle_deg in 20.0..150.0,
+        ridge_deg in 30.0..170.0,
+        creases in 1_usize..4,
+        bow_deg in -40.0..60.0,
+        size in 1e-3..1e3,
     ) {
         let valley = Fold::new(angle_deg, 1.0, 0.7, FacetGrid { rows: 3, cols: 2 }).unwrap();
         let shape = Accordion { valley, creases, ridge_deg, bow_deg }.shape();

@@ -13,8 +13,10 @@ use serde_json::Value;
 const HEADER: &str = "\
 # What else is in the programs
 
-Crates linked into vfold's programs (Linux, feature `raw`), their licences and whose they are; where a licence is a choice, the first
-of MIT, Apache-2.0 and the others holds. Texts are beside this file. rawler, and what it alone brings, is only in programs that read RAW
+Crates linked into vfold's programs (Linux, feature `raw`), their licences and whose they are; \
+where a licence is a choice, the first
+of MIT, Apache-2.0 and the others holds. Texts are beside this file. \
+rawler, and what it alone brings, is only in programs that read RAW
 files: they may be built anew with another rawler, as LGPL-2.1 has it, from vfold's own source.
 `LICENSES=write cargo test --test supply` makes this table anew.
 

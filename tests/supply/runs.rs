@@ -7,11 +7,13 @@ use super::path;
 /// to be looked into.
 const ALL_TOOLS: &str = "
 mkdir home tmp work
-export HOME=$PWD/home TMPDIR=$PWD/tmp XDG_CONFIG_HOME=$PWD/home/c XDG_CACHE_HOME=$PWD/home/k XDG_DATA_HOME=$PWD/home/d
+export HOME=$PWD/home TMPDIR=$PWD/tmp XDG_CONFIG_HOME=$PWD/home/c XDG_CACHE_HOME=$PWD/home/k \
+    XDG_DATA_HOME=$PWD/home/d
 cd work
 vkernel --angle-deg 50 --facets 4x4 --save kernel=k.npy -o scene.json
 vforward scene.json --reflectance cc24:red cc24:green --noise-sd 1e-3 --render fold.png -o samples.ndjson
-vextract \"$PHOTO\" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --overlay overlay.png -o sample.ndjson \\
+vextract \"$PHOTO\" --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
+    --overlay overlay.png -o sample.ndjson \\
     --panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'
 vestimate samples.ndjson --plot spectra.svg --resume estimates.ndjson
 vestimate sample.ndjson --trace trace.ndjson -o estimate.ndjson
@@ -52,7 +54,8 @@ fn streams_are_longer_than_memory() {
         vkernel | vforward --reflectance cc24:red --noise-sd 1e-3 | vestimate -o one.ndjson
         sample=$(tail -n 1 one.ndjson)
         count=$((300000000 / ${#sample}))
-        { head -n 1 one.ndjson; yes \"$sample\" | head -n $count; } | (ulimit -v 200000; MALLOC_ARENA_MAX=1 vscore -j 2) | tail -n 1 > summary
+        { head -n 1 one.ndjson; yes \"$sample\" | head -n $count; } \
+            | (ulimit -v 200000; MALLOC_ARENA_MAX=1 vscore -j 2) | tail -n 1 > summary
         grep -q '\"scored\":'$count, summary");
     assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{run:?}");
 }

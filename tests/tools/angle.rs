@@ -7,7 +7,8 @@ use crate::common::{Ended, Workdir};
 
 const PHOTOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos");
 const ALL: &str = "vextract --find photo.exr > regions.json
-    vkernel --regions regions.json | vextract -q photo.exr --regions regions.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q";
+    vkernel --regions regions.json | vextract -q photo.exr --regions regions.json --camera canon-5d-mark-ii \
+        --illuminant D65 | vestimate -q";
 
 /// A folder with a photograph of a fold of 50°.
 fn with_photo() -> Workdir {
@@ -46,9 +47,11 @@ fn the_estimate_moves_an_angle_as_far_as_its_deviation_allows() {
     let fitted = |sd: &str| {
         let run = with_photo().sh(&format!(
             "vextract --find photo.exr > found.json
-            sed 's/\"angle_deg\":[0-9.]*,\"angle_sd_deg\":[0-9.]*/\"angle_deg\":50.5,\"angle_sd_deg\":{sd}/' found.json > regions.json
+            sed 's/\"angle_deg\":[0-9.]*,\"angle_sd_deg\":[0-9.]*/\"angle_deg\":50.5,\"angle_sd_deg\":{sd}/' \
+                found.json > regions.json
             vkernel --regions regions.json |
-            vextract -q photo.exr --regions found.json --camera canon-5d-mark-ii --illuminant D65 | vestimate -q"
+            vextract -q photo.exr --regions found.json --camera canon-5d-mark-ii \
+                --illuminant D65 | vestimate -q"
         ));
         number(&records(&run)[1]["estimate"]["fit"]["angle_deg"]["value"])
     };
@@ -81,7 +84,8 @@ fn a_scene_of_another_fold_is_doubtful() {
     let marked = "--panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'";
     let verdict = |fold: &str, corners: &str| {
         let run = with_photo().sh(&format!(
-            "vkernel {fold} --facets 6x6 | vextract -q photo.exr {corners} --camera canon-5d-mark-ii --illuminant D65 | vestimate -q"
+            "vkernel {fold} --facets 6x6 | vextract -q photo.exr {corners} --camera canon-5d-mark-ii \
+                --illuminant D65 | vestimate -q"
         ));
         let verdict = records(&run)[1]["estimate"]["verdict"].clone();
         ["level", "because"].map(|part| verdict[part].as_str().unwrap().to_owned())
@@ -105,7 +109,10 @@ fn corners_of_the_picker_tell_the_angle() {
     let run = |regions: &str, flags: &str| {
         Workdir::new().sh(&format!("echo '{regions}' > corners.json; vkernel --regions corners.json {flags}"))
     };
-    let panels = r#""panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "panel1": [[332, 462], [345, 77], [485, 17], [472, 446]]"#;
+    let panels = concat!(
+        r#""panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "#,
+        r#""panel1": [[332, 462], [345, 77], [485, 17], [472, 446]]"#,
+    );
     let sized = format!(r#"{{{panels}, "width": 640, "height": 480}}"#);
     let scene = &records(&run(&sized, "--panel 1x1"))[0];
     assert!((number(&scene["geometry"]["angle_deg"]) - 50.0).abs() < 1.5, "{}", scene["geometry"]);

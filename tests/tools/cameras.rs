@@ -10,7 +10,8 @@ const CAMERAS: &str = include_str!("../../share/cameras.txt");
 const SETUP: &str = r#"
     vkernel --facets 1x1 -o scene.json
     cat > picture <<'END'
-    oiiotool --pattern constant:color=0.4,0.5,0.3 40x40 3 --attrib Make "$1" --attrib Model "$2" -d uint16 -o photo.tif
+    oiiotool --pattern constant:color=0.4,0.5,0.3 40x40 3 --attrib Make "$1" --attrib Model "$2" \
+        -d uint16 -o photo.tif
 END
     cat > extract <<'END'
     exec vextract photo.tif --scene scene.json --illuminant D65 --panel0 '0,0 40,0 40,40 0,40' "$@"
@@ -122,14 +123,17 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
 /// exposure not being told.
 const CHART: &str = r#"
     vkernel --angle-deg 180 --facets 1x1 |
-        vforward --reflectance cc24 --camera canon-powershot-s90 --illuminant sun:40deg --save facet_rgb=chart.npy > /dev/null
+        vforward --reflectance cc24 --camera canon-powershot-s90 --illuminant sun:40deg \
+            --save facet_rgb=chart.npy > /dev/null
     fills=$(python3 - <<'END'
 import numpy as np
 for k, rgb in enumerate(np.load("chart.npy")[:, 0]):
-    print("--fill:color={0:.9f},{1:.9f},{2:.9f} 48x48+{3}+{4}".format(*rgb, 10 + 54 * (k % 6), 10 + 54 * (k // 6)))
+    place = 10 + 54 * (k % 6), 10 + 54 * (k // 6)
+    print("--fill:color={0:.9f},{1:.9f},{2:.9f} 48x48+{3}+{4}".format(*rgb, *place))
 END
     )
-    oiiotool --create 340x230 3 $fills --mulc 0.9,0.5,0.7 --noise:type=gaussian:stddev=0.002:seed=3 -d half -o chart.exr
+    oiiotool --create 340x230 3 $fills --mulc 0.9,0.5,0.7 \
+        --noise:type=gaussian:stddev=0.002:seed=3 -d half -o chart.exr
     oiiotool chart.exr --mulc 0.01 -d half -o dark.exr
     oiiotool chart.exr --mulc 4 -d uint16 -o clipped.tif
     chart="10,10 328,10 328,220 10,220"
@@ -146,7 +150,9 @@ fn a_chart_makes_a_camera_file() {
         vextract chart.exr --chart "$chart" --illuminant sun:40deg --save-camera mine.csv
         head -n 1 mine.csv
         vkernel --facets 1x1 -o scene.json
-        for camera in canon-powershot-s90 mine.csv; do vforward scene.json --reflectance 0.5 --camera $camera -q; done"#
+        for camera in canon-powershot-s90 mine.csv; do
+            vforward scene.json --reflectance 0.5 --camera $camera -q
+        done"#
     ));
     assert_eq!(run.status, 0, "{}", run.stderr);
     let mut lines = run.stdout.lines();
@@ -202,15 +208,22 @@ fn channels_are_found_by_name_in_any_order() {
         r##"
         cut -d, -f 1,4,3,2 {BLUE_FIRST} | awk -F, -v OFS=, '{{ print $1, $4, $3, $2 }}' > rgb.csv
         head -n 1 rgb.csv | grep -qx 'wavelength,R,G,B'
-        awk -F, -v OFS=, 'NR == 1 {{ print "nm,green,BLUE,Red" }} NR > 1 {{ print $1, $3, $4, $2 }}' rgb.csv > words.csv
+        awk -F, -v OFS=, 'NR == 1 {{ print "nm,green,BLUE,Red" }}
+            NR > 1 {{ print $1, $3, $4, $2 }}' rgb.csv > words.csv
         awk -F, -v OFS=, 'NR == 1 {{ print "nm,B,B_sd,IR,Canon G,R_std,R,Canon G uncertainty" }}
             NR > 1 {{ print $1, $4, 1, 2, $3, 3, $2, 4 }}' rgb.csv > beside.csv
-        awk -F, -v OFS=, -v OFMT=%.17g 'NR == 1 {{ print "nm,R,G1,G2,B" }} NR > 1 {{ print $1, $2, 0, 2 * $3, $4 }}' rgb.csv > greens.csv
-        awk -F, 'BEGIN {{ printf "{{\"spectral_data\": {{\"index\": {{\"main\": [\"B\", \"R\", \"G\"]}}, \"data\": {{\"main\": {{" }}
-            NR > 1 {{ printf "%s\"%s\": [%s, %s, %s]", (NR > 2 ? ", " : ""), $1, $4, $2, $3 }} END {{ print "}}}}}}}}" }}' rgb.csv > aces.json
+        awk -F, -v OFS=, -v OFMT=%.17g 'NR == 1 {{ print "nm,R,G1,G2,B" }}
+            NR > 1 {{ print $1, $2, 0, 2 * $3, $4 }}' rgb.csv > greens.csv
+        awk -F, 'BEGIN {{
+                printf "{{\"spectral_data\": {{\"index\": {{\"main\": [\"B\", \"R\", \"G\"]}}, "
+                printf "\"data\": {{\"main\": {{"
+            }}
+            NR > 1 {{ printf "%s\"%s\": [%s, %s, %s]", (NR > 2 ? ", " : ""), $1, $4, $2, $3 }}
+            END {{ print "}}}}}}}}" }}' rgb.csv > aces.json
         vkernel --facets 1x1 -o scene.json
         for file in rgb.csv {BLUE_FIRST} words.csv beside.csv greens.csv aces.json; do
-            vforward scene.json --reflectance cc24:orange --camera $file --save facet_rgb=found.npy -o found.ndjson
+            vforward scene.json --reflectance cc24:orange --camera $file \
+                --save facet_rgb=found.npy -o found.ndjson
             echo "$(cksum < found.npy)" >> sums
         done
         test "$(sort -u sums | wc -l)" = 1 || {{ cat sums; exit 1; }}"##
@@ -247,8 +260,10 @@ fn what_a_cameras_file_leaves_open_is_said() {
     assert_eq!(
         run.stderr.lines().collect::<Vec<_>>(),
         [
-            "vforward: places.csv: channels c1, c2, c3 taken for R, G, B by their places, as no name says a colour",
-            "vforward: scaled.csv: all channels have the same peak, as no camera's do: scaled one by one, they have lost their ratios",
+            "vforward: places.csv: channels c1, c2, c3 taken for R, G, B by their places, \
+             as no name says a colour",
+            "vforward: scaled.csv: all channels have the same peak, as no camera's do: \
+             scaled one by one, they have lost their ratios",
         ]
     );
 }
@@ -260,12 +275,16 @@ fn channels_scaled_one_by_one_are_a_doubt() {
     let run = folder.sh(&format!(
         r##"
         vkernel --angle-deg 50 -o scene.json
-        awk -F, -v OFS=, 'NR == 1 {{ print "nm,R,G,B" }} NR > 1 {{ print $1, $4, $3, $2 }}' {BLUE_FIRST} > camera.csv
-        vforward scene.json --reflectance cc24:orange --camera camera.csv --illuminant D65 --render orange.exr > both.json
+        awk -F, -v OFS=, 'NR == 1 {{ print "nm,R,G,B" }} NR > 1 {{ print $1, $4, $3, $2 }}' {BLUE_FIRST} \
+            > camera.csv
+        vforward scene.json --reflectance cc24:orange --camera camera.csv --illuminant D65 \
+            --render orange.exr > both.json
         tail -n 1 both.json > corners.json
-        awk -F, -v OFS=, 'NR == 1 {{ print }} NR > 1 {{ print $1, $2 / 0.8, $3, $4 / 0.9 }}' camera.csv > scaled.csv
+        awk -F, -v OFS=, 'NR == 1 {{ print }} NR > 1 {{ print $1, $2 / 0.8, $3, $4 / 0.9 }}' camera.csv \
+            > scaled.csv
         for camera in camera.csv scaled.csv; do
-            vextract orange.exr --scene scene.json --camera $camera --illuminant D65 --regions corners.json | vestimate -o $camera.ndjson
+            vextract orange.exr --scene scene.json --camera $camera --illuminant D65 --regions corners.json \
+                | vestimate -o $camera.ndjson
         done"##
     ));
     assert_eq!(run.status, 0, "{}", run.stderr);

@@ -141,7 +141,8 @@ fn a_reader_that_leaves_is_no_failure() {
         "vforward scene.json --reflectance munsell | vestimate",
         "vscore long.ndjson",
     ] {
-        let lengthen = "{ head -n 1 estimates.ndjson; for n in 1 2 3 4; do tail -n +2 estimates.ndjson; done; } > long.ndjson";
+        let lengthen = "{ head -n 1 estimates.ndjson; \
+            for n in 1 2 3 4; do tail -n +2 estimates.ndjson; done; } > long.ndjson";
         let script = format!(
             "{lengthen}\n{{ status=0; {run} || status=$?; echo $status > status; }} | head -c 10; cat status"
         );
@@ -235,7 +236,8 @@ fn a_record_leaves_before_the_next_comes() {
 fn every_tool_goes_on_with_its_own_file() {
     for run in RUNS {
         let script = format!(
-            "{run} -q > whole; head -c 700 whole > out; {run} --resume out; cmp whole out; {run} -j 2 --resume=out; cmp whole out"
+            "{run} -q > whole; head -c 700 whole > out; {run} --resume out; cmp whole out; \
+             {run} -j 2 --resume=out; cmp whole out"
         );
         assert_eq!(printed(&script), "", "{run}");
     }
@@ -256,7 +258,11 @@ fn every_tool_adds_its_line_of_history() {
 /// What the tools do not know comes out as it went in, wherever it stands.
 #[test]
 fn unknown_fields_and_kinds_pass_through() {
-    let remark = json!({"kind": "remark", "text": "ß \u{1}\n\"", "x": [0.1, 5e-324, 1e308, u64::MAX, null, {"y": []}]});
+    let remark = json!({
+        "kind": "remark",
+        "text": "ß \u{1}\n\"",
+        "x": [0.1, 5e-324, 1e308, u64::MAX, null, {"y": []}],
+    });
     let extra = json!({"deep": [{"er": [1, 2.5, "three"]}]});
     let script = format!(
         r#"

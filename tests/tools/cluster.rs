@@ -14,10 +14,14 @@ const SETUP: &str = concat!(
     export LC_ALL=C
     "$cluster/photos" . 48x36 6
     find photos -name '*.tif' | sort > photos.txt
-    extract() { vextract --files-from - --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 "$@" < photos.txt; }
+    extract() {
+        vextract --files-from - --scene scene.json --regions corners.json --camera canon-5d-mark-ii \
+            --illuminant D65 "$@" < photos.txt
+    }
     dies_once() {
         mkdir -p bin
-        printf '#!/bin/sh\nmkdir %s 2>/dev/null && kill -9 $$\nexec %s "$@"\n' "$PWD/$1-died" "$(command -v $1)" > bin/$1
+        printf '#!/bin/sh\nmkdir %s 2>/dev/null && kill -9 $$\nexec %s "$@"\n' \
+            "$PWD/$1-died" "$(command -v $1)" > bin/$1
         chmod +x bin/$1
         PATH=$PWD/bin:$PATH
     }
@@ -42,8 +46,8 @@ fn gnu_parallel_on_this_machine() {
     }
     assert_prints(
         r#"
-        vextract --files-from photos.txt --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 \
-            --no-history > samples.one
+        vextract --files-from photos.txt --scene scene.json --regions corners.json \
+            --camera canon-5d-mark-ii --illuminant D65 --no-history > samples.one
         vestimate < samples.one > estimates.one
         dies_once vextract
         PART=2 "$cluster/parallel/extract"
@@ -90,8 +94,10 @@ END
             echo "2/$host" >> hosts
         done
         trap 'kill $(cat sshd-*.pid)' EXIT
-        export PARALLEL_SSH="ssh -F none -i $PWD/user_key -p $port -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR"
-        BLOCK=9k "$cluster/parallel/estimate" --sshloginfile hosts --env PATH < samples.ndjson > estimates.ndjson
+        options='-o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o LogLevel=ERROR'
+        export PARALLEL_SSH="ssh -F none -i $PWD/user_key -p $port $options"
+        BLOCK=9k "$cluster/parallel/estimate" --sshloginfile hosts --env PATH \
+            < samples.ndjson > estimates.ndjson
         cmp estimates.ndjson estimates.one
         ls -d *-died
         sort -u hosts-used"#,

@@ -23,9 +23,10 @@ fn estimate(folder: &Workdir, sheet: &str, part: f64) -> Estimate {
     let [daylight, specular_weight, roughness] = [6504.0 - 1204.0 * part, 0.4 * part, 15.0 * part];
     let render = format!(
         "vkernel --angle-deg {angle} --tilt-deg {tilt} --sky {sky} |
-         vforward -q --reflectance '{sheet}' --illuminant daylight:{daylight} --sky-illuminant daylight:11000 \
-           --specular-weight {specular_weight} --specular-roughness 0.42 --body-roughness-deg {roughness} --exposure 0.7 --noise-sd 1e-3 --photon-noise 1e-2 \
-           --seed 1 --render picture.tif --render-size 400x300"
+         vforward -q --reflectance '{sheet}' --illuminant daylight:{daylight} \
+           --sky-illuminant daylight:11000 --specular-weight {specular_weight} --specular-roughness 0.42 \
+           --body-roughness-deg {roughness} --exposure 0.7 --noise-sd 1e-3 --photon-noise 1e-2 --seed 1 \
+           --render picture.tif --render-size 400x300"
     );
     let run = folder.sh(&render);
     assert_eq!(run.status, 0, "{}", run.stderr);

@@ -30,9 +30,9 @@ fn the_box_looks_like_its_picture() {
 {}END
         for colour in 2 3 4; do cut -d, -f1,$colour {SCENES}/cornell_box_reflectance.csv > $colour.csv; done
         vkernel --shape box.obj --light point:278,500,279.5 --tolerance 0.05 -o box.json -q
-        vforward box.json --reflectance 2.csv --material right_wall=3.csv --material left_wall=4.csv --illuminant D65 \
-            --eye 278,273,-800 --look-at 278,273,0 --up 0,1,0 --field-of-view-deg {} --render-size {SIZE}x{SIZE} \
-            --render {} -o sample.ndjson -q",
+        vforward box.json --reflectance 2.csv --material right_wall=3.csv --material left_wall=4.csv \
+            --illuminant D65 --eye 278,273,-800 --look-at 278,273,0 --up 0,1,0 --field-of-view-deg {} \
+            --render-size {SIZE}x{SIZE} --render {} -o sample.ndjson -q",
         mesh(&scene),
         2.0 * f64::atan(0.0125 / 0.035).to_degrees(),
         path.display()

@@ -68,7 +68,8 @@ fn row(set: &str, noise: &str, (camera, light): (&str, &str), exposure: &str) ->
     let folder = Workdir::new();
     fs::write(folder.path().join("set.csv"), of_sheets(set)).unwrap();
     let run = folder.sh(&format!(
-        "vkernel | vforward --reflectance set.csv --noise-sd {noise} --camera {DATA}/cameras/{camera}.csv --illuminant {light} |
+        "vkernel | vforward --reflectance set.csv --noise-sd {noise} --camera {DATA}/cameras/{camera}.csv \
+            --illuminant {light} |
              vestimate -q --exposure {exposure}"
     ));
     assert_eq!(run.status, 0, "{set}: {}", run.stderr);

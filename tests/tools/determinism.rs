@@ -27,13 +27,16 @@ const RUNS: [&str; 24] = [
     "vkernel --method monte-carlo --samples 3000 --save kernel=file",
     "vkernel --method monte-carlo --sampling cosine --samples 3000 --save kernel=file",
     "vkernel --check",
-    "vkernel --folds 2 --angle-deg 60 --ridge-deg 80 --facets 3x3 --sky 0.2 --sky-type overcast --light 0,1,2 --light point:1,1,3:0.5",
-    "vforward scene.json --reflectance cc24 --noise-sd 1e-3 --photon-noise 1e-3 --seed 4 --save facet_rgb=file",
+    "vkernel --folds 2 --angle-deg 60 --ridge-deg 80 --facets 3x3 --sky 0.2 --sky-type overcast \
+        --light 0,1,2 --light point:1,1,3:0.5",
+    "vforward scene.json --reflectance cc24 --noise-sd 1e-3 --photon-noise 1e-3 \
+        --seed 4 --save facet_rgb=file",
     "vforward scene.json --reflectance cc24 --bounces 3 --panel-reflectance 0=cc24:red",
     "vforward scene.json --reflectance 0.5 --render file.exr --render-size 80x60",
     "vforward shape.json --reflectance cc24",
-    "vextract 1.exr 2.exr 3.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --refine --overlay file-{}.png \
-        --panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'",
+    "vextract 1.exr 2.exr 3.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
+        --refine --overlay file-{}.png --panel0 '332,462 345,77 122,12 104,442' \
+        --panel1 '332,462 345,77 485,17 472,446'",
     "vestimate samples.ndjson --save covariance=file",
     "vestimate samples.ndjson --exposure free --plot file.svg",
     "head -n 4 samples.ndjson | vestimate --fit exposure,tilt,sky,angle --trace file",

@@ -114,8 +114,8 @@ fn held(script: &str) -> [f64; 2] {
 
 #[test]
 fn twenty_starts_end_in_one_place() {
-    let starts = "0.02 0.05 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 0.95 0.98 cc24:red cc24:green cc24:blue cc24:yellow \
-                  cc24:white cc24:black munsell:5R6/12";
+    let starts = "0.02 0.05 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 0.95 0.98 cc24:red cc24:green cc24:blue \
+                  cc24:yellow cc24:white cc24:black munsell:5R6/12";
     let patches = "cc24:dark-skin cc24:orange cc24:cyan cc24:white cc24:black";
     for noise in ["0", "1e-3"] {
         let shot = format!("vkernel | vforward --reflectance {patches} --noise-sd {noise}");

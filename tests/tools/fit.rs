@@ -136,10 +136,9 @@ fn plans_are_honest() {
 #[test]
 fn a_trace_has_a_line_an_iteration() {
     let folder = Workdir::new();
-    let run = folder.sh(
-        "vkernel | vforward --reflectance 0.2 0.6 --noise-sd 1e-3 | vestimate --trace trace.ndjson > found.ndjson
-         cat trace.ndjson found.ndjson",
-    );
+    let run = folder.sh("vkernel | vforward --reflectance 0.2 0.6 --noise-sd 1e-3 \
+            | vestimate --trace trace.ndjson > found.ndjson
+         cat trace.ndjson found.ndjson");
     let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     for sample in records.iter().filter(|record| record["kind"] == "sample") {
         let steps: Vec<&Value> = records.iter().filter(|record| record["sample"] == sample["id"]).collect();
@@ -161,7 +160,10 @@ fn a_sky_bluer_than_any_is_fitted_on_the_bound() {
         vkernel --sky 0.4 --tilt-deg 10 -o scene.json
         simulate() { vforward scene.json --noise-sd 1e-3 -q --reflectance "$@"; }
         for chip in white cyan moderate-red; do
-            { simulate cc24:$chip | head -n 1; simulate cc24:$chip --sky-illuminant blue.csv | tail -n 1; } | vestimate -q --fit sky
+            {
+                simulate cc24:$chip | head -n 1
+                simulate cc24:$chip --sky-illuminant blue.csv | tail -n 1
+            } | vestimate -q --fit sky
         done"#);
     assert!(run.status == 0, "{}", run.stderr);
     let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());

@@ -50,7 +50,8 @@ fn estimates_are_those_of_another_solver() {
 #[test]
 fn khan_meets_the_colours() {
     let sheet = samples(&format!(
-        "{FLAT} | vforward --reflectance cc24:purple --illuminant A --illuminant D65 | vestimate --method khan"
+        "{FLAT} | vforward --reflectance cc24:purple --illuminant A --illuminant D65 \
+            | vestimate --method khan"
     ));
     assert!(sheet[0]["estimate"]["residual_rms"].as_f64().unwrap() < 1e-9, "{}", sheet[0]["estimate"]);
     assert_eq!(sheet[0]["estimate"]["prior"], "munsell");

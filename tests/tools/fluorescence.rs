@@ -79,8 +79,10 @@ fn measured_sheets_are_computed_as_elsewhere() {
 
 /// A brightened sheet on the wavelengths of its scene, and the same sheet without what fluoresces.
 const SHEETS: &str = "
-printf 'emission_nm,360,400,450,500,550\n400,0.1,0.5,0,0,0\n450,0.2,0.1,0.7,0,0\n500,0.05,0.02,0.02,0.8,0\n550,0,0,0,0,0.9\n' > bright.csv
-printf 'emission_nm,360,400,450,500,550\n400,0,0.5,0,0,0\n450,0,0,0.7,0,0\n500,0,0,0,0.8,0\n550,0,0,0,0,0.9\n' > plain.csv
+printf 'emission_nm,360,400,450,500,550\n400,0.1,0.5,0,0,0\n450,0.2,0.1,0.7,0,0\n500,0.05,0.02,0.02,0.8,0\n\
+    550,0,0,0,0,0.9\n' > bright.csv
+printf 'emission_nm,360,400,450,500,550\n400,0,0.5,0,0,0\n450,0,0,0.7,0,0\n500,0,0,0,0.8,0\n\
+    550,0,0,0,0,0.9\n' > plain.csv
 printf 'nm,r\n400,0.5\n450,0.7\n500,0.8\n550,0.9\n' > r.csv
 vkernel --angle-deg 50 --facets 3x3 --sky 0.2 > scene.json
 ";
@@ -118,14 +120,13 @@ fn direct_light_is_what_a_part_of_white_says() {
     let folder = Workdir::new();
     folder.sh(SHEETS);
     folder.sh("vforward scene.json --wavelengths-nm 400:550:50 --donaldson bright.csv -o truth.ndjson");
-    folder.sh(
-        "python3 - <<'END'
+    folder.sh("python3 - <<'END'
 import json
 truth = json.loads(open('truth.ndjson').readlines()[1])['truth']
 parts = [total - r for total, r in zip(truth['total_radiance_factor'], truth['reflectance'])]
-open('f.csv', 'w').write('nm,f\\n' + ''.join(f'{nm},{f!r}\\n' for nm, f in zip(truth['wavelengths_nm'], parts)))
-END",
-    );
+open('f.csv', 'w').write('nm,f\\n' + ''.join(f'{nm},{f!r}\\n' for nm, f in \
+    zip(truth['wavelengths_nm'], parts)))
+END");
     let both = |bounces: &str| {
         let matrix = facets_of(&folder, &format!("--donaldson bright.csv --bounces {bounces}"));
         let part =
@@ -174,7 +175,8 @@ for name, strength in ('brightened', 1), ('white', 0):
             file.write(f'{nm},' + ','.join(repr(factor(of)) for of in excitation) + '\\n')
 END
 for sheet in brightened white; do
-    vkernel --angle-deg 45 | vforward -q --donaldson $sheet.csv --illuminant D65 --wavelengths-nm 400:700:5 --camera canon-5d-mark-ii --noise-sd 1e-3 >$sheet.ndjson
+    vkernel --angle-deg 45 | vforward -q --donaldson $sheet.csv --illuminant D65 --wavelengths-nm 400:700:5 \
+        --camera canon-5d-mark-ii --noise-sd 1e-3 >$sheet.ndjson
 done
 ";
 

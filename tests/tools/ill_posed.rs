@@ -112,17 +112,18 @@ fn brightness_is_no_precision() {
 #[test]
 fn few_channels_are_no_precision() {
     let folder = Workdir::new();
-    let tables = folder.sh(
-        r"
+    let tables = folder.sh(r"
         { echo wavelength,grey; for nm in $(seq 380 5 780); do echo $nm,1; done; } > one.csv
         { echo wavelength,short,long
-          for nm in $(seq 380 5 780); do echo $nm,$((nm < 560 ? 9 : 1)),$((nm < 560 ? 1 : 8)); done; } > two.csv",
-    );
+          for nm in $(seq 380 5 780); do
+              echo $nm,$((nm < 560 ? 9 : 1)),$((nm < 560 ? 1 : 8))
+          done; } > two.csv");
     assert_eq!((tables.status, tables.stderr.as_str()), (0, ""));
     for camera in ["one.csv", "two.csv"] {
         for exposure in ["1", "free"] {
             let line = format!(
-                "vkernel | vforward --camera {camera} --reflectance cc24 --noise-sd 1e-3 | vestimate -q --exposure {exposure}"
+                "vkernel | vforward --camera {camera} --reflectance cc24 --noise-sd 1e-3 \
+                    | vestimate -q --exposure {exposure}"
             );
             let run = folder.sh(&line);
             assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{line}");

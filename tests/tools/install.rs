@@ -8,7 +8,8 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 fn what_was_installed_goes_again() {
     let folder = Workdir::new();
     let run = folder.sh(&format!(
-        "mkdir bin; printf '#!/bin/sh\\necho \"$@\" >> cargo.log\\n' > bin/cargo; chmod +x bin/cargo; PATH=$PWD/bin:$PATH
+        "mkdir bin; printf '#!/bin/sh\\necho \"$@\" >> cargo.log\\n' > bin/cargo; \
+            chmod +x bin/cargo; PATH=$PWD/bin:$PATH
         mkdir -p place/share/man/man1 && echo other > place/share/man/man1/other.1
         '{ROOT}/share/install' \"$PWD/place\" > /dev/null; find place -type f | wc -l
         '{ROOT}/share/uninstall' \"$PWD/place\" > /dev/null; find place -type f; cut -d' ' -f1 cargo.log

@@ -70,9 +70,11 @@ fn photographs_of_one_sheet_tell_more_together() {
 const GLOSSY: &str = r#"
 photograph() {
     vkernel --angle-deg $2 > scene.json
-    vforward scene.json --reflectance $3 --specular-weight 0.6 --specular-roughness 0.4 --exposure $4 --render $1.exr --render-size 320x240 -o $1.json 2>/dev/null
+    vforward scene.json --reflectance $3 --specular-weight 0.6 --specular-roughness 0.4 --exposure $4 \
+        --render $1.exr --render-size 320x240 -o $1.json 2>/dev/null
     oiiotool $1.exr -d uint16 -o $1.tif
-    vextract $1.tif --regions $1.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -q -o $1.ndjson
+    vextract $1.tif --regions $1.json --scene scene.json --camera canon-5d-mark-ii \
+        --illuminant D65 -q -o $1.ndjson
 }
 photograph sheet-45 45 cc24:orange 0.5
 photograph sheet-72 72 cc24:orange 0.5
@@ -114,16 +116,15 @@ fn two_angles_tell_gloss_and_exposure_apart() {
 /// lamplight the most.
 #[test]
 fn a_plan_says_which_second_picture_helps_most() {
-    let run = Workdir::new().sh(
-        "scene() { vkernel --angle-deg $1 --facets 8x2 | vforward --illuminant $2 --reflectance 0.5 | head -n 1; }
+    let run = Workdir::new().sh("scene() { vkernel --angle-deg $1 --facets 8x2 | vforward --illuminant $2 \
+            --reflectance 0.5 | head -n 1; }
         { scene 45 D65; scene 45 D65; scene 72 D65; scene 45 A; } > scenes.ndjson
         plan() { vestimate --plan --reflectance cc24:foliage \"$@\"; }
         plan --join scenes.ndjson
         head -n 1 scenes.ndjson | plan --fit auto
         head -n 1 scenes.ndjson | plan
         ! plan --join=a,b scenes.ndjson
-        ! vkernel --panel1-depth 0.5 | plan --join",
-    );
+        ! vkernel --panel1-depth 0.5 | plan --join");
     let plans: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let rmse: Vec<f64> = plans.iter().map(|plan| plan["expected_rmse"]["mean"].as_f64().unwrap()).collect();
     println!("expected RMSE: {rmse:.4?}");
@@ -145,14 +146,15 @@ fn a_plan_says_which_second_picture_helps_most() {
 /// simulated by the model that estimates them.
 #[test]
 fn error_bars_hold_with_a_second_photograph() {
-    let run = Workdir::new().sh(
-        r#"seed=0
+    let run = Workdir::new().sh(r#"seed=0
         photograph() {
             seed=$((seed + 1))
             vkernel --angle-deg $2 > scene.json
-            vforward scene.json --reflectance cc24:$chip --specular-weight 0.4 --specular-roughness 0.4 --body-roughness-deg 20 --illuminant $3 \
-                --noise-sd 2e-3 --seed $seed --exposure 0.5 --render-size 480x360 --render $1.tif -q -o simulated.json
-            vextract $1.tif --exact-corners --regions simulated.json --scene scene.json --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
+            vforward scene.json --reflectance cc24:$chip --specular-weight 0.4 --specular-roughness 0.4 \
+                --body-roughness-deg 20 --illuminant $3 --noise-sd 2e-3 --seed $seed --exposure 0.5 \
+                --render-size 480x360 --render $1.tif -q -o simulated.json
+            vextract $1.tif --exact-corners --regions simulated.json --scene scene.json \
+                --camera canon-5d-mark-ii --illuminant $3 -q -o $1.ndjson
         }
         for chip in dark-skin foliage blue-flower orange moderate-red yellow-green cyan neutral-5; do
             photograph one-day 45 D65
@@ -161,10 +163,11 @@ fn error_bars_hold_with_a_second_photograph() {
             photograph one-lamp 45 A
             {
                 vestimate -q --fit auto one-day.ndjson
-                for second in again angle lamp; do cat one-day.ndjson one-$second.ndjson | vestimate -q --join; done
+                for second in again angle lamp; do
+                    cat one-day.ndjson one-$second.ndjson | vestimate -q --join
+                done
             } | vscore -q --truth cc24:$chip
-        done"#,
-    );
+        done"#);
     assert!(run.status == 0, "{}", run.stderr);
     let samples = samples(&run);
     let chips: Vec<&[Value]> = samples.chunks_exact(7).collect();
@@ -183,7 +186,8 @@ fn error_bars_hold_with_a_second_photograph() {
         [mean(&|sample| sample["metrics"]["rmse"].as_f64().unwrap()), mean(&within)]
     });
     println!(
-        "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, by lamplight {lamp:.3?}"
+        "RMSE, share within two sd: alone {alone:.3?}, again {again:.3?}, at 72 degrees {angle:.3?}, \
+         by lamplight {lamp:.3?}"
     );
     // that a second photograph brings the spectrum nearer, as plans promise, is not seen in eight sheets; a
     // sheet so glossy is none of the matt ones, which are rarer than they were taken to be
@@ -195,12 +199,12 @@ fn error_bars_hold_with_a_second_photograph() {
 /// Join and plans know the sun alone: a fold that the sky lights alone is no silent part of them.
 #[test]
 fn without_a_sun_photographs_are_not_joined() {
-    let run = Workdir::new().sh(
-        "vkernel --angle-deg 50 --facets 4x4 --sky only > scene.json
-        vforward scene.json --reflectance cc24:orange --render sheet.tif --render-size 320x240 -q | tail -n 1 > corners.json
-        vextract sheet.tif --scene scene.json --regions corners.json --camera canon-5d-mark-ii --illuminant D65 -q > sheet.ndjson
-        cat sheet.ndjson sheet.ndjson | vestimate -q --join",
-    );
+    let run = Workdir::new().sh("vkernel --angle-deg 50 --facets 4x4 --sky only > scene.json
+        vforward scene.json --reflectance cc24:orange --render sheet.tif --render-size 320x240 -q \
+            | tail -n 1 > corners.json
+        vextract sheet.tif --scene scene.json --regions corners.json --camera canon-5d-mark-ii \
+            --illuminant D65 -q > sheet.ndjson
+        cat sheet.ndjson sheet.ndjson | vestimate -q --join");
     assert!(run.status != 0 && run.stderr.contains("light.sun"), "{run:?}");
 }
 
@@ -209,7 +213,8 @@ fn without_a_sun_photographs_are_not_joined() {
 fn brackets_fill_what_clipped() {
     let run = Workdir::new().sh(&format!(
         "{GLOSSY}\nphotograph bright-45 45 cc24:orange 11
-        cat bright-45.ndjson | tail -n 1 | python3 -c 'import json,sys; f=json.load(sys.stdin)[\"facet_rgb\"]; print(sum(x is None for x in f))'
+        cat bright-45.ndjson | tail -n 1 | python3 -c 'import json,sys; \
+            f=json.load(sys.stdin)[\"facet_rgb\"]; print(sum(x is None for x in f))'
         cat sheet-45.ndjson bright-45.ndjson | vestimate -q --join=sheet-45,bright-45"
     ));
     assert!(run.status == 0, "{}", run.stderr);
@@ -242,7 +247,8 @@ fn records_name_their_sheet() {
         r#"{GLOSSY}
         cat sheet-45.ndjson sheet-72.ndjson other-45.ndjson > all.ndjson
         vestimate -q --join all.ndjson > by-id.ndjson
-        sed 's/"kind":"sample"/"kind":"sample","sheet":"a"/' sheet-45.ndjson sheet-72.ndjson | vestimate -q --join=sheet > by-field.ndjson
+        sed 's/"kind":"sample"/"kind":"sample","sheet":"a"/' sheet-45.ndjson sheet-72.ndjson \
+            | vestimate -q --join=sheet > by-field.ndjson
         cat by-id.ndjson by-field.ndjson
         ! vestimate -q --join=sheet-45,none all.ndjson -o failed.ndjson
         ! vestimate -q --join=sheet all.ndjson -o failed.ndjson
@@ -263,7 +269,8 @@ fn noise_that_was_given_counts() {
     let run = Workdir::new().sh(&format!(
         "{GLOSSY}
         cat sheet-45.ndjson sheet-72.ndjson > both.ndjson
-        for flags in '' '--noise-sd 0.03' '--model-error 0.3'; do vestimate -q --join $flags both.ndjson; done"
+        for flags in '' '--noise-sd 0.03' '--model-error 0.3'; \
+            do vestimate -q --join $flags both.ndjson; done"
     ));
     let samples = samples(&run);
     let mean_sd = |n: usize| {

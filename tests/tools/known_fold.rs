@@ -8,7 +8,8 @@ use crate::common::{Ended, Workdir};
 fn computed(light: &str) -> String {
     format!(
         "vkernel | vforward -q --reflectance cc24 --illuminant {light} --noise-sd 1e-3 -o chips-{light}.ndjson
-        vkernel | vforward -q --reflectance 0.5 --illuminant {light} --noise-sd 1e-3 --seed 7 -o card-{light}.ndjson\n"
+        vkernel | vforward -q --reflectance 0.5 --illuminant {light} --noise-sd 1e-3 \
+            --seed 7 -o card-{light}.ndjson\n"
     )
 }
 
@@ -57,7 +58,8 @@ fn chips_are_nearer_beside_a_known_fold() {
         let unknown = of(&run(light, "--illuminant unknown"));
         let unknown_beside = of(&run(light, &format!("--illuminant unknown {known}")));
         println!(
-            "{light}: stated {stated:.4?}, beside it {stated_beside:.4?}, unknown {unknown:.4?}, beside it {unknown_beside:.4?}"
+            "{light}: stated {stated:.4?}, beside it {stated_beside:.4?}, unknown {unknown:.4?}, \
+             beside it {unknown_beside:.4?}"
         );
         assert!(stated_beside.0 < 0.97 * stated.0 && stated_beside.1 > 0.9);
         assert!(unknown_beside.0 < 0.8 * unknown.0 && unknown_beside.1 > 0.9);
@@ -92,9 +94,11 @@ fn photographs_are_nearer_beside_a_known_fold() {
     let names = chips.map(|chip| format!("cc24:{chip}")).join(" ");
     let run = Workdir::new().sh(&format!(
         "photograph() {{
-            vforward scene.json --reflectance $2 --illuminant D50 --specular-weight 0.5 --specular-roughness 0.4 --exposure 0.5 \
-                --render $1.exr --render-size 320x240 -o $1.json 2> render.log
-            vextract $1.exr --regions $1.json --scene scene.json --camera canon-5d-mark-ii --illuminant unknown -q
+            vforward scene.json --reflectance $2 --illuminant D50 \
+                --specular-weight 0.5 --specular-roughness 0.4 --exposure 0.5 --render $1.exr \
+                --render-size 320x240 -o $1.json 2> render.log
+            vextract $1.exr --regions $1.json --scene scene.json --camera canon-5d-mark-ii \
+                --illuminant unknown -q
         }}
         vkernel -o scene.json
         photograph card 0.5 > card.ndjson

@@ -8,8 +8,9 @@ use crate::common::{Ended, Workdir};
 /// Takes `photo.exr`, an orange sheet with the noise of 20000 electrons at 1 and a little of reading them;
 /// where it is goes to `corners.json`.
 const TAKEN: &str = "vkernel --angle-deg 45 -o scene.json
-    vforward scene.json --reflectance cc24:orange --camera canon-5d-mark-ii --illuminant D65 --photon-noise 7.07e-3 --noise-sd 3e-4 \
-        --seed 1 --render photo.exr --render-size 480x360 -q | tail -n 1 > corners.json";
+    vforward scene.json --reflectance cc24:orange --camera canon-5d-mark-ii --illuminant D65 \
+        --photon-noise 7.07e-3 --noise-sd 3e-4 --seed 1 --render photo.exr --render-size 480x360 -q \
+        | tail -n 1 > corners.json";
 
 fn taken() -> Workdir {
     let folder = Workdir::new();
@@ -22,7 +23,8 @@ fn taken() -> Workdir {
 fn extract(folder: &Workdir, make: &str, picture: &str, flags: &str) -> Ended {
     folder.sh(&format!(
         "{make}
-        vextract {picture} --regions corners.json --scene scene.json --camera canon-5d-mark-ii --illuminant D65 {flags} -o sample.ndjson"
+        vextract {picture} --regions corners.json --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant D65 {flags} -o sample.ndjson"
     ))
 }
 

@@ -50,11 +50,11 @@ fn what_is_found_is_not_asked() {
     assert_eq!(files, "overlay.png\nregions.json\nreport.html\nresult.ndjson\nspectrum.csv\n62\n");
     assert!(rmse(&folder, "vfold-photo/result.ndjson") < 0.03);
     // the command of the report makes the records again
-    let pasted = folder.sh(
-        "sed -n '/<pre>/,/<\\/pre>/p' vfold-photo/report.html | sed 's/.*<code>//; s/<\\/code>.*//; s/&quot;/\"/g' > command
-        cat command; cd vfold-photo; sha256sum regions.json spectrum.csv report.html > before; rm spectrum.csv report.html
-        cd ..; sh command > /dev/null; cd vfold-photo; sha256sum --check --quiet before; rm before",
-    );
+    let pasted = folder.sh("sed -n '/<pre>/,/<\\/pre>/p' vfold-photo/report.html \
+            | sed 's/.*<code>//; s/<\\/code>.*//; s/&quot;/\"/g' > command
+        cat command; cd vfold-photo; sha256sum regions.json spectrum.csv report.html > before; \
+            rm spectrum.csv report.html
+        cd ..; sh command > /dev/null; cd vfold-photo; sha256sum --check --quiet before; rm before");
     assert_eq!((pasted.status, pasted.stderr.as_str()), (0, ""), "{pasted:?}");
     assert!(pasted.stdout.starts_with("vkernel --regions ./vfold-photo/regions.json |"), "{pasted:?}");
 }
@@ -191,7 +191,8 @@ fn a_failed_run_leaves_the_old_report_whole() {
     let failed = again(
         &folder,
         &format!(
-            "cd vfold-photo; mkdir .older; cp -p [!n]* .older/; echo half > report.html; cd ..; measure {KNOWN} photo.exr"
+            "cd vfold-photo; mkdir .older; cp -p [!n]* .older/; echo half > report.html; cd ..; \
+                measure {KNOWN} photo.exr"
         ),
     );
     assert_eq!(failed.status, 1, "{failed:?}");

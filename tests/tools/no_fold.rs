@@ -8,9 +8,11 @@ use crate::common::{Workdir, is_there};
 
 /// A simulated photograph, noise of 20000 electrons at white, `$1`: flags of vkernel; `$2`: flags of
 /// vforward, the sheet among them. Leaves sheet.tif and corners.json, the true corners.
-const TAKE: &str = "take() { vkernel --angle-deg 45 $1 | vforward -q $2 --illuminant sun:40deg --exposure 0.85 --photon-noise 0.007 \\
+const TAKE: &str = "take() { vkernel --angle-deg 45 $1 | vforward -q $2 --illuminant sun:40deg \
+    --exposure 0.85 --photon-noise 0.007 \\
     --seed 1 --render sheet.tif --render-size 180x135 | tail -n 1 > corners.json; }
-measure() { vkernel --angle-deg 45 | vextract -q sheet.tif --camera canon-5d-mark-ii --illuminant sun:40deg --regions corners.json; }";
+measure() { vkernel --angle-deg 45 | vextract -q sheet.tif --camera canon-5d-mark-ii --illuminant sun:40deg \
+    --regions corners.json; }";
 
 /// The estimate's record after a script that ends with it.
 fn estimate(script: &str) -> Value {
@@ -130,8 +132,10 @@ fn given_faults_are_not_good() {
         return;
     }
     let folder = Path::new(FAULTS);
-    let whole = "--panel0 '101.015,124.200 97.598,28.207 47.875,15.032 50.980,119.772' --panel1 '101.015,124.200 97.598,28.207 127.973,10.800 132.125,116.336'";
-    let middle = "--panel0 '100.160,100.202 98.452,52.205 48.651,41.217 50.204,93.587' --panel1 '100.160,100.202 98.452,52.205 129.011,37.184 131.087,89.952'";
+    let whole = "--panel0 '101.015,124.200 97.598,28.207 47.875,15.032 50.980,119.772' \
+        --panel1 '101.015,124.200 97.598,28.207 127.973,10.800 132.125,116.336'";
+    let middle = "--panel0 '100.160,100.202 98.452,52.205 48.651,41.217 50.204,93.587' \
+        --panel1 '100.160,100.202 98.452,52.205 129.011,37.184 131.087,89.952'";
     for (file, corners, camera, flags) in [
         ("flat-sheet.tif", whole, "canon-5d-mark-ii", ""),
         ("exposure-in-percent.tif", whole, "canon-5d-mark-ii", "--exposure 100"),
@@ -142,14 +146,16 @@ fn given_faults_are_not_good() {
         ("half-the-panels-marked.tif", middle, "canon-5d-mark-ii", ""),
     ] {
         let (level, because) = verdict(&format!(
-            "vkernel --angle-deg 45 | vextract -q '{}' --camera {camera} --illuminant sun:40deg {corners} | vestimate -q {flags}",
+            "vkernel --angle-deg 45 | vextract -q '{}' --camera {camera} --illuminant sun:40deg {corners} \
+                | vestimate -q {flags}",
             folder.join(file).display()
         ));
         assert_ne!(level, "good", "{file}: {because}");
     }
     // a sky half as bright as the sun, of its colour, is found
     let found = estimate(&format!(
-        "vkernel --angle-deg 45 | vextract -q '{}' --camera canon-5d-mark-ii --illuminant sun:40deg {whole} | vestimate -q",
+        "vkernel --angle-deg 45 | vextract -q '{}' --camera canon-5d-mark-ii \
+            --illuminant sun:40deg {whole} | vestimate -q",
         folder.join("white-sky.tif").display()
     ));
     let sky = found["fit"]["even_sky"]["value"].as_f64().unwrap();

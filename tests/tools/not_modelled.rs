@@ -7,9 +7,11 @@ use crate::common::{Ended, Workdir};
 /// that.
 const SHORT: &str = r#"
     vkernel --angle-deg 50 --panel1-depth 0.7 --facets 6x3 -o scene.json
-    vforward scene.json --reflectance cc24:orange --exposure 0.5 --noise-sd 1e-3 --render p.tif --render-size 320x240 -q -o simulated.ndjson
+    vforward scene.json --reflectance cc24:orange --exposure 0.5 --noise-sd 1e-3 --render p.tif \
+        --render-size 320x240 -q -o simulated.ndjson
     vkernel --angle-deg 75 --panel1-depth 0.7 --facets 6x3 -o told.json
-    vextract p.tif --regions simulated.ndjson --scene told.json --camera canon-5d-mark-ii --illuminant D65 -o short.ndjson"#;
+    vextract p.tif --regions simulated.ndjson --scene told.json --camera canon-5d-mark-ii \
+        --illuminant D65 -o short.ndjson"#;
 
 fn assert_said(run: &Ended, words: &[&str]) {
     assert!(words.iter().all(|words| run.stderr.contains(words)), "{run:?}");
@@ -22,9 +24,8 @@ fn a_panel_that_is_shorter_is_said() {
     assert_eq!(run.stdout, "\"level\":\"wrong\"\n");
     assert_said(
         &run,
-        &[
-            "this is no ideal fold. Real-sheet effects cannot be modelled here (one panel is deeper than the other)",
-        ],
+        &["this is no ideal fold. Real-sheet effects cannot be modelled here (one panel \
+           is deeper than the other)"],
     );
     let quiet = folder.sh("vestimate -q short.ndjson | grep -c bihemispherical_albedo");
     assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("0\n", ""));

@@ -31,14 +31,22 @@ struct Bounds {
 // as among the spectra that are known, which makes its RMSE less there, and more where the exposure is free
 #[rustfmt::skip]
 const BOUNDS: [Bounds; 8] = [
-    Bounds { picture: "a", facets_percent: 0.2, known: [0.0155, 0.041], free: [0.0122, 0.165], fitted: [0.0149, 0.601] },
-    Bounds { picture: "b", facets_percent: 0.5, known: [0.0177, 0.163], free: [0.0080, 0.306], fitted: [0.0104, 0.485] },
-    Bounds { picture: "c", facets_percent: 0.5, known: [0.0362, 0.476], free: [0.0380, 0.785], fitted: [0.0369, 0.612] },
-    Bounds { picture: "d", facets_percent: 0.5, known: [0.0125, 0.220], free: [0.0167, 0.247], fitted: [0.0258, 0.829] },
-    Bounds { picture: "e", facets_percent: 0.5, known: [0.0136, 0.134], free: [0.0102, 0.630], fitted: [0.0137, 1.350] },
-    Bounds { picture: "f", facets_percent: 0.6, known: [0.0480, 0.725], free: [0.0294, 0.639], fitted: [0.0503, 0.644] },
-    Bounds { picture: "h", facets_percent: 0.2, known: [0.0139, 0.037], free: [0.0136, 0.187], fitted: [0.0142, 0.357] },
-    Bounds { picture: "g", facets_percent: 0.5, known: [0.0097, 0.083], free: [0.0098, 0.085], fitted: [0.0080, 0.118] },
+    Bounds { picture: "a", facets_percent: 0.2,
+        known: [0.0155, 0.041], free: [0.0122, 0.165], fitted: [0.0149, 0.601] },
+    Bounds { picture: "b", facets_percent: 0.5,
+        known: [0.0177, 0.163], free: [0.0080, 0.306], fitted: [0.0104, 0.485] },
+    Bounds { picture: "c", facets_percent: 0.5,
+        known: [0.0362, 0.476], free: [0.0380, 0.785], fitted: [0.0369, 0.612] },
+    Bounds { picture: "d", facets_percent: 0.5,
+        known: [0.0125, 0.220], free: [0.0167, 0.247], fitted: [0.0258, 0.829] },
+    Bounds { picture: "e", facets_percent: 0.5,
+        known: [0.0136, 0.134], free: [0.0102, 0.630], fitted: [0.0137, 1.350] },
+    Bounds { picture: "f", facets_percent: 0.6,
+        known: [0.0480, 0.725], free: [0.0294, 0.639], fitted: [0.0503, 0.644] },
+    Bounds { picture: "h", facets_percent: 0.2,
+        known: [0.0139, 0.037], free: [0.0136, 0.187], fitted: [0.0142, 0.357] },
+    Bounds { picture: "g", facets_percent: 0.5,
+        known: [0.0097, 0.083], free: [0.0098, 0.085], fitted: [0.0080, 0.118] },
 ];
 
 /// What was measured in one picture.
@@ -59,7 +67,8 @@ struct Measured {
 #[test]
 fn photographs_give_their_spectra() {
     println!(
-        "picture                           facets rms %   RMSE  CIEDE2000   exposure free: RMSE  CIEDE2000   light fitted: RMSE  CIEDE2000   angle 2° wrong, fitted: RMSE  CIEDE2000  found within °"
+        "picture                           facets rms %   RMSE  CIEDE2000   exposure free: RMSE  CIEDE2000   \
+         light fitted: RMSE  CIEDE2000   angle 2° wrong, fitted: RMSE  CIEDE2000  found within °"
     );
     for sidecar in sidecars() {
         let m = measure(&sidecar);
@@ -67,7 +76,8 @@ fn photographs_give_their_spectra() {
         let ([rmse, delta_e], [free_rmse, free_delta_e], [fitted_rmse, fitted_delta_e]) =
             (m.known, m.free, m.fitted);
         println!(
-            "{:<34}{:>12.3}{rmse:>8.4}{delta_e:>10.3}{free_rmse:>21.4}{free_delta_e:>11.3}{fitted_rmse:>21.4}{fitted_delta_e:>11.3}{:>32.4}{:>11.3}{:>16.2}{}",
+            "{:<34}{:>12.3}{rmse:>8.4}{delta_e:>10.3}{free_rmse:>21.4}{free_delta_e:>11.3}\
+             {fitted_rmse:>21.4}{fitted_delta_e:>11.3}{:>32.4}{:>11.3}{:>16.2}{}",
             m.name,
             m.facets_percent,
             m.turned[0],
@@ -128,7 +138,8 @@ fn by_chart(sidecar: &Value, photo: &Path, shift_px: f64, flags: &str) -> (f64, 
 cat > truth.csv <<END
 {truth}END
 vkernel --angle-deg 45 |
-vextract -v "{photo}" --camera canon-5d-mark-ii {flags} --panel0 "{panel0}" --panel1 "{panel1}" --chart "{chart}" 2>said |
+vextract -v "{photo}" --camera canon-5d-mark-ii {flags} --panel0 "{panel0}" --panel1 "{panel1}" \
+    --chart "{chart}" 2>said |
 vestimate -q | vscore --truth truth.csv
 grep -q "exposure .* ± .*, residuals .* % (most .* % in " said
 "#,
@@ -222,8 +233,9 @@ cat > did.json <<END
 {did}
 END
 vkernel --angle-deg {angle} --tilt-deg {tilt} --sky {sky} -o scene.json
-vextract "{photo}" --exact-corners --scene scene.json {undo} --camera {camera} --illuminant {illuminant} {sky_illuminant} \
-    --panel0 "{panel0}" --panel1 "{panel1}" --exposure {exposure} -o sample.ndjson
+vextract "{photo}" --exact-corners --scene scene.json {undo} --camera {camera} \
+    --illuminant {illuminant} {sky_illuminant} --panel0 "{panel0}" --panel1 "{panel1}" \
+    --exposure {exposure} -o sample.ndjson
 vestimate -q sample.ndjson {reference} | vscore --truth truth.csv
 vestimate -q sample.ndjson {reference} --exposure free | vscore --truth truth.csv
 vkernel --angle-deg {angle} -o scene.json

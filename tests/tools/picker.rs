@@ -29,15 +29,22 @@ fn clicks_in_a_preview_measure_the_photograph() {
         corners.iter().map(|corner| corner.map(|x| ENLARGED * x)).collect()
     };
     let panel = |k: usize| enlarged(&[CREASE, OUTER[k]].concat());
-    let truth = json!({"width": 3200, "height": 2400, "panel0": panel(0), "panel1": panel(1), "chart": enlarged(&CHART)});
+    let truth = json!({
+        "width": 3200,
+        "height": 2400,
+        "panel0": panel(0),
+        "panel1": panel(1),
+        "chart": enlarged(&CHART),
+    });
     let folder = Workdir::new();
     let run = folder.sh(&format!(
         "echo '{truth}' > corners.json
-        oiiotool {ROOT}/tests/data/photos/a_ideal_magenta_50.exr --resize:filter=box 3200x2400 -d half -o photo.exr
+        oiiotool {ROOT}/tests/data/photos/a_ideal_magenta_50.exr \
+            --resize:filter=box 3200x2400 -d half -o photo.exr
         vextract photo.exr --preview photo.png
         oiiotool photo.png --eraseattrib '.*' -o plain.png
-        PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/clicks.mjs {ROOT}/share/picker.html photo.png corners.json \
-            \"${{PICKER_SCREENSHOT:-shot.png}}\""
+        PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/clicks.mjs {ROOT}/share/picker.html \
+            photo.png corners.json \"${{PICKER_SCREENSHOT:-shot.png}}\""
     ));
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let said: Value = serde_json::from_str(&run.stdout).unwrap();
@@ -82,8 +89,8 @@ fn a_person_puts_right_what_was_found() {
         : > said
         vextract --pick photo.exr > picked.json 2>> said &
         until grep -q http said; do sleep 0.1; done
-        PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/served.mjs \"$(grep -o 'http://[^ ]*' said)\" \
-            \"${{PICKED_SCREENSHOT:-shot.png}}\" corners.json
+        PICKER_NODE_MODULES='{modules}' node {ROOT}/tests/tools/picker/served.mjs \
+            \"$(grep -o 'http://[^ ]*' said)\" \"${{PICKED_SCREENSHOT:-shot.png}}\" corners.json
         wait $!"
     ));
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
@@ -102,9 +109,8 @@ fn a_person_puts_right_what_was_found() {
     let picked: Value = serde_json::from_str(&folder.sh("cat picked.json").stdout).unwrap();
     assert_eq!(picked, *again);
     assert_eq!(picked["image"], "photo.exr");
-    let run = folder.sh(
-        "vkernel --angle-deg 50 | vextract photo.exr --regions picked.json --camera canon-5d-mark-ii --illuminant D65",
-    );
+    let run = folder.sh("vkernel --angle-deg 50 | vextract photo.exr --regions picked.json \
+        --camera canon-5d-mark-ii --illuminant D65");
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
 }
 
@@ -193,7 +199,8 @@ fn is_read(folder: &Workdir, mut regions: Value) {
         folder,
         &format!(
             "echo '{regions}' > regions.json
-            vkernel --angle-deg 50 | vextract photo.exr --regions regions.json --refine=30 --camera canon-5d-mark-ii --illuminant D65"
+            vkernel --angle-deg 50 | vextract photo.exr --regions regions.json --refine=30 \
+                --camera canon-5d-mark-ii --illuminant D65"
         ),
     );
 }

@@ -81,7 +81,8 @@ fn layouts_of_tiff_are_read_or_refused_by_name() {
         (run.status, run.stderr.as_str()),
         (
             1,
-            "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; save the page that is meant by itself\n"
+            "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; \
+             save the page that is meant by itself\n"
         )
     );
     for (how, why) in [("-d uint32", "integers of 32 bits"), ("-d uint8 --compression jpeg", "YCbCr")] {
@@ -98,7 +99,10 @@ fn pipes_are_read_as_the_files_they_carry() {
     let run = sh(
         &folder,
         r#"
-        without_file() { tail -n 1 | sed 's/"id":"[^"]*"//; s/"file":"[^"]*",//; s/"file_[a-z_]*":[0-9.e]*,//g; s/"sha256":"[0-9a-f]*",*//'; }
+        without_file() {
+            tail -n 1 | sed 's/"id":"[^"]*"//; s/"file":"[^"]*",//; s/"file_[a-z_]*":[0-9.e]*,//g
+                s/"sha256":"[0-9a-f]*",*//'
+        }
         halves -d uint16 -o a.tif
         halves -d half -o a.exr
         halves -d uint16 -o a.png
@@ -166,17 +170,18 @@ fn composed_and_decomposed_names_are_one() {
         halves -d uint16 -o $decomposed.tif
         corners='"panel0": [[40,55],[40,5],[5,10],[5,50]], "panel1": [[40,55],[40,5],[75,10],[75,50]]'
         echo "[{\"image\": \"$composed.tif\", $corners}]" > corners.json
-        vextract $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 --regions corners.json
+        vextract $decomposed.tif --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant D65 --regions corners.json
         "#,
     );
     assert_halves(&run, 1e-3, "regions");
     let run = sh(
         &folder,
-        "vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
-            --regions corners.json --resume out.ndjson
+        "vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant D65 --regions corners.json --resume out.ndjson
         sed -i 's/\"id\":\"$decomposed\"/\"id\":\"$composed\"/' out.ndjson
-        vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii --illuminant D65 \
-            --regions corners.json --resume out.ndjson"
+        vextract $decomposed.tif $decomposed.tif --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant D65 --regions corners.json --resume out.ndjson"
             .replace("$decomposed", "cafe\u{301}")
             .replace("$composed", "caf\u{e9}")
             .as_str(),
@@ -196,7 +201,8 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let of = |make: &str, model: &str, camera: &str| {
         let line = format!(
             "oiiotool fold.tif --attrib Make '{make}' --attrib Model '{model}' -d uint16 -o a.tif
-            vkernel --angle-deg 45 | vextract a.tif {camera} --illuminant D65 --regions corners.json > sample.ndjson"
+            vkernel --angle-deg 45 | vextract a.tif {camera} --illuminant D65 \
+                --regions corners.json > sample.ndjson"
         );
         let run = sh(&folder, &line);
         assert_eq!(run.status, 0, "{run:?}");
@@ -206,8 +212,8 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let (said, because) = of("Canon", "Canon EOS R5", "--camera nikon-d850 --quiet");
     assert_eq!(
         said,
-        "vextract: warning: EXIF of a.tif says Canon Canon EOS R5, and its colours are taken for those of nikon-d850: expect a wrong \
-         spectrum; give --camera canon-eos-r5, or none\n"
+        "vextract: warning: EXIF of a.tif says Canon Canon EOS R5, and its colours are taken for those \
+         of nikon-d850: expect a wrong spectrum; give --camera canon-eos-r5, or none\n"
     );
     assert!(
         because.contains("EXIF says that Canon Canon EOS R5 took the picture, not nikon-d850"),
@@ -230,7 +236,8 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let (said, _) = of("Canon", "Canon EOS 5D Mark II", "");
     assert_eq!(
         said,
-        "vextract: Canon Canon EOS 5D Mark II: curves of canon-5d-mark-ii; another measurement is canon-eos-5d-mark-ii (--camera)\n"
+        "vextract: Canon Canon EOS 5D Mark II: curves of canon-5d-mark-ii; \
+         another measurement is canon-eos-5d-mark-ii (--camera)\n"
     );
 }
 

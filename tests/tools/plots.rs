@@ -28,7 +28,8 @@ fn a_spectrum_is_drawn_with_its_band_and_the_truth() {
     }
     assert!(run.stdout.contains("<polygon") && run.stdout.contains("sans-serif"));
     let run = folder.sh(&format!(
-        "{SAMPLE} --plot red.png >/dev/null; oiiotool red.png --colorcount:eps=.02,.02,.02 0,.447,.698:0,0,0:1,1,1"
+        "{SAMPLE} --plot red.png >/dev/null; \
+            oiiotool red.png --colorcount:eps=.02,.02,.02 0,.447,.698:0,0,0:1,1,1"
     ));
     assert!(run.status == 0 && run.stderr.is_empty(), "{run:?}");
     let counts: Vec<usize> =
@@ -65,7 +66,8 @@ fn residuals_are_those_of_the_estimator() {
     for (card, fit) in fits {
         let run = folder.sh(&format!(
             "vkernel --facets 6x6 --tilt-deg 2 --sky 0.1 |
-                vforward --reflectance cc24:orange --photon-noise 1e-3 {card} | vestimate --quiet {fit} -o out; pwd"
+                vforward --reflectance cc24:orange --photon-noise 1e-3 {card} \
+                    | vestimate --quiet {fit} -o out; pwd"
         ));
         assert_eq!(run.status, 0, "{card} {fit}: {run:?}");
         let mut reader = Reader::open(&format!("{}/out", run.stdout.trim())).unwrap();
@@ -87,7 +89,8 @@ fn residuals_are_those_of_the_estimator() {
 fn facets_that_were_not_measured_are_grey() {
     let folder = Workdir::new();
     let run = folder.sh(&format!(
-        "{SAMPLE} | sed 's/\"facet_rgb\":\\[\\[[^]]*\\]/\"facet_rgb\":[null/' | vestimate --plot grey.svg >/dev/null
+        "{SAMPLE} | sed 's/\"facet_rgb\":\\[\\[[^]]*\\]/\"facet_rgb\":[null/' \
+            | vestimate --plot grey.svg >/dev/null
         cat grey.svg; {SAMPLE} --plot all.svg >/dev/null; grep -c 'not measured' all.svg || true"
     ));
     assert_eq!(run.status, 0, "{run:?}");
@@ -100,7 +103,8 @@ fn more_estimates_than_one_drawing_holds_have_a_chart_each() {
     let folder = Workdir::new();
     let of = |set: &str| {
         format!(
-            "vkernel --facets 2x2 | vforward --reflectance {set} | vestimate -q --plot drawn.svg >/dev/null; cat drawn.svg"
+            "vkernel --facets 2x2 | vforward --reflectance {set} \
+                | vestimate -q --plot drawn.svg >/dev/null; cat drawn.svg"
         )
     };
     let chart = words(&folder.sh(&of("cc24")).stdout);
@@ -148,7 +152,8 @@ fn kernels_are_drawn_with_their_numbers() {
     {
         let run = folder.sh(&format!(
             "vkernel --facets 4x4 {flags} --plot K.svg --save kernel=K.npy >/dev/null; cat K.svg
-            python3 -c 'import numpy as np; K = np.load(\"K.npy\").sum(1); print(f\"{{K.min():.3g}} {{K.max():.3g}}\")'"
+            python3 -c 'import numpy as np; K = np.load(\"K.npy\").sum(1); \
+                print(f\"{{K.min():.3g}} {{K.max():.3g}}\")'"
         ));
         assert_eq!(run.status, 0, "{run:?}");
         let (svg, sums) = run.stdout.split_once("</svg>").unwrap();
@@ -161,9 +166,8 @@ fn kernels_are_drawn_with_their_numbers() {
 
 #[test]
 fn shapes_without_rows_and_columns_have_no_maps() {
-    let run = Workdir::new().sh(
-        "printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' >one.obj; vkernel --shape one.obj --light 0,0,1 --plot one.svg",
-    );
+    let run = Workdir::new().sh("printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' >one.obj; \
+        vkernel --shape one.obj --light 0,0,1 --plot one.svg");
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("no rows and columns"), "{run:?}");
 }

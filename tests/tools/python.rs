@@ -14,7 +14,8 @@ fn numbers(line: &str) -> Vec<f64> {
 fn python(folder: &Workdir, script: &str) -> String {
     let photo = format!("{ROOT}/tests/data/photos/a_ideal_magenta_50.exr");
     let run = folder.sh(&format!(
-        "cp '{photo}' photo.exr; PYTHONPATH='{ROOT}/share/python' PYTHONDONTWRITEBYTECODE=1 python3 -W error - <<'END'
+        "cp '{photo}' photo.exr; PYTHONPATH='{ROOT}/share/python' PYTHONDONTWRITEBYTECODE=1 \
+            python3 -W error - <<'END'
 import vfold
 import numpy as np
 
@@ -78,7 +79,8 @@ assert sheet.record['image']['detection_confidence'] > 0.97 and not sheet.notes
 found = vfold.find('photo.exr')
 again = vfold.measure('photo.exr', regions=found, **CANON)
 assert np.array_equal(sheet.reflectance, again.reflectance)
-given = vfold.measure('photo.exr', angle_deg=50, panel0=found['panel0'], panel1=np.array(found['panel1']), wavelengths_nm=(400, 700, 10), **CANON)
+given = vfold.measure('photo.exr', angle_deg=50, panel0=found['panel0'], panel1=np.array(found['panel1']), \
+    wavelengths_nm=(400, 700, 10), **CANON)
 assert given.wavelengths_nm.tolist() == list(range(400, 701, 10))
 assert abs(given.reflectance - sheet.reflectance[::2]).max() < 0.05
 assumed = vfold.measure('photo.exr', camera=CANON['camera'], fit=['exposure', 'angle'])
@@ -87,11 +89,10 @@ print(*sheet.wavelengths_nm, sep=',')
 print(*sheet.reflectance.tolist(), sep=',')
 print(*sheet.reflectance_sd.tolist(), sep=',')",
     );
-    let tools = folder.sh(
-        "vextract --find photo.exr > found.json
-        vkernel --regions found.json | vextract photo.exr --regions found.json --camera canon-5d-mark-ii --illuminant D65 |
-            vestimate --spectra spectrum.csv > result.ndjson; tail -n +2 spectrum.csv",
-    );
+    let tools = folder.sh("vextract --find photo.exr > found.json
+        vkernel --regions found.json | vextract photo.exr --regions found.json \
+            --camera canon-5d-mark-ii --illuminant D65 |
+            vestimate --spectra spectrum.csv > result.ndjson; tail -n +2 spectrum.csv");
     assert_eq!((tools.status, tools.stderr.as_str()), (0, ""));
     let rows: Vec<Vec<f64>> =
         printed.lines().map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect();
@@ -110,7 +111,8 @@ fn the_module_raises_what_a_tool_says() {
 refused(vfold.Error, lambda: vfold.measure('photo.exr'))
 refused(vfold.Error, lambda: vfold.measure('none.exr', **CANON))
 refused(vfold.Error, lambda: vfold.measure('photo.exr', camera='canon-5d-mk2'))
-refused(vfold.Error, lambda: vfold.measure('photo.exr', regions={'found': False, 'reason': 'there is no sheet'}, **CANON))
+refused(vfold.Error, lambda: vfold.measure('photo.exr', \
+    regions={'found': False, 'reason': 'there is no sheet'}, **CANON))
 refused(TypeError, lambda: vfold.measure('photo.exr', cam='canon-5d-mark-ii'))
 refused(TypeError, lambda: vfold.measure('photo.exr', panel0=[[1, 2]] * 4, **CANON))
 refused(TypeError, lambda: vfold.measure('photo.exr', angle_deg=50, panel0=[1, 2, 3], **CANON))
@@ -163,14 +165,16 @@ fn the_module_reads_records_tables_and_arrays() {
         &folder,
         "
 stream = vfold.read_stream('scores.ndjson')
-assert len(stream.sheets) == 23 and len(stream.failures) == 1 and stream.summary['scored'] == 23, stream.failures
+assert len(stream.sheets) == 23 and len(stream.failures) == 1 and stream.summary['scored'] == 23, \
+    stream.failures
 table = vfold.read_spectra('s.csv')
 assert [one.name for one in table] == [one.name for one in stream.sheets]
 array = vfold.read_npy('s.npy')
 array = array[np.isfinite(array).all(axis=1)]
 for sheet, column, row in zip(stream.sheets, table, array, strict=True):
     assert np.array_equal(sheet.reflectance, column.reflectance) and np.array_equal(sheet.reflectance, row)
-    assert np.array_equal(sheet.reflectance_sd, column.reflectance_sd) and np.array_equal(sheet.wavelengths_nm, column.wavelengths_nm)
+    assert np.array_equal(sheet.reflectance_sd, column.reflectance_sd) and \
+        np.array_equal(sheet.wavelengths_nm, column.wavelengths_nm)
     rmse = np.sqrt(np.mean((sheet.reflectance - sheet.truth) ** 2))
     assert abs(rmse - sheet.record['metrics']['rmse']) < 1e-9, sheet.name
 assert [record['kind'] for record in vfold.records('samples.ndjson')] == ['scene'] + ['sample'] * 24

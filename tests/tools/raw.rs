@@ -77,10 +77,9 @@ fn curves_are_predicted_from_the_colour_matrix() {
         bytes
     };
     std::fs::write(folder.path().join("photo.dng"), unknown(std::fs::read(PHOTO).unwrap())).unwrap();
-    let run = folder.sh(
-        "vkernel --angle-deg 50 | vextract -q photo.dng --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' \
-         --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' | tee records | vestimate -q",
-    );
+    let run = folder.sh("vkernel --angle-deg 50 | vextract -q photo.dng --illuminant D65 \
+         --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' \
+         --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' | tee records | vestimate -q");
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     assert!(
         run.stderr.contains("Canon EOS 9X Mark II: they are predicted from its colour matrix"),
@@ -112,7 +111,8 @@ fn curves_are_predicted_from_the_colour_matrix() {
 #[test]
 fn vextract_records_what_was_decided() {
     let run = Workdir::new().sh(&format!(
-        "vkernel --angle-deg 50 --facets 2x2 | vextract -q '{PHOTO}' --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2'"
+        "vkernel --angle-deg 50 --facets 2x2 | vextract -q '{PHOTO}' --illuminant D65 \
+            --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2'"
     ));
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let records: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -400,13 +400,12 @@ fn files_that_begin_in_a_way_of_their_own_are_raw() {
 
 #[test]
 fn files_that_only_begin_like_raw_are_refused_in_one_line() {
-    let run = Workdir::new().sh(
-        "vkernel --angle-deg 50 --facets 2x2 -o scene.json
-        for begin in 'FUJIFILMCCD-RAW 0201' '\\0\\0\\0\\030ftypcrx \\0\\0\\0\\0' 'II*\\0\\020\\0\\0\\0CR\\002\\0'; do
+    let run = Workdir::new().sh("vkernel --angle-deg 50 --facets 2x2 -o scene.json
+        for begin in 'FUJIFILMCCD-RAW 0201' '\\0\\0\\0\\030ftypcrx \\0\\0\\0\\0' \
+            'II*\\0\\020\\0\\0\\0CR\\002\\0'; do
             printf \"$begin\" > photo.raw
             vextract photo.raw --scene scene.json --camera 1 --panel0 '0,0 9,0 9,9 0,9' || echo $?
-        done",
-    );
+        done");
     let lines: Vec<_> = run.stderr.lines().collect();
     assert_eq!((run.stdout.as_str(), lines.len()), ("1\n1\n1\n", 3), "{lines:?}");
     assert!(lines.iter().all(|line| line.starts_with("vextract: photo.raw: ")), "{lines:?}");

@@ -124,10 +124,12 @@ fn sheets_on_other_grounds_give_their_spectra() {
 #[test]
 fn a_little_gloss_is_not_taken_for_bounces() {
     let run = Workdir::new().sh("
-        vkernel --angle-deg 70 | vforward --reflectance cc24:yellow --specular-weight 0.2 --illuminant daylight:5300 --exposure 0.6 \\
+        vkernel --angle-deg 70 | vforward --reflectance cc24:yellow --specular-weight 0.2 \
+            --illuminant daylight:5300 --exposure 0.6 \\
             --noise-sd 1e-3 --photon-noise 1e-2 --render p.tif --render-size 400x300 -q -o simulated.ndjson
         vkernel --angle-deg 70 -o scene.json
-        vextract p.tif --regions simulated.ndjson --scene scene.json --camera canon-5d-mark-ii --illuminant D55 -q -o p.ndjson
+        vextract p.tif --regions simulated.ndjson --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant D55 -q -o p.ndjson
         for fit in none auto; do vestimate -q --fit $fit p.ndjson | vscore -q --truth cc24:yellow; done");
     let found: Vec<Value> = run.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let found = found.iter().filter(|record| record["kind"] == "sample");
@@ -207,7 +209,10 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
     let estimate = photograph::estimate(&[parts], &prior).unwrap();
     let estimate = &estimate.photographs[0];
-    let sample = json!({"estimate": {"reflectance": estimate.reflectance, "reflectance_sd": estimate.reflectance_sd()}});
+    let sample = json!({"estimate": {
+        "reflectance": estimate.reflectance,
+        "reflectance_sd": estimate.reflectance_sd(),
+    }});
     let sidecar: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let bands = numbers(&sidecar["bands_nm"]);
     let place = |band: &f64| grid.wavelengths_nm().iter().position(|nm| (nm - band).abs() < 0.1).unwrap();
@@ -316,8 +321,10 @@ cat > light.csv <<END
 cat > truth.csv <<END
 {truth}END
 vkernel --angle-deg {angle} > scene.json
-vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}' < scene.json | tail -n 1
-vforward scene.json --camera camera.csv --illuminant light.csv --reflectance truth.csv {flags} --eye=0.96547,1.10338,8.36309 | tail -n 1
+vextract -q "{photo}" --camera camera.csv --illuminant light.csv --panel0 '{panel0}' --panel1 '{panel1}' \
+    < scene.json | tail -n 1
+vforward scene.json --camera camera.csv --illuminant light.csv --reflectance truth.csv {flags} \
+    --eye=0.96547,1.10338,8.36309 | tail -n 1
 "#,
             camera = columns(&camera),
             light = columns(&[numbers(&told["illuminant_spd"])]),
@@ -361,7 +368,8 @@ pub fn print_table(all: &[Outcome]) {
         let [delta_e, expected] =
             [delta_e, expected_delta_e].map(|one| one.map_or_else(String::new, |one| format!("{one:.2}")));
         println!(
-            "{name:<20}{rmse:>8.4}{mean_error:>12.4}{delta_e:>10}{expected:>11}{within_two_sd:>14.2}{bar:>15.3}"
+            "{name:<20}{rmse:>8.4}{mean_error:>12.4}{delta_e:>10}{expected:>11}\
+             {within_two_sd:>14.2}{bar:>15.3}"
         );
     }
 }
@@ -388,7 +396,8 @@ fn of_real(path: &Path) -> Outcome {
     let truth = numbers(&sidecar["reflectance"]);
     let truth_csv = table(&numbers(&sidecar["wavelengths_nm"]), std::slice::from_ref(&truth));
     let script = format!(
-        "{}\ncat > truth.csv <<END\n{truth_csv}END\nvestimate -q --save covariance=covariance.npy records.ndjson | vscore --truth truth.csv",
+        "{}\ncat > truth.csv <<END\n{truth_csv}END\n\
+            vestimate -q --save covariance=covariance.npy records.ndjson | vscore --truth truth.csv",
         real_records(path, "records.ndjson")
     );
     let folder = Workdir::new();
@@ -454,7 +463,8 @@ cat > camera.csv <<END
 {camera}END
 cat > light.csv <<END
 {light}END
-vkernel {scene} | vextract -q "{photo}" --camera camera.csv --illuminant light.csv {panels} {calibration} > {records}"#,
+vkernel {scene} | vextract -q "{photo}" --camera camera.csv --illuminant light.csv {panels} \
+    {calibration} > {records}"#,
         photo = photo.display(),
     )
 }

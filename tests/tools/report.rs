@@ -84,7 +84,8 @@ fn what_was_found_is_said_with_how_sure_it_is() {
     let page = report(
         &folder,
         &format!(
-            "vkernel --angle-deg 50 | vextract '{photo}' -q --camera canon-5d-mark-ii --illuminant D65 | vestimate -q | vscore"
+            "vkernel --angle-deg 50 | vextract '{photo}' -q --camera canon-5d-mark-ii --illuminant D65 \
+                | vestimate -q | vscore"
         ),
     );
     let page = Document::parse(body(&page)).unwrap();
@@ -235,10 +236,15 @@ fn a_report_is_whole_or_absent() {
 fn a_photograph_needs_no_truth() {
     let folder = Workdir::new();
     let photo = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/a_ideal_magenta_50.exr");
-    let page = report(&folder, &format!(
-        "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii --illuminant D65 \
-            --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' |
-            vestimate --quiet | vscore --overlay over-{{}}.png"));
+    let page = report(
+        &folder,
+        &format!(
+            "vkernel --angle-deg 50 | vextract {photo} --overlay over-{{}}.png --camera canon-5d-mark-ii \
+            --illuminant D65 --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' \
+            --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' |
+            vestimate --quiet | vscore --overlay over-{{}}.png"
+        ),
+    );
     let page = Document::parse(body(&page)).unwrap();
     let picture = page.descendants().find(|node| node.has_tag_name("img")).unwrap();
     assert!(picture.attribute("src").unwrap().starts_with("data:image/jpeg;base64,/9j/"));
@@ -266,7 +272,8 @@ import base64, io, re
 from PIL import Image
 for section in open('out.html').read().split('<section class=\"sample\"')[1:]:
     picture = re.search('data:image/jpeg;base64,([^\"]*)', section)
-    red, _, blue = Image.open(io.BytesIO(base64.b64decode(picture[1]))).getpixel((5, 5)) if picture else (0, 0, 0)
+    red, _, blue = Image.open(io.BytesIO(base64.b64decode(picture[1]))).getpixel((5, 5)) \
+        if picture else (0, 0, 0)
     print(re.search('<h2>([^<]*)', section)[1], 'red' if red > 200 else 'blue' if blue > 200 else '-')
 END"
     ));
@@ -280,7 +287,8 @@ vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:blue cc24:white |
     vestimate | sed 's/\"id\":\"cc24:/\"id\":\"/' > three.ndjson
 head -n 2 three.ndjson > one.ndjson
 python3 -c 'from PIL import Image
-for name, colour in [(\"red\", (255, 0, 0)), (\"over-red\", (255, 0, 0)), (\"blue\", (0, 0, 255)), (\"over-blue\", (0, 0, 255)), (\"over-white\", (0, 0, 0))]:
+for name, colour in [(\"red\", (255, 0, 0)), (\"over-red\", (255, 0, 0)), (\"blue\", (0, 0, 255)), \
+    (\"over-blue\", (0, 0, 255)), (\"over-white\", (0, 0, 0))]:
     Image.new(\"RGB\", (40, 30), colour).save(name + \".png\")'
 mkdir folder; cp blue.png folder; cp red.png 'folder/{}.png'";
 
@@ -311,7 +319,9 @@ fn pictures_are_those_of_the_command_line() {
         "no sample is called as over-red.png is",
     );
     // one of one may be called anything
-    assert_eq!(folder.sh("vscore one.ndjson --report one.html --overlay over-blue.png > /dev/null; grep -c 'src=' one.html").stdout, "1\n");
+    let drawn = folder.sh("vscore one.ndjson --report one.html --overlay over-blue.png > /dev/null; \
+        grep -c 'src=' one.html");
+    assert_eq!(drawn.stdout, "1\n");
     folder.sh("rm over-white.png");
     refused("three.ndjson --report out.html --overlay over-{}.png", 1, "over-white.png");
 }
@@ -321,14 +331,14 @@ fn pictures_are_those_of_the_command_line() {
 #[test]
 fn a_stream_names_no_pictures() {
     let folder = Workdir::new();
-    folder.sh(
-        "vkernel --facets 2x2 | vforward --reflectance cc24:red | vestimate > one
+    folder.sh("vkernel --facets 2x2 | vforward --reflectance cc24:red | vestimate > one
         mkdir folder; mkfifo folder/waits.png waits
-        said='{\"tool\":\"vextract\",\"version\":\"0.1.0\",\"arguments\":[\"--overlay\",\"waits\",\"--overlay=waits\"]}'
+        said='{\"tool\":\"vextract\",\"version\":\"0.1.0\",\"arguments\":[\"--overlay\",\
+            \"waits\",\"--overlay=waits\"]}'
         sed \"1s/\\\"history\\\":\\[/&$said,/\" one > foreign.ndjson
-        sed 's/\"id\":\"cc24:red\"/\"id\":\"..\\/folder\\/waits\"/' one > away.ndjson",
-    );
-    let run = folder.sh("timeout 20 vscore foreign.ndjson --report out.html | grep -c waits; grep -c waits out.html; grep -c '<img' out.html || :");
+        sed 's/\"id\":\"cc24:red\"/\"id\":\"..\\/folder\\/waits\"/' one > away.ndjson");
+    let run = folder.sh("timeout 20 vscore foreign.ndjson --report out.html | grep -c waits; \
+        grep -c waits out.html; grep -c '<img' out.html || :");
     assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("1\n1\n0\n", ""));
     let refused = |line: &str, says: &str| {
         let run = folder.sh(&format!("timeout 20 {line} > /dev/null"));

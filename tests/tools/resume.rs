@@ -4,7 +4,8 @@ use crate::common::Workdir;
 
 /// 24 samples, of which the third is unusable, and what one run makes of them.
 const ESTIMATES: &str = "
-    vkernel --facets 2x2 | vforward --reflectance cc24 --noise-sd 1e-3 | sed '4s/facet_rgb/facets/' > samples.ndjson
+    vkernel --facets 2x2 | vforward --reflectance cc24 --noise-sd 1e-3 \
+        | sed '4s/facet_rgb/facets/' > samples.ndjson
     vestimate samples.ndjson > whole.ndjson || [ $? = 3 ]
     resume() { vestimate samples.ndjson --resume out.ndjson \"$@\"; }";
 
@@ -21,7 +22,8 @@ fn wherever_it_was_cut() {
     let cut = format!(
         "{ESTIMATES}
         scene=$(head -n 1 whole.ndjson | wc -c) size=$(wc -c < whole.ndjson)
-        for bytes in 0 1 8 9 $((scene - 1)) $scene $((scene + 1)) $((scene + 5000)) $((size / 2)) $((size - 1)) $size; do
+        for bytes in 0 1 8 9 $((scene - 1)) $scene $((scene + 1)) $((scene + 5000)) \
+            $((size / 2)) $((size - 1)) $size; do
             head -c $bytes whole.ndjson > out.ndjson
             {GOES_ON}
         done"
@@ -102,8 +104,9 @@ fn photographs_are_measured_once() {
         for n in 1 2 4; do ln -s '{photo}' $n.exr; done
         echo 'no picture' > 3.exr
         extract() {{
-            vextract 1.exr 2.exr 3.exr 4.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 "$@" \
-                --panel0 "332,462 345,77 122,12 104,442" --panel1 "332,462 345,77 485,17 472,446" || [ $? = 3 ]
+            vextract 1.exr 2.exr 3.exr 4.exr --scene scene.json --camera canon-5d-mark-ii \
+                --illuminant D65 "$@" --panel0 "332,462 345,77 122,12 104,442" \
+                --panel1 "332,462 345,77 485,17 472,446" || [ $? = 3 ]
         }}
         extract > whole.ndjson
         {{ head -n 3 whole.ndjson; echo -n '{{"kind":"sample","id":"\303'; }} > out.ndjson

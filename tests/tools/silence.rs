@@ -8,7 +8,10 @@ const JPEG: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/photos/f_srg
 const PANELS: &str = "--panel0 '332,462 345,77 122,12 104,442' --panel1 '332,462 345,77 485,17 472,446'";
 
 fn extract(folder: &Workdir, photo: &str, flags: &str) -> Ended {
-    folder.sh(&format!("vkernel --angle-deg 50 --facets 2x2 | vextract '{photo}' --camera canon-5d-mark-ii {flags} -o out.ndjson"))
+    folder.sh(&format!(
+        "vkernel --angle-deg 50 --facets 2x2 | vextract '{photo}' \
+            --camera canon-5d-mark-ii {flags} -o out.ndjson"
+    ))
 }
 
 #[test]

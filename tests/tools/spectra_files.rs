@@ -43,7 +43,8 @@ fn colour_science_reads_what_is_written() {
     check(
         COLOUR_SCIENCE,
         r#"
-        vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:green | vestimate --spectra two.csv -o two.ndjson
+        vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:green \
+            | vestimate --spectra two.csv -o two.ndjson
         head -n 2 two.ndjson | vscore --spectra red.spdx -o scored.ndjson
         cat > read.py <<'END'
 import json, numpy
@@ -74,8 +75,10 @@ fn what_colour_science_writes_is_read() {
 import colour
 patch = colour.SDS_COLOURCHECKERS["ISO 17321-1"]["foliage"].copy().align(colour.SpectralShape(380, 780, 10))
 colour.write_sds_to_csv_file({"foliage": patch}, "foliage.csv")
-header = colour.io.Header_IESTM2714(description="leaf", document_creator="a test", document_creation_date="2026-01-31T12:00:00Z")
-colour.SpectralDistribution_IESTM2714("foliage.spdx", header, spectral_quantity="reflectance", data=patch).write()
+header = colour.io.Header_IESTM2714(
+    description="leaf", document_creator="a test", document_creation_date="2026-01-31T12:00:00Z")
+colour.SpectralDistribution_IESTM2714(
+    "foliage.spdx", header, spectral_quantity="reflectance", data=patch).write()
 fine = patch.copy().interpolate(colour.SpectralShape(400, 700, 1), interpolator=colour.SpragueInterpolator)
 colour.write_sds_to_csv_file({"foliage": fine}, "fine.csv")
 END
@@ -114,11 +117,13 @@ records = list(map(json.loads, open("read.ndjson")))
 lamp = colour.SpectralDistribution_IESTM2714("resources/Fluorescent.spdx").read()
 light = records[0]["illuminants"][0]
 assert light["interpolation"] == "linear", light
-assert numpy.allclose(light["power"], numpy.interp(records[0]["wavelengths_nm"], lamp.wavelengths, lamp.values), rtol=1e-12)
+power = numpy.interp(records[0]["wavelengths_nm"], lamp.wavelengths, lamp.values)
+assert numpy.allclose(light["power"], power, rtol=1e-12)
 samples = colour.read_sds_from_xrite_file("resources/X-Rite_Digital_Colour_Checker.txt")
 assert len(records) == 11 == len(samples) + 1
 for record, sample in zip(records[1:], samples.values()):
-    sprague = sample.copy().interpolate(colour.SpectralShape(400, 700, 5), interpolator=colour.SpragueInterpolator)
+    sprague = sample.copy().interpolate(
+        colour.SpectralShape(400, 700, 5), interpolator=colour.SpragueInterpolator)
     assert numpy.allclose(record["truth"]["reflectance"], sprague.values, rtol=0, atol=1e-9), record["id"]
 END
         python3 compare.py"#
@@ -137,14 +142,17 @@ fn encodings_and_line_ends_change_nothing() {
         "command -v iconv",
         r#"
         printf 'nm,r\303\251d\n380,0.05\n550,0.1\n780,0.7\n' > plain.csv
-        printf 'CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_ID NM_380 NM_550 NM_780\nEND_DATA_FORMAT\nBEGIN_DATA\nx 0.05 0.1 0.7\nEND_DATA\n' > plain.txt
+        printf '%s\n' CGATS.17 BEGIN_DATA_FORMAT 'SAMPLE_ID NM_380 NM_550 NM_780' END_DATA_FORMAT \
+            BEGIN_DATA 'x 0.05 0.1 0.7' END_DATA > plain.txt
         cp plain.txt plain.sp
-        printf '<?xml version="1.0"?>\n<IESTM2714><SpectralDistribution><SpectralQuantity>reflectance</SpectralQuantity>\n' > plain.spdx
+        printf '%s\n' '<?xml version="1.0"?>' \
+            '<IESTM2714><SpectralDistribution><SpectralQuantity>reflectance</SpectralQuantity>' > plain.spdx
         for pair in 380:0.05 550:0.1 780:0.7; do
             echo "<SpectralData wavelength=\"${pair%:*}\">${pair#*:}</SpectralData>" >> plain.spdx
         done
         echo '</SpectralDistribution></IESTM2714>' >> plain.spdx
-        printf '{"spectral_data": {"units": "reflectance", "index": {"main": ["x"]},\n"data": {"main": {"380": [0.05], "550": [0.1], "780": [0.7]}}}}\n' > plain.json
+        printf '%s\n' '{"spectral_data": {"units": "reflectance", "index": {"main": ["x"]},' \
+            '"data": {"main": {"380": [0.05], "550": [0.1], "780": [0.7]}}}}' > plain.json
         vkernel --facets 1x1 -o scene
         vforward scene --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
         for ending in csv txt sp spdx json; do
@@ -183,11 +191,13 @@ fn layouts_of_spreadsheets_and_data_frames_are_read() {
         printf 'wavelength,a,b\nnm,%%,\n380,5,0.2\n550,10,0.2\n780,70,0.2\n' > units.csv
         printf 'wavelength,a,b\num,-,-\n0.38,0.05,0.2\n0.55,0.1,0.2\n0.78,0.7,0.2\n' > micrometres.csv
         printf 'Wavelength (\303\205),a,b\n3800,0.05,0.2\n5500,0.1,0.2\n7800,0.7,0.2\n' > angstrom.csv
-        printf 'nm,a,A std,b,b (uncertainty),a sd\n380,0.05,9,0.2,9,9\n550,0.1,9,0.2,9,9\n780,0.7,9,0.2,9,9\n' | sed 's/A std/a std/' > deviations.csv
+        printf '%s\n' 'nm,a,A std,b,b (uncertainty),a sd' 380,0.05,9,0.2,9,9 550,0.1,9,0.2,9,9 \
+            780,0.7,9,0.2,9,9 | sed 's/A std/a std/' > deviations.csv
         vkernel --facets 1x1 -o scene.json
         vforward scene.json --reflectance plain.csv --save truth.reflectance=wanted.npy -o wanted.ndjson
         for file in sep bars index pandas r numbered sliced units micrometres angstrom deviations; do
-            vforward scene.json --reflectance $file.csv --save truth.reflectance=found.npy -o found.ndjson 2>said
+            vforward scene.json --reflectance $file.csv \
+                --save truth.reflectance=found.npy -o found.ndjson 2>said
             cmp wanted.npy found.npy || { echo $file; exit 1; }
             case $file in
                 pandas|r|numbered|sliced) grep -q 'row numbers left out' said;;
@@ -207,11 +217,16 @@ fn percent_and_line_ends_are_those_of_the_files() {
         "true",
         &format!(
             r#"
-        at() {{ sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p' $1 | tr ',' '\n' | sed -n '1p;4p;7p' | tr '\n' ' '; }}
+        at() {{
+            sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p' $1 |
+                tr ',' '\n' | sed -n '1p;4p;7p' | tr '\n' ' '
+        }}
         vkernel --facets 1x1 -o scene.json
-        vforward scene.json --wavelengths-nm 400:700:50 --reflectance {DATA}/dark_percent_numbered.csv -o dark.ndjson 2>said
+        vforward scene.json --wavelengths-nm 400:700:50 \
+            --reflectance {DATA}/dark_percent_numbered.csv -o dark.ndjson 2>said
         grep -q 'percent read as fractions' said
-        vforward scene.json --wavelengths-nm 400:700:50 --reflectance {DATA}/cgats_carriage_returns.txt -o cgats.ndjson
+        vforward scene.json --wavelengths-nm 400:700:50 \
+            --reflectance {DATA}/cgats_carriage_returns.txt -o cgats.ndjson
         test "$(at dark.ndjson | awk '{{ printf "%.4f %.4f %.4f", $1, $2, $3 }}')" = "0.0020 0.0034 0.0080"
         test "$(at cgats.ndjson | awk '{{ printf "%.4f %.4f %.4f", $1, $2, $3 }}')" = "0.1004 0.2157 0.5959""#
         ),
@@ -229,9 +244,13 @@ fn percent_is_what_the_flag_says_where_the_file_does_not() {
         printf 'nm,r\n400,1\n700,1.5\n' > between.csv
         printf 'nm,r\n400,0.25\n700,0.5\n' > small.csv
         printf 'nm,grey 50%%\n400,0.25\n700,0.5\n' > sign.csv
-        printf 'CGATS.17\nSPECTRAL_NORM 1\nBEGIN_DATA_FORMAT\nNM_400 NM_700\nEND_DATA_FORMAT\nBEGIN_DATA\n0.25 0.5\nEND_DATA\n' > norm.txt
+        printf '%s\n' CGATS.17 'SPECTRAL_NORM 1' BEGIN_DATA_FORMAT 'NM_400 NM_700' END_DATA_FORMAT \
+            BEGIN_DATA '0.25 0.5' END_DATA > norm.txt
         vkernel --facets 1x1 -o scene.json
-        ends() { vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$@" 2>said | sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'; }
+        ends() {
+            vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$@" 2>said |
+                sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'
+        }
         test "$(ends between.csv --percent)" = 0.01,0.015
         grep -q 'between.csv: percent read as fractions' said
         test "$(ends small.csv)" = 0.25,0.5
@@ -253,10 +272,14 @@ fn spectra_may_be_in_a_second_table() {
         table() { printf 'BEGIN_DATA_FORMAT\n%s\nEND_DATA_FORMAT\nBEGIN_DATA\n%b\nEND_DATA\n' "$1" "$2"; }
         { echo CGATS.17; table 'SAMPLE_ID RGB_R RGB_G' 'a 1 2\nb 3 4'; echo 'SPECTRAL_NORM 100'
           table 'SAMPLE_ID NM_400 NM_700' 'a 25 50\nb 75 12.5'; } > second.txt
-        { echo CGATS.17; table 'SAMPLE_ID NM_400 NM_700' 'a 0.25 0.5'; table 'SAMPLE_ID NM_400 NM_500 NM_700' 'b 0.75 0.5 0.125'
+        { echo CGATS.17; table 'SAMPLE_ID NM_400 NM_700' 'a 0.25 0.5'
+          table 'SAMPLE_ID NM_400 NM_500 NM_700' 'b 0.75 0.5 0.125'
           echo '# end'; } > both.txt
         vkernel --facets 1x1 -o scene.json
-        ends() { vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$1" | sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'; }
+        ends() {
+            vforward scene.json --wavelengths-nm 400:700:300 --reflectance "$1" |
+                sed -n 's/.*"truth".*"reflectance":\[\([^]]*\)\].*/\1/p'
+        }
         test "$(ends second.txt)" = "$(printf '0.25,0.5\n0.75,0.125')"
         test "$(ends both.txt)" = "$(printf '0.25,0.5\n0.75,0.125')""#,
     );
@@ -279,7 +302,8 @@ for kelvin in 1500, 2856, 5500, 12000:
     theirs = colour.sd_blackbody(kelvin, colour.SpectralShape(400, 700, 5)).values
     ours = numpy.array(scene["illuminants"][0]["power"])
     assert scene["illuminants"][0]["name"] == f"{kelvin}K"
-    assert numpy.allclose(ours / ours[32], theirs / theirs[32], rtol=1e-5), (kelvin, ours / ours[32] * theirs[32] / theirs)
+    assert numpy.allclose(ours / ours[32], theirs / theirs[32], rtol=1e-5), \
+        (kelvin, ours / ours[32] * theirs[32] / theirs)
 END
         python3 compare.py"#,
     );
@@ -293,12 +317,16 @@ fn written_tables_are_safe_to_open() {
         "true",
         r#"
         escape=$(printf '\033') turned=$(printf '\342\200\256')
-        printf 'nm,"=HYPERLINK(""x"")",+1,-2,@sum,%s[2J,%sder\n400,0.1,0.2,0.3,0.4,0.5,0.6\n700,0.1,0.2,0.3,0.4,0.5,0.6\n' "$escape" "$turned" > evil.csv
+        {
+            printf 'nm,"=HYPERLINK(""x"")",+1,-2,@sum,%s[2J,%sder\n' "$escape" "$turned"
+            printf '400,0.1,0.2,0.3,0.4,0.5,0.6\n700,0.1,0.2,0.3,0.4,0.5,0.6\n'
+        } > evil.csv
         vkernel --facets 2x2 | vforward --reflectance evil.csv |
             sed 's/"id":"evil:/"id":"/' | vestimate --spectra written.csv -o estimates.ndjson
         if grep -q "$escape\|$turned" written.csv; then exit 1; fi
         if head -n 1 written.csv | tr ',' '\n' | grep -q '^"*[-=+@]'; then exit 1; fi
-        vkernel --facets 1x1 | vforward --reflectance written.csv 2>/dev/null | sed -n 's/.*"id":"written:\(.*\)","facet_rgb".*/\1/p' > again
+        vkernel --facets 1x1 | vforward --reflectance written.csv 2>/dev/null \
+            | sed -n 's/.*"id":"written:\(.*\)","facet_rgb".*/\1/p' > again
         grep -qxF '=HYPERLINK(_x_)' again
         grep -qxF -e +1 again
         grep -qxF -e -2 again
@@ -317,7 +345,8 @@ fn argyll_reads_what_is_written() {
         vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:green |
             vestimate --spectra two.sp | vscore --colour --illuminant D50 --observer 2 -o two.ndjson
         spec2cie -i D50 -o 1931_2 two.sp cie.sp >/dev/null
-        awk '/^END_DATA/ { rows = 0 } rows { print $1, $(NF-5), $(NF-4), $(NF-3) } /^BEGIN_DATA$/ { rows = 1 }' cie.sp > argyll.txt
+        awk '/^END_DATA/ { rows = 0 } rows { print $1, $(NF-5), $(NF-4), $(NF-3) }
+            /^BEGIN_DATA$/ { rows = 1 }' cie.sp > argyll.txt
         cat > compare.py <<'END'
 import json
 argyll = {row.split()[0].strip('"'): [float(x) for x in row.split()[1:]] for row in open("argyll.txt")}
@@ -344,7 +373,8 @@ fn argylls_own_files_are_read() {
 import json
 theirs, ours = (json.loads(line)["illuminants"][0]["power"] for line in open("scenes.ndjson"))
 scale = theirs[32] / ours[32]
-assert all(abs(a - scale * b) < 0.01 * scale * b for a, b in zip(theirs, ours)), max(a / b for a, b in zip(theirs, ours))
+assert all(abs(a - scale * b) < 0.01 * scale * b for a, b in zip(theirs, ours)), \
+    max(a / b for a, b in zip(theirs, ours))
 END
         python3 compare.py"#,
     );

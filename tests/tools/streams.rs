@@ -8,8 +8,10 @@ use crate::common::{Ended, Workdir};
 /// Two scenes in unlike light with two samples each, in the order in which the tools write them:
 /// `stream.ndjson`. `by-kind.ndjson` has both scenes first, `shuffled.ndjson` then the samples in turn.
 const TWO_LIGHTS: &str = "
-vkernel --angle-deg 50 --facets 6x6 --id shade | vforward --reflectance cc24:orange cc24:red --illuminant D75 > shade
-vkernel --angle-deg 50 --facets 6x6 --id sun | vforward --reflectance cc24:orange cc24:red --illuminant D50 > sun
+vkernel --angle-deg 50 --facets 6x6 --id shade | vforward --reflectance cc24:orange cc24:red \
+    --illuminant D75 > shade
+vkernel --angle-deg 50 --facets 6x6 --id sun | vforward --reflectance cc24:orange cc24:red \
+    --illuminant D50 > sun
 cat shade sun > stream.ndjson
 { head -n 1 shade; head -n 1 sun; tail -n 2 shade; tail -n 2 sun; } > by-kind.ndjson
 { head -n 1 shade; head -n 1 sun; tail -n 1 sun; tail -n 2 shade; sed -n 2p sun; } > shuffled.ndjson
@@ -36,7 +38,8 @@ fn samples_find_their_scenes_above_others() {
     let folder = Workdir::new();
     folder.sh(TWO_LIGHTS);
     // each sample is a sheet of its own
-    folder.sh("sed -i 's/\"scene\":\"\\([a-z]*\\)\",\"id\":\"cc24:\\([a-z]*\\)\"/&,\"sheet\":\"\\1 \\2\"/' *.ndjson");
+    folder.sh("sed -i 's/\"scene\":\"\\([a-z]*\\)\",\"id\":\"cc24:\\([a-z]*\\)\"/&,\"sheet\":\"\\1 \\2\"/' \
+        *.ndjson");
     for flags in ["-j 1", "-j 4", "--join=sheet"] {
         let estimated = |file: &str| {
             let run = folder.sh(&format!("vestimate {file} --no-history {flags} | vscore --no-history"));
@@ -110,7 +113,8 @@ fn a_sample_without_its_scene_is_refused() {
 #[test]
 fn a_bad_line_costs_its_record() {
     let folder = Workdir::new();
-    folder.sh("vkernel --facets 3x3 | vforward --reflectance cc24:red cc24:blue cc24:green cc24:white --no-history > good.ndjson");
+    folder.sh("vkernel --facets 3x3 | vforward --reflectance cc24:red cc24:blue cc24:green cc24:white \
+        --no-history > good.ndjson");
     let damages = [
         r#"3s/.$//"#,
         r#"3s/^.\{40\}//"#,
@@ -195,7 +199,8 @@ fn runs_go_on_behind_bad_lines() {
     assert!(whole.stdout.starts_with("3\n"), "{whole:?}");
     for lines in 1..6 {
         let run = folder.sh(&format!(
-            "head -n {lines} whole.ndjson > part.ndjson; vestimate bad.ndjson --resume part.ndjson || echo $?; cmp part.ndjson whole.ndjson"
+            "head -n {lines} whole.ndjson > part.ndjson; vestimate bad.ndjson --resume part.ndjson \
+                || echo $?; cmp part.ndjson whole.ndjson"
         ));
         assert!(run.status == 0 && run.says_nothing_else("3\n"), "{lines}: {run:?}");
     }

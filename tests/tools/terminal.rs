@@ -47,11 +47,12 @@ fn a_batch_says_how_far_it_is() {
     let pictures = concat!(
         "cp '",
         env!("CARGO_MANIFEST_DIR"),
-        "/tests/data/photos/a_ideal_magenta_50.exr' 1.exr; for n in $(seq 2 60); do ln -s 1.exr $n.exr; done\n",
+        "/tests/data/photos/a_ideal_magenta_50.exr' 1.exr; for n in $(seq 2 60); \
+         do ln -s 1.exr $n.exr; done\n",
         "vkernel --angle-deg 50 -o scene.json"
     );
-    let extract = "vextract *.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -j 1 -o out.ndjson \
-        --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\"";
+    let extract = "vextract *.exr --scene scene.json --camera canon-5d-mark-ii --illuminant D65 -j 1 \
+        -o out.ndjson --panel0 \"332,462 345,77 122,12 104,442\" --panel1 \"332,462 345,77 485,17 472,446\"";
     let shown = plain(&on_terminal(pictures, extract).stdout);
     let drawn = shown.split("vextract: ").find(|line| line.contains(" of 60 samples, "));
     let drawn = drawn.unwrap_or_default();
@@ -126,7 +127,8 @@ fn a_plot_is_plain_where_colours_or_characters_are_not_wanted() {
 fn a_plot_leaves_the_records_alone() {
     let script = format!(
         "{SETUP}vestimate samples.ndjson --plot - 2> plot | tail -n 1 | cut -c 1-16; grep -c '─' plot; \
-         vscore estimates.ndjson --table --plot - 2> /dev/null | cut -c 1-6; vestimate samples.ndjson -q --plot - 2>&- | wc -l"
+         vscore estimates.ndjson --table --plot - 2> /dev/null | cut -c 1-6; \
+         vestimate samples.ndjson -q --plot - 2>&- | wc -l"
     );
     let run = Workdir::new().sh(&script);
     assert_eq!(run.stdout, "{\"kind\":\"sample\"\n1\nsample\ncc24:r\nmean  \nmedian\nworst \n2\n", "{run:?}");
@@ -162,7 +164,8 @@ fn names_do_nothing_to_a_terminal() {
     let folder = Workdir::new();
     let run = folder.sh(r#"
 vkernel --facets 2x2 | vforward --reflectance cc24:red cc24:blue --noise-sd 1e-3 > plain
-jq -c 'if .id == "cc24:red" then .id = "r\u001b]0;title\u0007\u001b[2J\u009b31m\u007f\u202eder\u2066\u200f\u2028\nx" else . end' \
+jq -c 'if .id == "cc24:red"
+    then .id = "r\u001b]0;title\u0007\u001b[2J\u009b31m\u007f\u202eder\u2066\u200f\u2028\nx" else . end' \
     plain > escapes.ndjson
 vestimate escapes.ndjson -v --plot - > estimates.ndjson 2> said
 vscore estimates.ndjson --plot - --table > table 2>> said

@@ -26,9 +26,11 @@ fn rms(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn one_candidate_is_a_light_that_is_stated() {
     let run = Workdir::new().sh(&format!(
-        "vkernel | vforward -q --reflectance cc24:red cc24:foliage --illuminant FL11 --noise-sd 1e-3 -o computed.ndjson
+        "vkernel | vforward -q --reflectance cc24:red cc24:foliage --illuminant FL11 \
+            --noise-sd 1e-3 -o computed.ndjson
         vkernel --angle-deg 50 -o scene.json
-        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant FL11 {PANELS} -o photo.ndjson
+        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant FL11 {PANELS} -o photo.ndjson
         for records in computed photo; do
             vestimate -q $records.ndjson --exposure free
             vestimate -q $records.ndjson --exposure free --illuminant unknown --illuminants FL11
@@ -52,9 +54,8 @@ fn one_candidate_is_a_light_that_is_stated() {
 /// Nearer than with another light told, by far, and no further than its bars say.
 #[test]
 fn a_sheet_is_found_in_a_light_that_is_unknown() {
-    let run = Workdir::new().sh(
-        "vkernel | vforward -q --reflectance cc24 --illuminant A --noise-sd 1e-3 | vestimate -q --exposure free --illuminant unknown",
-    );
+    let run = Workdir::new().sh("vkernel | vforward -q --reflectance cc24 --illuminant A --noise-sd 1e-3 \
+        | vestimate -q --exposure free --illuminant unknown");
     assert_eq!(run.status, 0, "{run:?}");
     let (mut squares, mut held, mut count) = (0.0, 0, 0);
     for sample in records(&run.stdout).iter().skip(1) {
@@ -74,8 +75,10 @@ fn a_sheet_is_found_in_a_light_that_is_unknown() {
 #[test]
 fn probabilities_add_up_to_one() {
     let run = Workdir::new().sh(&format!(
-        "vkernel --angle-deg 50 | vextract -q '{PHOTO}' --camera canon-5d-mark-ii --illuminant unknown {PANELS} | vestimate -q
-        vkernel | vforward -q --reflectance 0.5 --illuminant LED-B3 --noise-sd 1e-2 | vestimate -q --illuminant unknown --save light.power=light.npy"
+        "vkernel --angle-deg 50 | vextract -q '{PHOTO}' --camera canon-5d-mark-ii \
+            --illuminant unknown {PANELS} | vestimate -q
+        vkernel | vforward -q --reflectance 0.5 --illuminant LED-B3 --noise-sd 1e-2 \
+            | vestimate -q --illuminant unknown --save light.power=light.npy"
     ));
     assert_eq!(run.status, 0, "{run:?}");
     for sample in records(&run.stdout).iter().filter(|record| record["kind"] == "sample") {
@@ -103,7 +106,8 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
     let folder = Workdir::new();
     let made = folder.sh(&format!(
         "vkernel --angle-deg 50 -o scene.json
-        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant unknown {PANELS} -o photo.ndjson"
+        vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii \
+            --illuminant unknown {PANELS} -o photo.ndjson"
     ));
     assert_eq!(made.status, 0, "{made:?}");
     for (line, said) in [
@@ -134,7 +138,8 @@ fn a_light_that_is_told_wrongly_is_doubted() {
         {{ head -n 1 daylight.ndjson; tail -n +2 right.ndjson; }} > wrong.ndjson
         vkernel --angle-deg 50 -o scene.json
         for light in D65 A; do
-            vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii --illuminant $light {PANELS} -o photo-$light.ndjson
+            vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii \
+                --illuminant $light {PANELS} -o photo-$light.ndjson
         done
         for records in right.ndjson wrong.ndjson photo-D65.ndjson photo-A.ndjson; do
             vestimate -q --exposure free $records | grep -c 'times as probable as' || true

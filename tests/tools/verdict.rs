@@ -47,7 +47,8 @@ struct Judged {
 fn judged(what: &str, told: StatedScene) -> Judged {
     let StatedScene { photo, angle_deg, camera, light, corners: [panel0, panel1], truth, flags } = told;
     let run = Workdir::new().sh(&format!(
-        "vkernel --angle-deg {angle_deg} | vextract -q '{photo}' --camera {camera} --illuminant {light} --refine \\
+        "vkernel --angle-deg {angle_deg} | vextract -q '{photo}' --camera {camera} \
+            --illuminant {light} --refine \\
             --panel0 '{panel0}' --panel1 '{panel1}' | vestimate {flags} | vscore --truth '{truth}'"
     ));
     if run.stderr.contains("not what any reflectance gives; check exposure, noise, angle, corners") {
@@ -172,7 +173,8 @@ fn computed_facets_are_judged_by_chance() {
     assert!(good >= 22, "{good} of {}", right.len());
     let wrong = verdicts(
         "vkernel --angle-deg 45 | vforward --reflectance cc24:red cc24:white --noise-sd 1e-4 > samples.ndjson
-        { vkernel --angle-deg 55 | vforward --reflectance 0.5 | head -n 1; tail -n 2 samples.ndjson; } | vestimate -q",
+        { vkernel --angle-deg 55 | vforward --reflectance 0.5 | head -n 1; tail -n 2 samples.ndjson; } \
+            | vestimate -q",
     );
     assert!(
         wrong.iter().all(|verdict| verdict["level"] != "good" && verdict["remedy"].is_string()),

@@ -281,7 +281,8 @@ impl<'a> Estimator<'a> {
     fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
         let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
         if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
-            let problem = "the light is unknown, and found under a prior alone, of each photograph by itself, with nothing but exposure fitted";
+            let problem = "the light is unknown, and found under a prior alone, of each photograph \
+                           by itself, with nothing but exposure fitted";
             return Err(Error::usage(
                 "--illuminant",
                 problem,
@@ -368,7 +369,8 @@ impl<'a> Estimator<'a> {
         if !self.asked.args.common.quiet {
             let (id, reduced_chi) = (sample.id(), ideal.residual_rms);
             let text = format!(
-                "{id}: residual {reduced_chi:.1} times the noise: this is no ideal fold. Real-sheet effects cannot be modelled here ({why}); errors may exceed the bars"
+                "{id}: residual {reduced_chi:.1} times the noise: this is no ideal fold. \
+                 Real-sheet effects cannot be modelled here ({why}); errors may exceed the bars"
             );
             cli::say("vestimate", &text);
         }

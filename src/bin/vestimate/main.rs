@@ -37,7 +37,8 @@ use vfold::stream::{EstimateRecord, Output, Reader, Record, pipe};
     version,
     group(ArgGroup::new("scene without a camera").args(["plan", "kernel"]).multiple(true)),
     after_help = "Examples:\n  vestimate samples.ndjson --plot spectrum.svg > estimates.ndjson\n  \
-                  vestimate samples.ndjson --fit exposure,tilt,sky --save estimate.reflectance=spectra.npy\n  \
+                  vestimate samples.ndjson --fit exposure,tilt,sky \
+                  --save estimate.reflectance=spectra.npy\n  \
                   vestimate samples.ndjson --prior smooth --smoothness 1e-4\n  \
                   vkernel --angle-deg 60 | vestimate --plan --camera nikon-d5100 --noise-sd 1e-3"
 )]
@@ -54,7 +55,8 @@ struct Args {
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
     smoothness: Option<Smoothness>,
     /// Standard deviation of every facet; auto: from the samples, else from what no reflectance explains
-    #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true, value_parser = settings::noise_sd)]
+    #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true,
+        value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
     /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
@@ -69,8 +71,8 @@ struct Args {
     fit: Vec<&'static Flag>,
     /// Estimate photographs of one sheet together: group by FIELD, or join the listed IDs. Without a
     /// value, group by the id up to its last - or _
-    #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true, default_missing_value = "id",
-        conflicts_with = "fit")]
+    #[arg(long, value_name = "FIELD|IDS", num_args = 0..=1, require_equals = true,
+        default_missing_value = "id", conflicts_with = "fit")]
     join: Option<Join>,
     /// Candidates for an unknown light: every column of a file [default: daylight of 4000 to 12500 K,
     /// suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]
@@ -79,7 +81,8 @@ struct Args {
     /// A fold of a sheet of known reflectance, taken by the same camera in the same light: one sample of
     /// vforward or vextract, and its reflectance. It fixes the light and, for computed facets, the
     /// exposure
-    #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec, conflicts_with_all = ["join", "plan"])]
+    #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec,
+        conflicts_with_all = ["join", "plan"])]
     known_fold: Option<(String, String)>,
     /// The sheet is backed by black card or its like: no light comes through it from behind
     #[arg(long)]

@@ -18,13 +18,15 @@ use super::target::{Target, View};
 #[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, if known
-    #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"], allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"],
+        allow_negative_numbers = true)]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
     #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
     chart_reference: String,
     /// Patches of the chart
-    #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place", value_parser = cli::pair::<usize>)]
+    #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place",
+        value_parser = cli::pair::<usize>)]
     chart_grid: (usize, usize),
     /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the
     /// panels

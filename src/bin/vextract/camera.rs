@@ -26,7 +26,8 @@ pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<
         };
         let (path, taken_by) = (path.display(), format!("{make} {model}").trim().to_owned());
         format!(
-            "warning: EXIF of {path} says {taken_by}, and its colours are taken for those of {camera}: expect a wrong spectrum; {instead}"
+            "warning: EXIF of {path} says {taken_by}, and its colours are taken for those of {camera}: \
+             expect a wrong spectrum; {instead}"
         )
     })
 }

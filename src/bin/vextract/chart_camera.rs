@@ -79,7 +79,8 @@ fn note(file: &Path, light: &str, camera: &ChartCamera) -> String {
     let all = camera.sensitivities_sd.iter().flatten();
     let sd = (all.clone().map(|sd| sd * sd).sum::<f64>() / all.count() as f64).sqrt();
     format!(
-        "{}: curves by the chart in {light}, patches within {:.1} %, standard deviation {:.1} % of green's peak in the mean; give it as --camera",
+        "{}: curves by the chart in {light}, patches within {:.1} %, standard deviation {:.1} % \
+         of green's peak in the mean; give it as --camera",
         file.display(),
         100.0 * camera.residual,
         100.0 * sd

@@ -63,7 +63,8 @@ patches, coefficients and residuals.
 
 --regions FILE has the corners for every IMAGE:
   {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
-or is what vforward printed when it rendered the IMAGE, or a list of such objects, each with \"image\": \"NAME\", for the IMAGE of that file name, with or
+or is what vforward printed when it rendered the IMAGE, or a list of such objects, \
+each with \"image\": \"NAME\", for the IMAGE of that file name, with or
 without its ending. Corners found in a picture of another size, such as a preview, are scaled
 if \"width\" and \"height\" say its pixels.
 
@@ -94,11 +95,13 @@ struct Args {
     optics: OpticsArgs,
     /// Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it,
     /// and exit; needs no scene
-    #[arg(long, conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
+    #[arg(long,
+        conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
     /// Show the photograph and the detected fold in a browser on this machine, to be corrected there,
     /// then print the corners as --find does
-    #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region", "preview", "overlay"])]
+    #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region",
+        "preview", "overlay"])]
     pick: bool,
     #[command(flatten)]
     regions: RegionArgs,

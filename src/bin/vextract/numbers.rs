@@ -36,7 +36,8 @@ fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String>
     let left_out = facets.iter().filter(|facet| facet.clipped > 0 && facet.mean.is_none()).count();
     match ends {
         Some(ends) if percent > 0.0 => Some(format!(
-            ": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken as clipped; expose it less"
+            ": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken \
+             as clipped; expose it less"
         )),
         None if left_out > 0 => Some(format!(
             ": {left_out} facets are left out, as more than 2 % of their pixels are clipped; expose it less"
@@ -80,7 +81,8 @@ fn darkest(info: &PhotographInfo) -> Option<String> {
     let levels: Vec<String> = info.darkest.iter().map(|stored| format!("{stored:.digits$}")).collect();
     (!levels.is_empty()).then(|| {
         format!(
-            ": its darkest pixels are alike in all channels ({}): black was not subtracted, it seems; give --black-level auto",
+            ": its darkest pixels are alike in all channels ({}): black was not subtracted, it seems; \
+             give --black-level auto",
             levels.join(", ")
         )
     })
@@ -89,8 +91,8 @@ fn darkest(info: &PhotographInfo) -> Option<String> {
 fn developed(info: &PhotographInfo) -> Option<String> {
     info.is_developed().then(|| {
         format!(
-            " ({}) was developed for the eye, and neither white balance nor matrix is undone: expect a wrong spectrum; \
-             give the RAW file, or --undo, or --transfer if its numbers are the camera's own",
+            " ({}) was developed for the eye, and neither white balance nor matrix is undone: expect a wrong \
+             spectrum; give the RAW file, or --undo, or --transfer if its numbers are the camera's own",
             info.format
         )
     })

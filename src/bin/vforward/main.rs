@@ -29,8 +29,12 @@ use vfold::{Error, Result};
 #[command(
     name = "vforward",
     version,
-    override_usage = "vforward [SCENE] --reflectance <SPEC>... [OPTIONS]\n       vforward [SCENE] --panel-reflectance 0=<SPEC> --panel-reflectance 1=<SPEC> [OPTIONS]\n       vforward [SCENE] --facet-reflectance <FILE.npy>... [OPTIONS]",
-    after_help = "Examples:\n  vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill | vestimate | vscore --table\n  \
+    override_usage = "vforward [SCENE] --reflectance <SPEC>... [OPTIONS]\n       \
+                      vforward [SCENE] --panel-reflectance 0=<SPEC> --panel-reflectance 1=<SPEC> \
+                      [OPTIONS]\n       \
+                      vforward [SCENE] --facet-reflectance <FILE.npy>... [OPTIONS]",
+    after_help = "Examples:\n  vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill \
+                  | vestimate | vscore --table\n  \
                   vkernel --angle-deg 50 | vforward --reflectance cc24:red --render photo.exr > sample.json"
 )]
 struct Args {
@@ -39,7 +43,8 @@ struct Args {
     scene: String,
     /// Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)
     #[arg(long, value_name = "SPEC", num_args = 1..,
-        required_unless_present_any = ["panel_reflectance", "facet_reflectance", "donaldson", "generate", "list"])]
+        required_unless_present_any =
+            ["panel_reflectance", "facet_reflectance", "donaldson", "generate", "list"])]
     reflectance: Vec<String>,
     /// Reflectance of panel P (0 or 1), the other panel being the sheet; if both are given, panel 0 is
     /// the sheet
@@ -48,18 +53,21 @@ struct Args {
     /// Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one
     /// flat patch per facet, no truth in the samples
     #[arg(long, value_name = "FILE.npy", num_args = 1..,
-        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces", "render", "sheet"])]
+        conflicts_with_all = ["reflectance", "panel_reflectance", "reference_panel", "material", "bounces",
+            "render", "sheet"])]
     facet_reflectance: Vec<PathBuf>,
     /// The sheet fluoresces: it emits this fraction of white's light, named as for --reflectance,
     /// wherever the light of --illuminant falls directly
     #[arg(long, value_name = "SPEC", allow_negative_numbers = true,
-        conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
+        conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material",
+            "sheet"])]
     fluorescence: Option<String>,
     /// Donaldson matrices instead of reflectances: all light that falls on a sheet excites it,
     /// ultraviolet and bounced light included. A file has emission wavelengths in the first column and
     /// excitation wavelengths in the header (CSV), or is the export of a Labsphere BFC-450
     #[arg(long, value_name = "FILE", num_args = 1..,
-        conflicts_with_all = ["reflectance", "fluorescence", "panel_reflectance", "facet_reflectance", "reference_panel", "material", "sheet"])]
+        conflicts_with_all = ["reflectance", "fluorescence", "panel_reflectance", "facet_reflectance",
+            "reference_panel", "material", "sheet"])]
     donaldson: Vec<String>,
     /// Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)
     #[arg(long, value_name = "SPEC", default_value = "canon-5d-mark-ii")]
@@ -71,7 +79,8 @@ struct Args {
     reference_panel: Option<String>,
     /// Bounces of light that count: all, the first N (0: direct light only), or as many as the scene's
     /// tolerance requires
-    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces, conflicts_with_all = ["material", "sheet"])]
+    #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces,
+        conflicts_with_all = ["material", "sheet"])]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]

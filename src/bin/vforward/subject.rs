@@ -109,7 +109,8 @@ fn excited_sheets(args: &Args, grid: &WavelengthGrid, lights: &Lights) -> Result
             cli::say(
                 "vforward",
                 &format!(
-                    "{light} is known from {from_nm} nm on: what its light from {nm} nm excites of {path} is left out"
+                    "{light} is known from {from_nm} nm on: what its light from {nm} nm \
+                     excites of {path} is left out"
                 ),
             );
         }

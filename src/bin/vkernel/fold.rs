@@ -137,8 +137,8 @@ fn warn_of_spread(args: &Args, method: Method, entry_sd: Option<f64>) {
         && estimate.sampling() == Sampling::Area
     {
         let warning = format!(
-            "form factors have standard errors of up to {sd:.1e}, likely more: the variance of pairs of points is infinite \
-             at the crease; --sampling cosine has a finite one"
+            "form factors have standard errors of up to {sd:.1e}, likely more: \
+             the variance of pairs of points is infinite at the crease; --sampling cosine has a finite one"
         );
         cli::say("vkernel", &warning);
     }

@@ -24,7 +24,8 @@ use vfold::{Error, Result};
 #[command(
     name = "vkernel",
     version,
-    after_help = "Examples:\n  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
+    after_help = "Examples:\n  \
+                  vkernel --angle-deg 45 | vforward --reflectance cc24 | vestimate | vscore --table\n  \
                   vkernel --angle-deg 60 --facets 16x16 --save kernel=K.npy > scene.json\n  \
                   vkernel --angle-deg 1 --check\n  \
                   vextract --find photo.exr | vkernel --regions - -o scene.json\n  \
@@ -92,7 +93,8 @@ struct Args {
     /// on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane.
     /// sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and the
     /// sky gives an open plane 1
-    #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true, value_parser = sky::share)]
+    #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true,
+        value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
     #[arg(long, default_value = "fold")]

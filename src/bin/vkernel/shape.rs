@@ -36,7 +36,8 @@ pub struct ShapeArgs {
     /// corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for
     /// pairs that are near or partly hidden
     #[arg(long, value_name = "FILE.obj|.ply|.json",
-          conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg", "bow_deg"])]
+        conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg",
+            "bow_deg"])]
     shape: Option<PathBuf>,
     /// The surface of --shape reflects on both sides: its backs are as many facets again
     #[arg(long, requires = "shape")]

@@ -32,8 +32,10 @@ const WORST_MAX: usize = 10;
     name = "vscore",
     version,
     after_help = "Examples:\n  vkernel | vforward --reflectance cc24 | vestimate | vscore --table\n  \
-                  vestimate samples.ndjson | vscore --truth measured.csv --illuminant D50 --plot spectra.svg\n  \
-                  vscore estimates.ndjson --illuminant D65 --illuminant A --metrics ciede2000,metamerism --table\n  \
+                  vestimate samples.ndjson | vscore --truth measured.csv --illuminant D50 \
+                  --plot spectra.svg\n  \
+                  vscore estimates.ndjson --illuminant D65 --illuminant A \
+                  --metrics ciede2000,metamerism --table\n  \
                   cat angle-*.ndjson | vscore --by geometry.angle_deg --table\n  \
                   vscore estimates.ndjson --report report.html > scores.ndjson"
 )]
@@ -59,7 +61,8 @@ struct Args {
     /// Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism
     /// (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several
     /// illuminants]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true, value_parser = metric())]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true,
+        value_parser = metric())]
     metrics: Vec<&'static Metric>,
     /// Add the estimate's XYZ, CIELAB and sRGB under the first illuminant to the records, with standard
     /// deviations

@@ -151,14 +151,16 @@ mod tests {
             let sum: f64 = shares.iter().sum();
             prop_assume!(sum > 0.01);
             let light = |share: &f64| Weighed { name: String::new(), cct_k: None, probability: share / sum };
-            let found = InferredLight::of(iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice)));
+            let lights = iter::zip(shares.iter().map(light), powers.iter().map(Vec::as_slice));
+            let found = InferredLight::of(lights);
             let total: f64 = found.candidates.iter().map(|light| light.probability).sum();
             prop_assert!((total - 1.0).abs() < 1e-12);
             prop_assert!(found.candidates.is_sorted_by(|a, b| a.probability >= b.probability));
             prop_assert!((found.power.iter().sum::<f64>() / 5.0 - 1.0).abs() < 1e-12);
             for band in 0..5 {
                 let own = powers.iter().map(|power| 5.0 * power[band] / power.iter().sum::<f64>());
-                let (least, most) = own.fold((f64::INFINITY, 0.0_f64), |(a, b), own| (a.min(own), b.max(own)));
+                let (least, most) =
+                    own.fold((f64::INFINITY, 0.0_f64), |(a, b), own| (a.min(own), b.max(own)));
                 prop_assert!((least - 1e-12..=most + 1e-12).contains(&found.power[band]));
                 prop_assert!(found.power_sd[band] <= most - least + 1e-6);
             }

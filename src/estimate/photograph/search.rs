@@ -63,7 +63,8 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
 /// As [`estimate`]; [`Error::Field`] where it was stated that there is no sun, which these have.
 pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     if parts.iter().any(|one| one.stated.sun <= 0.0) {
-        let problem = "photographs are joined and planned in the sun alone; estimate one that the sky lights alone by itself";
+        let problem = "photographs are joined and planned in the sun alone; \
+                       estimate one that the sky lights alone by itself";
         return Err(Error::field("light.sun", problem));
     }
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());

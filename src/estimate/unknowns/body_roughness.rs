@@ -7,7 +7,8 @@ use crate::estimate::photograph::StatedScene;
 /// degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
     name: "body_roughness_deg",
-    description: "Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma)",
+    description: "Roughness of the body of the sheet: the spread of the slopes \
+                  of its facets (Oren and Nayar's sigma)",
     unit: Some("degrees"),
     flag: &AUTO,
     range: 0.0..=90.0,

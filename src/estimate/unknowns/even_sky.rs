@@ -7,7 +7,8 @@ use crate::estimate::photograph::StatedScene;
 /// 1.
 pub static EVEN_SKY: Unknown = Unknown {
     name: "even_sky",
-    description: "Irradiance of an open plane by light that is alike in all directions, relative to the sun's",
+    description: "Irradiance of an open plane by light that is alike in all directions, \
+                  relative to the sun's",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

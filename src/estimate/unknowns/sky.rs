@@ -10,7 +10,8 @@ use crate::estimate::photograph::StatedScene;
 /// Irradiance of the sky on a plane facing the sun, the sun's being 1.
 pub static SKY: Unknown = Unknown {
     name: "sky",
-    description: "Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the sun's",
+    description: "Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, \
+                  relative to the sun's",
     unit: None,
     flag: &Flag {
         value: "sky",

@@ -7,7 +7,8 @@ use crate::estimate::photograph::StatedScene;
 /// being 1.
 pub static SPECULAR_WEIGHT: Unknown = Unknown {
     name: "specular_weight",
-    description: "Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5 being 1",
+    description: "Specular weight: strength of the surface's reflection, that of a bare surface \
+                  of refractive index 1.5 being 1",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

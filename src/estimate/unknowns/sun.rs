@@ -7,7 +7,8 @@ use crate::estimate::photograph::StatedScene;
 /// is 1.
 pub static SUN: Unknown = Unknown {
     name: "sun",
-    description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's of an open horizontal plane",
+    description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's \
+                  of an open horizontal plane",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

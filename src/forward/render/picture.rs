@@ -30,9 +30,11 @@ impl Picture {
     /// use nalgebra::Vector3;
     /// use vfold::forward::render::Picture;
     /// use vfold::forward::render::{Frame, Pinhole, Stand};
-    /// let (stand, frame) = (Stand { eye: Vector3::zeros(), look_at: Vector3::new(0.0, 0.0, 1.0), up: Vector3::y() }, Frame::new(2, 1)?);
+    /// let stand = Stand { eye: Vector3::zeros(), look_at: Vector3::new(0.0, 0.0, 1.0), up: Vector3::y() };
+    /// let frame = Frame::new(2, 1)?;
     /// let camera = Pinhole::with_field_of_view(&stand, 60.0, frame)?;
-    /// let left_half = |_, sight: Vector3<f64>| if sight.x > 0.0 { [1.0; 3] } else { [0.0; 3] }; // x is to the left
+    /// // x is to the left
+    /// let left_half = |_, sight: Vector3<f64>| if sight.x > 0.0 { [1.0; 3] } else { [0.0; 3] };
     /// let mut picture = Picture::take(frame, &camera, left_half);
     /// assert_eq!(picture.pixels_mut(), [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     /// # Ok::<(), vfold::Error>(())

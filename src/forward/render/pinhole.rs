@@ -145,7 +145,8 @@ impl Pinhole {
     /// use nalgebra::Vector3;
     /// use vfold::forward::render::{Frame, Pinhole, Stand};
     /// let stand = Stand { eye: Vector3::new(5.0, 0.0, 9.0), look_at: Vector3::zeros(), up: Vector3::y() };
-    /// let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
+    /// let square =
+    ///     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
     /// let camera = Pinhole::framing(&stand, &square, Frame::new(100, 100)?)?;
     /// let y = square.map(|corner| camera.project(corner).unwrap().y);
     /// assert!((y[1] - 92.0).abs() < 1e-9 && (y[2] - 8.0).abs() < 1e-9);
@@ -256,11 +257,17 @@ mod tests {
         /// What the line of sight through a point of the picture passes is seen at that point.
         #[test]
         fn a_line_of_sight_is_seen_as_a_point(
-            eye in prop::array::uniform3(-3.0..3.0), x in 0.0..64.0, y in 0.0..48.0, degrees in 5.0..150.0, distance in 0.1..9.0,
+            eye in prop::array::uniform3(-3.0..3.0),
+            x in 0.0..64.0,
+            y in 0.0..48.0,
+            degrees in 5.0..150.0,
+            distance in 0.1..9.0,
         ) {
-            let camera = Pinhole::with_field_of_view(&stand(eye, [0.1, 1.0, 0.2]), degrees, Frame::new(64, 48).unwrap());
+            let stand = stand(eye, [0.1, 1.0, 0.2]);
+            let camera = Pinhole::with_field_of_view(&stand, degrees, Frame::new(64, 48).unwrap());
             let Ok(camera) = camera else { return Ok(()) };
-            let seen = camera.project(camera.position() + distance * camera.line_of_sight(Point::new(x, y))).unwrap();
+            let sight = camera.line_of_sight(Point::new(x, y));
+            let seen = camera.project(camera.position() + distance * sight).unwrap();
             prop_assert!((seen.x - x).hypot(seen.y - y) < 1e-9, "{seen:?}");
         }
     }

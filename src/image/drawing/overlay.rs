@@ -41,7 +41,9 @@ const END_INWARDS: f64 = 0.06;
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Balance, Grid, Homography, Photograph, Point, ReadOptions, write_linear, write_overlay};
+/// use vfold::image::{
+///     Balance, Grid, Homography, Photograph, Point, ReadOptions, write_linear, write_overlay,
+/// };
 /// let folder = tempfile::tempdir().unwrap();
 /// let (path, overlay) = (folder.path().join("grey.tif"), folder.path().join("overlay.png"));
 /// write_linear(&path, 40, 30, &[0.5; 40 * 30 * 3])?;

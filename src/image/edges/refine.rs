@@ -75,7 +75,8 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 /// use vfold::image::{Lens, Marked, Photograph, Point, ReadOptions, refine, write_linear};
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("card.exr");
-/// let card = |k: usize| if (20..80).contains(&(k % 100)) && (30..70).contains(&(k / 100)) { 0.5 } else { 0.0 };
+/// let card =
+///     |k: usize| if (20..80).contains(&(k % 100)) && (30..70).contains(&(k / 100)) { 0.5 } else { 0.0 };
 /// let rgb: Vec<f64> = (0..100 * 100).flat_map(|k| [card(k); 3]).collect();
 /// write_linear(&path, 100, 100, &rgb)?;
 /// let clicked = [(22.0, 28.0), (78.0, 31.0), (81.0, 72.0), (19.0, 69.0)].map(|(x, y)| Point::new(x, y));

@@ -102,9 +102,12 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// ```
 /// use vfold::image::{Lens, NoFold, Photograph, find_fold};
 /// // on a dark table, a sheet with a level crease, which is brighter there and more of its colour
-/// let lit = |reflectance: f32, y: usize| reflectance * (0.5 + reflectance * (-(y as f32 + 0.5 - 100.0).abs() / 30.0).exp());
+/// let lit = |reflectance: f32, y: usize| {
+///     reflectance * (0.5 + reflectance * (-(y as f32 + 0.5 - 100.0).abs() / 30.0).exp())
+/// };
 /// let inside = |x: usize, y: usize| (60..180).contains(&x) && (40..160).contains(&y);
-/// let light = |x, y| [0.7, 0.5, 0.3].map(|reflectance| if inside(x, y) { lit(reflectance, y) } else { 0.1 });
+/// let light =
+///     |x, y| [0.7, 0.5, 0.3].map(|reflectance| if inside(x, y) { lit(reflectance, y) } else { 0.1 });
 /// let light = (0..240 * 200).flat_map(|k| light(k % 240, k / 240)).collect();
 /// let found = find_fold(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT).unwrap();
 /// let [x, y] = [found.panels[0][2].x, found.panels[0][2].y]; // outer end 1 of the lower panel

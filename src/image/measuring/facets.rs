@@ -39,10 +39,13 @@ use crate::{Error, Result};
 /// use vfold::image::{Grid, Homography, Photograph, Point, ReadOptions, measure, write_linear};
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("ramp.exr");
-/// let ramp: Vec<f64> = (0..300).map(|k| (k / 3 % 10) as f64 / 16.0).collect(); // 10 x 10 px, brighter to the right
+/// // 10 x 10 px, brighter to the right
+/// let ramp: Vec<f64> = (0..300).map(|k| (k / 3 % 10) as f64 / 16.0).collect();
 /// write_linear(&path, 10, 10, &ramp)?;
-/// let panel = Homography::from_unit_square([(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y)))?;
-/// let facets = measure(&Photograph::open(&path, &ReadOptions::default())?, &[Grid::even(panel, [1, 2])], 0.0)?;
+/// let corners = [(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y));
+/// let panel = Homography::from_unit_square(corners)?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// let facets = measure(&photograph, &[Grid::even(panel, [1, 2])], 0.0)?;
 /// let means: Vec<f64> = facets.iter().map(|facet| facet.mean.as_ref().unwrap()[0]).collect();
 /// assert!((means[0] - 2.0 / 16.0).abs() < 1e-12 && (means[1] - 7.0 / 16.0).abs() < 1e-12);
 /// # Ok::<(), vfold::Error>(())

@@ -33,7 +33,8 @@ const MIDDLE: f64 = 0.5;
 /// let two: Vec<f64> = (0..300).map(|k| if k / 3 % 10 < 5 { 0.25 } else { 0.5 }).collect(); // 10 x 10 px
 /// write_linear(&path, 10, 10, &two)?;
 /// let corners = [(0., 0.), (10., 0.), (10., 10.), (0., 10.)].map(|(x, y)| Point::new(x, y));
-/// let patches = measure_patches(&Photograph::open(&path, &ReadOptions::default())?, "chart", corners, Lens::STRAIGHT, [1, 2])?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// let patches = measure_patches(&photograph, "chart", corners, Lens::STRAIGHT, [1, 2])?;
 /// assert_eq!(patches[1].mean, Some(vec![0.5; 3]));
 /// # Ok::<(), vfold::Error>(())
 /// ```

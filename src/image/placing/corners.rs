@@ -85,7 +85,8 @@ pub(in crate::image) fn is_inside(p: Point, width: usize, height: usize) -> bool
 /// use vfold::image::{PANEL_CORNERS, Point, check_inside};
 /// let corners = [(5.0, 5.0), (700.0, 5.0), (90.0, 90.0), (5.0, 90.0)].map(|(x, y)| Point::new(x, y));
 /// let error = check_inside("panel 0", &corners, &PANEL_CORNERS, 640, 480).unwrap_err();
-/// assert!(error.to_string().starts_with("panel 0: crease end 1 at (700, 5) is outside the picture of 640 x 480 px;"));
+/// let problem = "panel 0: crease end 1 at (700, 5) is outside the picture of 640 x 480 px;";
+/// assert!(error.to_string().starts_with(problem));
 /// ```
 pub fn check_inside(
     region: &str,

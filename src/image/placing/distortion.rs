@@ -166,8 +166,11 @@ mod tests {
             let back = lens.distort(ideal);
             prop_assert!((back.x - x).hypot(back.y - y) < 1e-9);
             let step = 1e-4;
-            let (right, below) = (lens.undistort(Point::new(x + step, y)), lens.undistort(Point::new(x, y + step)));
-            let numeric = ((right.x - ideal.x) * (below.y - ideal.y) - (right.y - ideal.y) * (below.x - ideal.x)) / (step * step);
+            let right = lens.undistort(Point::new(x + step, y));
+            let below = lens.undistort(Point::new(x, y + step));
+            let numeric = ((right.x - ideal.x) * (below.y - ideal.y)
+                - (right.y - ideal.y) * (below.x - ideal.x))
+                / (step * step);
             prop_assert!((area / numeric - 1.0).abs() < 1e-4, "{area} {numeric}");
         }
     }

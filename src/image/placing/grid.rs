@@ -30,7 +30,10 @@ impl Grid {
     /// ```
     /// use vfold::image::{Grid, Homography, Point};
     /// let chart = [(0., 0.), (60., 0.), (60., 40.), (0., 40.)].map(|(x, y)| Point::new(x, y));
-    /// assert_eq!(Grid::even(Homography::from_unit_square(chart)?, [4, 6]).row_edges, [0.0, 0.25, 0.5, 0.75, 1.0]);
+    /// assert_eq!(
+    ///     Grid::even(Homography::from_unit_square(chart)?, [4, 6]).row_edges,
+    ///     [0.0, 0.25, 0.5, 0.75, 1.0]
+    /// );
     /// # Ok::<(), vfold::Error>(())
     /// ```
     #[must_use]

@@ -35,7 +35,8 @@ impl Homography {
     /// # Example
     /// ```
     /// use vfold::image::{Homography, Point};
-    /// let corners = [(10.0, 20.0), (110.0, 20.0), (110.0, 70.0), (10.0, 70.0)].map(|(x, y)| Point::new(x, y));
+    /// let corners =
+    ///     [(10.0, 20.0), (110.0, 20.0), (110.0, 70.0), (10.0, 70.0)].map(|(x, y)| Point::new(x, y));
     /// let panel = Homography::from_unit_square(corners)?;
     /// assert_eq!(panel.to_image(0.5, 0.5), Point::new(60.0, 45.0));
     /// # Ok::<(), vfold::Error>(())
@@ -53,7 +54,8 @@ impl Homography {
     /// # Example
     /// ```
     /// use vfold::image::{Homography, Lens, Point};
-    /// let corners = [(100.0, 20.0), (540.0, 20.0), (540.0, 460.0), (100.0, 460.0)].map(|(x, y)| Point::new(x, y));
+    /// let corners =
+    ///     [(100.0, 20.0), (540.0, 20.0), (540.0, 460.0), (100.0, 460.0)].map(|(x, y)| Point::new(x, y));
     /// let panel = Homography::through(Lens::new([-0.02, 0.0], 640, 480)?, corners)?;
     /// assert!(panel.to_image(0.5, 0.0).y < 19.0); // a barrel bends sides outwards
     /// # Ok::<(), vfold::Error>(())
@@ -268,7 +270,9 @@ mod tests {
             let step = 1e-5;
             let (left, right) = (panel.to_image(u - step, v), panel.to_image(u + step, v));
             let (low, high) = (panel.to_image(u, v - step), panel.to_image(u, v + step));
-            let numeric = ((right.x - left.x) * (high.y - low.y) - (right.y - left.y) * (high.x - low.x)) / (4.0 * step * step);
+            let numeric = ((right.x - left.x) * (high.y - low.y)
+                - (right.y - left.y) * (high.x - low.x))
+                / (4.0 * step * step);
             let (_, _, area) = panel.to_panel_with_area(panel.to_image(u, v));
             prop_assert!((area * numeric.abs() - 1.0).abs() < 1e-5, "{area} {numeric}");
         }

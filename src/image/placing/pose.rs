@@ -30,7 +30,8 @@ const PLANE: f64 = 1e-9;
 /// use vfold::image::{Point, camera_position};
 /// let cube = (0..8).map(|k| Vector3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)));
 /// // from (0, 0, -4) along z, the picture 100 px away
-/// let seen: Vec<_> = cube.map(|p| (p, Point::new(100.0 * p.x / (p.z + 4.0), 100.0 * p.y / (p.z + 4.0)))).collect();
+/// let seen: Vec<_> =
+///     cube.map(|p| (p, Point::new(100.0 * p.x / (p.z + 4.0), 100.0 * p.y / (p.z + 4.0)))).collect();
 /// assert!((camera_position(&seen).unwrap() - Vector3::new(0.0, 0.0, -4.0)).norm() < 1e-9);
 /// assert_eq!(camera_position(&seen[..4]), None); // a plane
 /// ```
@@ -102,7 +103,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_camera_is_found_where_it_stood(direction in prop::array::uniform3(-1.0..1.0), distance in 2.0..8.0) {
+        fn the_camera_is_found_where_it_stood(
+            direction in prop::array::uniform3(-1.0..1.0),
+            distance in 2.0..8.0,
+        ) {
             let Some(direction) = Vector3::from(direction).try_normalize(0.1) else { return Ok(()) };
             let eye = distance * direction;
             let Some(exact) = seen(eye, 0.0) else { return Ok(()) };

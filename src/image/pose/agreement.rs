@@ -59,10 +59,18 @@ impl FoldSeen {
     /// ```
     /// use vfold::geometry::{FacetGrid, Fold};
     /// use vfold::image::{CornersBy, FoldSeen, Point, StatedFold};
-    /// let see = |x: f64, y: f64, z: f64| Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z));
+    /// let see = |x: f64, y: f64, z: f64| {
+    ///     Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z))
+    /// };
     /// let fold = Fold::new(45.0, 1.0, 2.0, FacetGrid { rows: 1, cols: 1 })?;
     /// let panels = fold.panels().map(|panel| panel.corners.map(|p| see(p.x, p.y, p.z)));
-    /// let seen = FoldSeen { size: [640, 480], corners_by: CornersBy::Hand, lens: None, focal_35mm: None, depths: None };
+    /// let seen = FoldSeen {
+    ///     size: [640, 480],
+    ///     corners_by: CornersBy::Hand,
+    ///     lens: None,
+    ///     focal_35mm: None,
+    ///     depths: None,
+    /// };
     /// let stated = StatedFold { angle_deg: 45.0, angle_sd_deg: 1.2, depths: [2.0; 2] };
     /// assert_eq!(seen.other_than(&panels, &stated), None);
     /// assert!(seen.other_than(&panels, &StatedFold { depths: [1.0; 2], ..stated }).is_some());

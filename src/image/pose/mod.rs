@@ -80,9 +80,17 @@ impl FoldSeen {
     /// use vfold::image::{CornersBy, FoldSeen, Point};
     /// let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
     /// // from (0.5, 1, 6) along -z, the focal length 900 px
-    /// let see = |x: f64, y: f64, z: f64| Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z));
+    /// let see = |x: f64, y: f64, z: f64| {
+    ///     Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z))
+    /// };
     /// let panels = fold.panels().map(|panel| panel.corners.map(|p| see(p.x, p.y, p.z)));
-    /// let seen = FoldSeen { size: [640, 480], corners_by: CornersBy::Finding, lens: None, focal_35mm: None, depths: Some([1.0; 2]) };
+    /// let seen = FoldSeen {
+    ///     size: [640, 480],
+    ///     corners_by: CornersBy::Finding,
+    ///     lens: None,
+    ///     focal_35mm: None,
+    ///     depths: Some([1.0; 2]),
+    /// };
     /// let found = seen.angle(&panels).unwrap();
     /// assert!((found.angle_deg - 50.0).abs() < 0.1 && found.angle_sd_deg < 2.0);
     /// # Ok::<(), vfold::Error>(())

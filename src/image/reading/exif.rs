@@ -234,7 +234,8 @@ mod tests {
 
     #[test]
     fn good_fields_survive_a_bad_one() {
-        let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6)); // the make lies outside the block
+        // the make lies outside the block
+        let (make, orientation) = ((0x10f, 2, 2000, 9000), (0x112, 3, 1, 6));
         let camera = read(Some(block(&[make, orientation])), 0).camera;
         assert_eq!((camera.make, camera.orientation.exif()), (None, 6));
         assert_eq!(camera.notes.len(), 1);

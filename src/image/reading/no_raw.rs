@@ -8,6 +8,7 @@ use crate::{Error, Result};
 
 /// Says how RAW files are read.
 pub(super) fn open(path: &Path, _bytes: Vec<u8>, _options: &ReadOptions) -> Result<Photograph> {
-    const REMEDY: &str = "in a clone of vfold run share/install, or cargo build --release --features raw; or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";
+    const REMEDY: &str = "in a clone of vfold run share/install, or cargo build --release --features raw; \
+                          or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";
     Err(Error::picture(path, "a camera's RAW file, which this vfold was built without", REMEDY))
 }

@@ -28,7 +28,8 @@ pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
 const SAME_CURVE: f64 = 2e-3;
 
 /// How to read it all the same.
-const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how its numbers are to be read";
+const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how \
+                      its numbers are to be read";
 
 /// The curve that the file's statements agree on, none if there are none.
 ///

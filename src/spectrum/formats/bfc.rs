@@ -29,7 +29,8 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
 mod tests {
     use super::*;
 
-    const TEXT: &str = "VEC_01\t6\nBFC-450 Matrix File\n;a sheet\n400\t410\t10\t3\t390\t10\nr:c:\t390\t400\t410\t\n400\t0.01\t0.5\t0\n410\t0.2\t0.01\t0.6\n";
+    const TEXT: &str = "VEC_01\t6\nBFC-450 Matrix File\n;a sheet\n400\t410\t10\t3\t390\t10\n\
+                        r:c:\t390\t400\t410\t\n400\t0.01\t0.5\t0\n410\t0.2\t0.01\t0.6\n";
 
     #[test]
     fn columns_are_called_after_their_excitation() {

@@ -120,7 +120,8 @@ mod tests {
         let path = dir.path().join("paint.txt");
         for text in [
             "nm,r\n400,0.1\n700,0.2\n",
-            "CGATS.17\nBEGIN_DATA_FORMAT\nSPECTRAL_NM400 SPECTRAL_NM700\nEND_DATA_FORMAT\nBEGIN_DATA\n0.1 0.2\nEND_DATA\n",
+            "CGATS.17\nBEGIN_DATA_FORMAT\nSPECTRAL_NM400 SPECTRAL_NM700\nEND_DATA_FORMAT\n\
+             BEGIN_DATA\n0.1 0.2\nEND_DATA\n",
             "<IESTM2714><SpectralDistribution><SpectralData wavelength='400'>0.1</SpectralData>\
              <SpectralData wavelength='700'>0.2</SpectralData></SpectralDistribution></IESTM2714>",
         ] {

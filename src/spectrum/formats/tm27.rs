@@ -140,7 +140,8 @@ mod tests {
 
     fn file(data: &str) -> String {
         format!(
-            "<?xml version=\"1.0\"?>\n<IESTM2714 xmlns=\"http://www.ies.org/iestm2714\">\n<SpectralDistribution>{data}</SpectralDistribution></IESTM2714>"
+            "<?xml version=\"1.0\"?>\n<IESTM2714 xmlns=\"http://www.ies.org/iestm2714\">\n\
+             <SpectralDistribution>{data}</SpectralDistribution></IESTM2714>"
         )
     }
 

@@ -44,7 +44,10 @@ pub struct Measured {
 /// };
 /// let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
 /// write(file.path(), &[grey])?;
-/// assert_eq!(std::fs::read_to_string(file.path()).unwrap(), "wavelength_nm,grey,grey_sd\n400,0.5,0.125\n700,0.25,0.0625\n");
+/// assert_eq!(
+///     std::fs::read_to_string(file.path()).unwrap(),
+///     "wavelength_nm,grey,grey_sd\n400,0.5,0.125\n700,0.25,0.0625\n"
+/// );
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn write(path: &Path, samples: &[Measured]) -> Result<()> {

@@ -29,7 +29,8 @@ const POINTS: usize = 4;
 /// let square = [[0.5, 0.5], [0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5]];
 /// let lamp = Polygon::new(&square.map(|[x, y]| Vec3::new(x, y, 1.0)));
 /// let irradiance = arealight(&flat, &patches(&flat, Division::NONE), &lamp);
-/// assert!((irradiance[0] - 0.2395).abs() < 1e-4); // four times the 0.0599 of a quarter over its corner (Howell, B-4)
+/// // four times the 0.0599 of a quarter over its corner (Howell, B-4)
+/// assert!((irradiance[0] - 0.2395).abs() < 1e-4);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]

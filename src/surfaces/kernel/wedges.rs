@@ -35,8 +35,9 @@ const ALONG: f64 = 1e-9;
 /// use vfold::surfaces::kernel::patches::{Division, patches};
 /// use vfold::surfaces::kernel::wedges::skylight;
 /// let fold = Fold::new(90.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?.shape()?;
-/// // of a sky that is even above the horizon, a panel at 45° has 1/2 + cos 45°/2 where nothing hides it; of the other panel, to which its form
-/// // factor is 0.2000 (Howell, C-14), half is as much above the horizon as the rest is below
+/// // of a sky that is even above the horizon, a panel at 45° has 1/2 + cos 45°/2 where nothing hides it;
+/// // of the other panel, to which its form factor is 0.2000 (Howell, C-14), half is as much above the
+/// // horizon as the rest is below
 /// let light = skylight(&fold, &patches(&fold, Division::NONE), &Vec3::z(), |_| 1.0);
 /// assert!((light.unwrap()[0] - (0.853_553 - 0.100_022)).abs() < 3e-3); // at two by two points of each panel
 /// # Ok::<(), vfold::Error>(())

@@ -34,7 +34,8 @@ fn a_file_that_may_not_be_read_or_written() {
     );
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     // Rights mean nothing to a superuser.
-    let nobody = "nobody() { if [ $(id -u) = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups \"$@\"; else \"$@\"; fi; }";
+    let nobody = "nobody() { if [ $(id -u) = 0 ]; then setpriv --reuid=65534 --regid=65534 \
+        --clear-groups \"$@\"; else \"$@\"; fi; }";
     if !folder.can(&format!("{nobody}; nobody vkernel --version"), "files that may not be read") {
         return;
     }

@@ -34,7 +34,8 @@ fn a_line_of_nothing_is_refused() {
 fn a_long_record_passes_through() {
     let (folder, megabytes) = (ready(), size("VFOLD_LINE_MB", 30));
     let record = format!(
-        "{{ printf '{{\"kind\":\"remark\",\"text\":\"'; head -c {megabytes}M /dev/zero | tr '\\0' x; echo '\"}}'; }}"
+        "{{ printf '{{\"kind\":\"remark\",\"text\":\"'; head -c {megabytes}M /dev/zero \
+            | tr '\\0' x; echo '\"}}'; }}"
     );
     for tool in ["vforward --reflectance 0.5", "vestimate", "vscore"] {
         let line = format!(
@@ -82,7 +83,8 @@ fn a_list_that_is_read_is_bounded() {
         let ended = sh(
             &folder,
             &format!(
-                "{{ head -n 1 samples.ndjson; printf '{{\"kind\":\"sample\",\"id\":\"a\",\"{field}\":'; {list}; echo '}}'; }} > long
+                "{{ head -n 1 samples.ndjson; printf '{{\"kind\":\"sample\",\"id\":\"a\",\"{field}\":'; \
+                    {list}; echo '}}'; }} > long
                 ({}; {tool} -j 2 long | tail -n +2 | grep -c '\"error\":\"field .{field}. *')",
                 within(bound)
             ),
@@ -134,7 +136,8 @@ fn a_stream_of_crumbs_loses_none() {
         let ended = sh(
             &folder,
             &format!(
-                "({}; yes '{{\"kind\":\"crumb\"}}' | head -n {records} | {tool} -j 2 | grep -v summary | uniq -c)",
+                "({}; yes '{{\"kind\":\"crumb\"}}' | head -n {records} | {tool} -j 2 \
+                    | grep -v summary | uniq -c)",
                 within(64)
             ),
         );
@@ -180,14 +183,21 @@ fn what_does_not_fit_into_memory_is_refused() {
         (format!("vextract large.tif --scene one.json {panels}"), "large.tif: no room for "),
         ("vkernel --facets 512x512 --mesh facets".to_owned(), "form factors: no room for "),
         ("vkernel --facets 512x512 --check".to_owned(), "form factors: no room for "),
-        ("vkernel --angle-deg 10 --facets 200x200 --tolerance 1e-6".to_owned(), "undivided panels: no room for "),
         (
-            "{ printf '{\"kind\":\"remark\",\"x\":\"'; head -c 700M /dev/zero | tr '\\0' x; echo '\"}'; } | vestimate -j 2".to_owned(),
+            "vkernel --angle-deg 10 --facets 200x200 --tolerance 1e-6".to_owned(),
+            "undivided panels: no room for ",
+        ),
+        (
+            "{ printf '{\"kind\":\"remark\",\"x\":\"'; head -c 700M /dev/zero | tr '\\0' x; \
+                echo '\"}'; } | vestimate -j 2"
+                .to_owned(),
             "no room for ",
         ),
     ] {
         let ended = sh(&folder, &format!("(export RAYON_NUM_THREADS=2; {}; {command})", within(100)));
-        let line = ended.stderr.lines().count() == 1 && ended.stderr.contains(says) && ended.stderr.contains("ulimit");
+        let line = ended.stderr.lines().count() == 1
+            && ended.stderr.contains(says)
+            && ended.stderr.contains("ulimit");
         assert!(ended.status == 1 && ended.stdout.is_empty() && line, "{command}: {ended:?}");
     }
 }

@@ -96,7 +96,8 @@ fn a_writer_that_pauses_within_a_line() {
     let folder = ready();
     for (tool, input) in READERS {
         let slowly = format!(
-            "{{ head -c 300 {input}; sleep 0.1; tail -c +301 {input} | head -c 4000; sleep 0.1; tail -c +4301 {input}; }}"
+            "{{ head -c 300 {input}; sleep 0.1; tail -c +301 {input} | head -c 4000; sleep 0.1; \
+             tail -c +4301 {input}; }}"
         );
         let ended = sh(
             &folder,

@@ -6,7 +6,8 @@ use crate::common::Workdir;
 const ESTIMATES: &str = "
 vkernel --facets 1x1 | vforward --reflectance munsell --noise-sd 3e-3 | vestimate -o estimates.ndjson
 vscore estimates.ndjson --metrics rmse,ciede2000,gfc,angle --colour --no-history -o D65-10.ndjson
-vscore estimates.ndjson --metrics rmse,ciede2000,gfc,angle --colour --no-history --illuminant A --observer 2 -o A-2.ndjson
+vscore estimates.ndjson --metrics rmse,ciede2000,gfc,angle --colour --no-history --illuminant A \
+    --observer 2 -o A-2.ndjson
 ";
 
 const JUDGE: &str = r#"
@@ -15,7 +16,10 @@ warnings.filterwarnings("ignore")
 import colour, numpy as np
 
 shape = colour.SpectralShape(400, 700, 5)
-for light, observer in ("D65", "CIE 1964 10 Degree Standard Observer"), ("A", "CIE 1931 2 Degree Standard Observer"):
+for light, observer in (
+    ("D65", "CIE 1964 10 Degree Standard Observer"),
+    ("A", "CIE 1931 2 Degree Standard Observer"),
+):
     records = list(map(json.loads, open(f"{light}-{'10' if '10' in observer else '2'}.ndjson")))
     samples = [record for record in records if record["kind"] == "sample"]
     assert len(samples) == 1269
@@ -34,7 +38,10 @@ for light, observer in ("D65", "CIE 1964 10 Degree Standard Observer"), ("A", "C
         return colour.XYZ_to_Lab(xyz(reflectances), colour.XYZ_to_xy(white))
 
     def agree(name, theirs, tolerance):
-        ours = np.array([sample["metrics"][name] if name in sample["metrics"] else sample["colour"][name] for sample in samples])
+        ours = np.array([
+            sample["metrics"][name] if name in sample["metrics"] else sample["colour"][name]
+            for sample in samples
+        ])
         off = np.abs(ours - theirs).max()
         print(f"{light} {name}: off by {off:.1e} at most, mean {np.mean(theirs):.4f}")
         assert off < tolerance, name

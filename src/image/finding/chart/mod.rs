@@ -151,7 +151,11 @@ mod tests {
 
         /// Turned by any angle, upside down among them, leaning away to any side.
         #[test]
-        fn charts_are_found_where_they_are(turn_deg in 0.0..360.0, lean in prop::array::uniform2(-0.5..0.5), width in 0.35..0.7) {
+        fn charts_are_found_where_they_are(
+            turn_deg in 0.0..360.0,
+            lean in prop::array::uniform2(-0.5..0.5),
+            width in 0.35..0.7,
+        ) {
             let corners = tilted(turn_deg, lean, width);
             let found = found(&drawn(corners, |_, colour| colour));
             prop_assert!(found.is_some(), "none at {corners:?}");

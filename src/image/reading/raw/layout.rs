@@ -116,7 +116,8 @@ impl Layout {
             Some("whose numbers are stored in blocks (SubTileBlockSize)")
         } else if !layout.is_deinterleaved() {
             Some(
-                "interleaved otherwise than by 2 rows and columns of one integer a pixel, an even number each",
+                "interleaved otherwise than by 2 rows and columns of one integer a pixel, \
+                 an even number each",
             )
         } else {
             None

@@ -32,7 +32,8 @@ use crate::image::photograph::{CameraNotes, Orientation, Photograph};
 use crate::{Error, Result};
 
 /// The same where a decoder does not say why it gave up.
-const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: copy it again, or convert it to linear TIFF";
+const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: \
+                                 copy it again, or convert it to linear TIFF";
 
 /// Reads a RAW file.
 ///

@@ -149,7 +149,8 @@ fn read_list(path: &Path, mut list: Parameters, stage: u32, active: Rect) -> Res
             opcodes.push(Opcode { origin, is_demosaiced: stage == 3, does });
         } else if CHANGE_LIGHT.contains(&id) || !is_optional {
             let problem = format!(
-                "it asks for {name} in OpcodeList{stage}, one of DNG's opcodes, which this vfold does not apply"
+                "it asks for {name} in OpcodeList{stage}, one of DNG's opcodes, \
+                 which this vfold does not apply"
             );
             return Err(Error::picture(path, problem, ELSEWHERE));
         }
