@@ -266,8 +266,9 @@ with open('r.csv', 'w') as r, open('f.csv', 'w') as f:
 END
 vkernel --angle-deg 45 >scene.json
 for flags in '--fluorescence f.csv' ''; do
-    vforward scene.json -q --reflectance r.csv $flags --illuminant D65 --camera canon-5d-mark-ii --noise-sd 1e-3 >sheet$((${n:=0})).ndjson
-    n=$((n + 1))
+    n=$((${n:--1} + 1))
+    vforward scene.json -q --reflectance r.csv $flags --illuminant D65 --camera canon-5d-mark-ii \\
+        --noise-sd 1e-3 >sheet$n.ndjson
 done
 ";
 
@@ -276,9 +277,8 @@ fn light_comes_through_a_sheet_unless_it_is_backed() {
     let folder = Workdir::new();
     let run = folder.sh(THIN);
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
-    let off = |record: &Value| {
-        rmse(&record["estimate"], "reflectance", &numbers(&record["truth"]["reflectance"]))
-    };
+    let off =
+        |record: &Value| rmse(&record["estimate"], "reflectance", &numbers(&record["truth"]["reflectance"]));
     let because = |record: &Value| record["estimate"]["verdict"]["because"].as_str().unwrap().to_owned();
     let [open, backed] =
         ["", "--backed"].map(|flag| estimated(&folder, "sheet0.ndjson", &format!("--exposure 1 {flag}")));

@@ -204,11 +204,10 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds folds of a sheet that is brightened, and of a thin one where the exposure is known, which else takes up
-/// what comes from behind, if that may be so: of whichever real one has most evidence. The others then are of a
-/// sheet that is known to send out nothing. Of ideal folds nothing is asked, as the rounding of a JPEG looks
-/// like light that is sent out, nor of dyes that visible light excites: what real sheets do beyond all kinds
-/// that are known looks like them.
+/// Adds to the real fold of most evidence the same fold of a brightened sheet and, where the exposure is known
+/// and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds are then
+/// of sheets that emit nothing. Not tried are ideal folds, as the rounding of a JPEG looks like emission, and
+/// dyes excited by visible light, as departures of real sheets from all known kinds look like them.
 fn add_emitting(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
