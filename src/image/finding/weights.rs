@@ -1,7 +1,6 @@
-//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be
-//! edited.
+//! Weights fitted by `benches/find_fit.py` to rendered photographs and composites of them; do not edit.
 
-#![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted
+#![allow(clippy::excessive_precision, clippy::approx_constant)] // as fitted
 
 use super::features::FEATURES;
 use super::tree::Tree;
@@ -11,7 +10,7 @@ use super::tree::Tree;
 pub(super) const RANK: [f64; FEATURES] = [-1.7994, 12.242, 2.3712, -3.9698, 6.8164, 1.2381, -1.786, -0.13423, -1.5284, 0.55538, 0.20985, 0.95696, 0.86496, -45.503, -14.034, 0.04514, -13.387, -2.246, -6.9436, -22.237, 2.9246, 1.6844, -0.71692, -1.5883, 0.84852, -4.3743, -0.6482, -17.607, 2.9618, -11.418];
 /// The score of "no fold".
 pub(super) const NO_FOLD: f64 = -2.1491;
-/// What is said before any tree, and how sums are made log odds.
+/// The sum before any tree, and the map from sums to log odds.
 pub(super) const BASE: f64 = -0.15503;
 pub(super) const SLOPE: f64 = 0.9956;
 pub(super) const OFFSET: f64 = -0.18171;
